@@ -1,0 +1,40 @@
+/// @file
+/// What every point of a patch does over one period: states, tractions, slip, and per cycle
+/// dissipated energy, slip distance and wear depth (theory section 7).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_patch.hpp"
+#include "contact/friction_cycle.hpp"
+#include "contact/harmonics.hpp"
+
+namespace microslip::contact {
+
+/// Fields over n points at m phases; matrices are n × m.
+struct ContactMap {
+  Eigen::VectorXd phase;                                    ///< θ [rad], m
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic> state;  ///< ContactState values
+  Eigen::MatrixXd normal_traction;        ///< n [Pa]
+  Eigen::MatrixXd friction_traction;      ///< f [Pa], along p
+  Eigen::MatrixXd relative_displacement;  ///< u [m], along p, mean included
+  Eigen::MatrixXd approach;               ///< v [m], along q, mean included
+  Eigen::MatrixXd slip;                   ///< s, position of the slider [m]
+  Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n
+  Eigen::VectorXd slip_distance;          ///< [m per period], n
+  Eigen::VectorXd wear_depth;             ///< [m per period], n; zero when no coefficient is given
+};
+
+/// @param points            constants of the points, n.
+/// @param shapes            mode shapes at the points, n × n_modes.
+/// @param q                 solution, H = 1 [m√kg].
+/// @param n_phases          ≥ 1, at θ = 2πj/n_phases.
+/// @param wear_coefficient  Archard K [m²/N]: depth per (pressure × slip distance), ≥ 0.
+[[nodiscard]] ContactMap contact_map(const std::vector<PointParameters>& points,
+                                     const ModalShapes& shapes, const Harmonics& q, int n_phases,
+                                     double wear_coefficient);
+
+}  // namespace microslip::contact

@@ -1,0 +1,21 @@
+/// @file
+/// Errors of the finite-element room: a PETSc or SLEPc call that failed, and results that are not
+/// what was asked.
+#pragma once
+
+#include <stdexcept>
+
+namespace microslip::fem {
+
+class PetscError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Diagnosis in front: "eigen-missed-mode: …", "rigid-body: …".
+class EigenError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace microslip::fem

@@ -1,0 +1,29 @@
+/// @file
+/// Opens and closes PETSc, SLEPc and MPI; `main` makes it first, so that it dies last.
+#pragma once
+
+#include <string>
+
+namespace microslip::fem {
+
+class SlepcSession {
+ public:
+  /// Does not read the command line. PETSc's own error handler and signal handler are switched off.
+  SlepcSession();
+  ~SlepcSession();
+  SlepcSession(const SlepcSession&) = delete;
+  SlepcSession& operator=(const SlepcSession&) = delete;
+  SlepcSession(SlepcSession&&) = delete;
+  SlepcSession& operator=(SlepcSession&&) = delete;
+
+  [[nodiscard]] int rank() const;
+  [[nodiscard]] int n_ranks() const;
+};
+
+/// The BLAS loaded at run time and its threads, e.g. "OpenBLAS 0.3.21, 2 threads" or
+/// "reference BLAS (slow: install libopenblas0-pthread)".
+[[nodiscard]] std::string blas_description();
+/// Versions of PETSc, SLEPc, MUMPS, MPI for summary.json, "name version" each.
+[[nodiscard]] std::string petsc_versions();
+
+}  // namespace microslip::fem

@@ -1,0 +1,62 @@
+/// @file
+/// A volume mesh in metres with named surfaces and node sets. Checked when made; has no gmsh in it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mesh/element_type.hpp"
+#include "mesh/mesh_error.hpp"
+#include "mesh/surface.hpp"
+
+namespace microslip::mesh {
+
+struct ElementBlock {
+  ElementType type = ElementType::tet10;
+  Connectivity connectivity;          ///< n_elements × nodes per element, project order
+  std::vector<std::int64_t> tags;     ///< element numbers in the file, for messages
+};
+
+class Mesh {
+ public:
+  using NodeSets = std::map<std::string, std::vector<Eigen::Index>>;
+
+  /// @param nodes      coordinates [m], n × 3.
+  /// @param elements   volume elements.
+  /// @param surfaces   faces per name as found in the file, any orientation; they are matched to
+  ///                   the volume elements and turned outward.
+  /// @param node_sets  named points, edges or sets of nodes.
+  /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate or
+  ///         loose nodes, a surface that is not on the boundary.
+  Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
+       std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets);
+
+  [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }
+  [[nodiscard]] Eigen::Index n_elements() const;
+  [[nodiscard]] const Eigen::MatrixX3d& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<ElementBlock>& elements() const { return elements_; }
+  /// @throws MeshError  no such surface; the message lists the names there are.
+  [[nodiscard]] const Surface& surface(const std::string& name) const;
+  /// Nodes of a named point, set or surface. @throws MeshError  as above.
+  [[nodiscard]] std::vector<Eigen::Index> node_set(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> surface_names() const;
+  [[nodiscard]] std::vector<std::string> node_set_names() const;
+  [[nodiscard]] double volume() const { return volume_; }  ///< [m³]
+  [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
+  [[nodiscard]] Eigen::Vector3d upper() const { return upper_; }
+
+ private:
+  Eigen::MatrixX3d nodes_;
+  std::vector<ElementBlock> elements_;
+  std::map<std::string, Surface> surfaces_;
+  NodeSets node_sets_;
+  double volume_ = 0.0;
+  Eigen::Vector3d lower_;
+  Eigen::Vector3d upper_;
+};
+
+}  // namespace microslip::mesh

@@ -1,0 +1,66 @@
+/// @file
+/// What a run has found, as the writers see it: plain values, no solver objects behind them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_map.hpp"
+#include "contact/contact_patch.hpp"
+#include "fem/modal_basis.hpp"
+#include "mesh/mesh.hpp"
+#include "pipelines/scene_description.hpp"
+#include "solver/peak.hpp"
+#include "solver/response_curve.hpp"
+
+namespace microslip::pipelines {
+
+/// What the response stage needs, and model.h5 holds. Contact arrays have n_points rows.
+struct ReducedModel {
+  Eigen::VectorXd frequency;      ///< ω_n [rad/s], N
+  Eigen::VectorXd damping_ratio;  ///< N
+  Eigen::VectorXd force_sine, force_cosine, force_static;  ///< modal force [N/√kg], N
+  Eigen::VectorXd output;         ///< y = output · q [1/√kg], N
+  Eigen::MatrixX3d points;        ///< contact points [m]
+  Eigen::VectorXd weights;        ///< [m²]
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< rows p, q (outward normal), r
+  contact::ModalShapes shapes;    ///< at the points
+  Eigen::VectorXd tangential_stiffness;  ///< [N/m³], residual part included
+  Eigen::VectorXd normal_stiffness;
+  Eigen::VectorXd friction_coefficient;
+  Eigen::VectorXd preload;        ///< [Pa] at unit scale: total 1 N for mesh kinds, as given for modal ones
+  int fit_degree = -1;            ///< −1: no fit
+  Eigen::VectorXd fit_error;      ///< per mode; empty without a fit
+  /// Cells of the patch for pictures: cell c belongs to point c. No cells: points only.
+  Eigen::MatrixX3d vertices;
+  mesh::Connectivity cells;       ///< n_points × 3 or 4
+  contact::ModalShapes vertex_shapes;
+  Eigen::VectorXd vertex_tangential_stiffness, vertex_normal_stiffness;
+  Eigen::VectorXd vertex_friction_coefficient, vertex_preload;
+};
+
+struct NamedMap {
+  std::string name;           ///< e.g. "preload_1000_peak": stem of the files
+  double frequency_hz = 0.0;
+  contact::ContactMap points;    ///< at the contact points (cells)
+  contact::ContactMap vertices;  ///< at the vertices of the cells; empty without cells
+};
+
+struct CurveResult {
+  std::string name;  ///< stem of the CSV
+  std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
+  solver::ResponseCurve curve;
+  std::vector<NamedMap> maps;
+};
+
+struct StageRecord {
+  std::string name;
+  double seconds = 0.0;
+  double peak_memory_mb = 0.0;
+};
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,113 @@
+/// @file
+/// A scene as the user wrote it, every default filled in, in SI (frequencies in Hz as written).
+/// Made by scene_file, read by study and the writers; plain values.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_patch.hpp"
+#include "fem/material.hpp"
+#include "mesh/blade_geometry.hpp"
+
+namespace microslip::pipelines {
+
+struct BladeModel {
+  mesh::BladeGeometry geometry;
+  double element_size = 0.004;  ///< [m]
+};
+
+struct MeshFileModel {
+  std::filesystem::path file;  ///< absolute
+  double length_unit = 1.0;    ///< metres per unit of the file
+};
+
+/// Modes and contact points given directly (interfaces.md, modal scenes).
+struct ModalModel {
+  Eigen::VectorXd frequency_hz;
+  Eigen::VectorXd damping_ratio;
+  Eigen::VectorXd force_sine, force_cosine, force_static;  ///< [N/√kg]
+  Eigen::VectorXd output;
+  Eigen::VectorXd weights;
+  std::vector<contact::PointParameters> points;
+  contact::ModalShapes shapes;
+  Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
+};
+
+struct RayleighDamping {
+  double alpha = 0.0;  ///< [1/s]
+  double beta = 0.0;   ///< [s]
+};
+
+enum class ResidualKind { none, stiffness };
+
+struct ModesDescription {
+  int count = 10;
+  std::variant<std::vector<double>, RayleighDamping> damping;  ///< ratios: one for all, or one per mode
+  ResidualKind residual = ResidualKind::stiffness;
+};
+
+struct ContactDescription {
+  std::string surface;
+  Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
+  double friction_coefficient = 0.0;
+  std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
+  std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
+  enum class Fit { automatic, degree, none } fit = Fit::automatic;
+  int fit_degree = 0;
+  double wear_coefficient = 0.0;  ///< [m²/N]
+  int n_points = 300;             ///< at least so many contact points
+};
+
+struct ForceDescription {
+  std::string at;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< normalised
+  double amplitude = 0.0;                                ///< [N], total over the nodes of `at`
+  double phase_deg = 0.0;
+};
+
+struct OutputDescription {
+  std::string at;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+
+enum class LimitName { free, stuck };
+using PreloadEntry = std::variant<double, LimitName>;  ///< [N], or a linear limit
+enum class MapName { peak, folds };
+using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
+
+struct ResponseDescription {
+  OutputDescription output;         ///< kinds with a mesh
+  double frequency_begin_hz = 0.0;
+  double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
+  int harmonics = 1;
+  std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
+  std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
+  bool limits = true;                     ///< modal scenes: free and stuck curves as well
+  bool optimum_preload = false;
+  std::optional<std::array<double, 2>> optimum_range;  ///< [N]
+  std::vector<MapEntry> maps;
+  int map_phases = 72;
+};
+
+struct SceneDescription {
+  std::string title;
+  std::filesystem::path file;  ///< the scene file, "" for text
+  std::variant<BladeModel, MeshFileModel, ModalModel> model;
+  fem::Material material;
+  std::vector<std::string> clamped;
+  ModesDescription modes;
+  std::optional<ContactDescription> contact;
+  std::vector<ForceDescription> forces;
+  std::optional<ResponseDescription> response;
+  std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
+  std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
+};
+
+}  // namespace microslip::pipelines

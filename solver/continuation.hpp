@@ -1,0 +1,38 @@
+/// @file
+/// Pseudo-arclength continuation of the harmonic-balance equations over frequency (theory section 16).
+#pragma once
+
+#include <functional>
+
+#include "solver/response_curve.hpp"
+#include "solver/scene.hpp"
+
+namespace microslip::solver {
+
+struct ContinuationOptions {
+  double frequency_begin = 0.0;  ///< [rad/s], > 0
+  double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
+  int n_harmonics = 1;
+  double residual_tolerance = 1e-11;  ///< relative, see ResponsePoint::residual
+  int max_points = 20000;
+};
+
+/// Called after each accepted point; false stops the curve (diagnosis "interrupted").
+using PointObserver = std::function<bool(const ResponsePoint&)>;
+
+/// The whole branch from frequency_begin to frequency_end with peaks and folds solved for as points of
+/// their own. Never throws for a curve that cannot be completed: `complete` and `diagnosis` say so.
+/// @throws std::invalid_argument  options out of range.
+[[nodiscard]] ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
+                                           const PointObserver& observe = {});
+
+/// The solution at one frequency, reached from the linear limits (single-frequency scenes).
+[[nodiscard]] ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
+                                               const ContinuationOptions& options);
+
+enum class LinearLimit { free, stuck };
+/// Linear limit as a curve of its own: peaks solved for, points denser near resonances.
+[[nodiscard]] ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
+                                         const ContinuationOptions& options);
+
+}  // namespace microslip::solver

@@ -1,0 +1,27 @@
+/// @file
+/// What the solver solves: modes with damping, excitation, one nonlinear force, one output.
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "contact/harmonics.hpp"
+#include "contact/modal_force.hpp"
+
+namespace microslip::solver {
+
+using contact::Harmonics;
+
+/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates.
+struct Scene {
+  Eigen::VectorXd natural_frequency;             ///< ω_n [rad/s], n_modes, ≥ 0
+  Eigen::VectorXd damping_ratio;                 ///< ζ_n [-], n_modes
+  Harmonics excitation;                          ///< Q [N/√kg], mean row included
+  Eigen::VectorXd output;                        ///< y = output · q [1/√kg], n_modes
+  std::unique_ptr<contact::ModalForce> contact;  ///< nullptr: linear
+
+  [[nodiscard]] Eigen::Index n_modes() const { return natural_frequency.size(); }
+};
+
+}  // namespace microslip::solver
