@@ -8,9 +8,11 @@
 #include <unistd.h>
 #include <vtkVersionMacros.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <fstream>
+#include <string_view>
+
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <spdlog/version.h>
 
@@ -38,6 +40,25 @@ unsigned usable_cores() {
 template <typename Function>
 Function* loaded_function(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// Largest resident size of the children waited for so far [KiB].
+long largest_child() {
+  rusage children{};
+  getrusage(RUSAGE_CHILDREN, &children);
+  return children.ru_maxrss;
+}
+
+/// VmHWM of this process [KiB].
+long high_water_mark() {
+  std::ifstream status("/proc/self/status");
+  constexpr std::string_view key = "VmHWM:";
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(key)) return std::stol(line.substr(key.size()));
+  }
+  rusage self{};
+  getrusage(RUSAGE_SELF, &self);
+  return self.ru_maxrss;
 }
 
 std::string version(int major, int minor, int patch) {
@@ -72,14 +93,15 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   };
 }
 
-double peak_memory_mb() {
-  rusage self{};
-  rusage children{};
-  getrusage(RUSAGE_SELF, &self);
-  getrusage(RUSAGE_CHILDREN, &children);
-  constexpr double kilobytes_per_megabyte = 1e3;
-  const long largest = std::max(self.ru_maxrss, children.ru_maxrss);  // kilobytes (of 1024 bytes)
-  return static_cast<double>(largest) * 1.024 / kilobytes_per_megabyte;
+MemoryGauge::MemoryGauge() : children_before_(largest_child()) {
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets VmHWM; see proc(5)
+}
+
+double MemoryGauge::peak_mb() const {
+  const long children = largest_child();
+  const long largest = std::max(high_water_mark(), children > children_before_ ? children : 0);
+  constexpr double megabytes_per_kibibyte = 1.024e-3;
+  return static_cast<double>(largest) * megabytes_per_kibibyte;
 }
 
 }  // namespace microslip::pipelines

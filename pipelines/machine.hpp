@@ -21,7 +21,16 @@ struct Machine {
 /// Name and version of the libraries this room is built with.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> library_versions();
 
-/// Largest resident memory of this process so far [MB]; of its finished children where that is more.
-[[nodiscard]] double peak_memory_mb();
+/// Largest resident memory from its construction on: of this process, or of a child that ended
+/// meanwhile where that is more. Where the system does not let the high-water mark be reset, the
+/// largest since the process began. One at a time: a new one resets the mark.
+class MemoryGauge {
+ public:
+  MemoryGauge();
+  [[nodiscard]] double peak_mb() const;  ///< [MB = 10⁶ bytes]
+
+ private:
+  long children_before_ = 0;
+};
 
 }  // namespace microslip::pipelines
