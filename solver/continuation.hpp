@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
@@ -29,6 +30,13 @@ using PointObserver = std::function<bool(const ResponsePoint&)>;
 /// The solution at one frequency, reached from the linear limits (single-frequency scenes).
 [[nodiscard]] ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
                                                const ContinuationOptions& options);
+
+/// Solutions of the branch at one frequency, each solved for between the two curve points that bracket
+/// it: several where the branch folds back. Branch order; empty when the curve does not reach it.
+[[nodiscard]] std::vector<ResponsePoint> points_at_frequency(const Scene& scene,
+                                                             const ResponseCurve& curve,
+                                                             double frequency,
+                                                             const ContinuationOptions& options);
 
 enum class LinearLimit { free, stuck };
 /// Linear limit as a curve of its own: peaks solved for, points denser near resonances.

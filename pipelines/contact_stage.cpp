@@ -1,0 +1,280 @@
+#include "pipelines/contact_stage.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "contact/modal_contact_field.hpp"
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double flatness_limit = 0.01;          // of the diameter: beyond, a planar patch misleads
+constexpr double angle_limit_rad = 5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
+
+/// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
+Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::Index>& nodes,
+                      const Eigen::Vector3d& direction) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(nodes.size()), shapes.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    values.row(i) =
+        direction.transpose() * shapes.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
+  }
+  return values;
+}
+
+/// Mean over the nodes of a named point or set: the motion a force spread evenly over them works on.
+Eigen::VectorXd mean_motion(const mesh::Mesh& mesh, const Eigen::MatrixXd& shapes,
+                            const std::string& at, const Eigen::Vector3d& direction) {
+  return along(shapes, mesh.node_set(at), direction).colwise().mean().transpose();
+}
+
+void set_excitation(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
+                    const Eigen::MatrixXd& shapes) {
+  const Eigen::Index n_modes = shapes.cols();
+  model.force_sine = Eigen::VectorXd::Zero(n_modes);
+  model.force_cosine = Eigen::VectorXd::Zero(n_modes);
+  model.force_static = Eigen::VectorXd::Zero(n_modes);
+  for (const ForceDescription& force : scene.forces) {
+    // F sin(θ + φ) = F cos φ sin θ + F sin φ cos θ
+    const double phase = force.phase_deg * std::numbers::pi / 180.0;
+    const Eigen::VectorXd motion = mean_motion(mesh, shapes, force.at, force.direction);
+    model.force_sine += force.amplitude * std::cos(phase) * motion;
+    if (force.phase_deg != 0.0) model.force_cosine += force.amplitude * std::sin(phase) * motion;
+  }
+}
+
+/// Values at nodes → at cell centres and vertices, by the finite elements or by the fitted field.
+struct ShapesOnPatch {
+  contact::ModalShapes centres;
+  contact::ModalShapes vertices;
+};
+
+contact::ModalShapes interpolate(const Eigen::SparseMatrix<double>& to,
+                                 const contact::ModalShapes& nodal) {
+  return {to * nodal.u, to * nodal.v, to * nodal.w};
+}
+
+struct PlaneCoordinates {
+  Eigen::VectorXd p;
+  Eigen::VectorXd r;
+};
+
+PlaneCoordinates in_plane(const Eigen::MatrixX3d& points, const Eigen::Vector3d& origin,
+                          const Eigen::Matrix3d& frame) {
+  const Eigen::MatrixX3d local = points.rowwise() - origin.transpose();
+  return {local * frame.row(0).transpose(), local * frame.row(2).transpose()};
+}
+
+Eigen::MatrixX3d node_positions(const mesh::Mesh& mesh, const mesh::Surface& surface) {
+  Eigen::MatrixX3d positions(static_cast<Eigen::Index>(surface.nodes.size()), 3);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    positions.row(i) = mesh.nodes().row(surface.nodes[static_cast<std::size_t>(i)]);
+  }
+  return positions;
+}
+
+ShapesOnPatch fit_shapes(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                         const mesh::SurfaceSampling& sampling, const ContactDescription& contact,
+                         const contact::ModalShapes& nodal, ReducedModel& model) {
+  const Eigen::Vector3d origin = mesh::fit_plane(mesh.nodes(), surface).centroid;
+  const auto nodes = in_plane(node_positions(mesh, surface), origin, model.frame);
+  // A positive share of the area for each node; interpolation weights themselves may be negative.
+  const Eigen::VectorXd weights = sampling.to_centres.cwiseAbs().transpose() * sampling.weights;
+  const auto degree = contact.fit == ContactDescription::Fit::degree
+                          ? std::optional<int>(contact.fit_degree)
+                          : std::nullopt;
+  const contact::ModalContactField field(nodes.p, nodes.r, weights, nodal, degree);
+  model.fit_degree = field.degree();
+  model.fit_error = field.fit_error();
+  const auto centres = in_plane(sampling.centres, origin, model.frame);
+  const auto vertices = in_plane(sampling.vertices, origin, model.frame);
+  return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
+}
+
+/// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
+Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
+                                 const char* direction) {
+  const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
+  if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
+  const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
+  const Eigen::Index n_bad = (flexibility <= 0.0).count();
+  if (n_bad > 0) {
+    throw RefusedError(fmt::format(
+        "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
+        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
+        "modes.residual = \"none\"",
+        direction, n_bad, residual.size(), flexibility.minCoeff()));
+  }
+  return flexibility.inverse();
+}
+
+void set_stiffness(ReducedModel& model, const ContactDescription& contact,
+                   const mesh::SurfaceSampling& sampling,
+                   const fem::ResidualFlexibility* residual) {
+  if (residual == nullptr && (!contact.normal_stiffness || !contact.tangential_stiffness)) {
+    throw RefusedError(
+        "contact: \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
+        "none; give a local stiffness in N/m^3");
+  }
+  const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
+  const Eigen::MatrixX3d& nodal = residual != nullptr ? residual->row_sums : none;
+  const auto stiffness = [&](const Eigen::SparseMatrix<double>& to, int axis) {
+    const auto& local = axis == 0 ? contact.tangential_stiffness : contact.normal_stiffness;
+    return series_stiffness(local, to * nodal.col(axis), axis == 0 ? "tangential" : "normal");
+  };
+  model.tangential_stiffness = stiffness(sampling.to_centres, 0);
+  model.normal_stiffness = stiffness(sampling.to_centres, 1);
+  model.vertex_tangential_stiffness = stiffness(sampling.to_vertices, 0);
+  model.vertex_normal_stiffness = stiffness(sampling.to_vertices, 1);
+}
+
+void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescription& contact,
+                 const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
+  const mesh::Surface& surface = mesh.surface(contact.surface);
+  const mesh::SurfaceSampling sampling =
+      mesh::sample_surface(mesh.nodes(), surface, contact.n_points);
+  model.frame = contact_frame(mesh, contact);
+  model.points = sampling.centres;
+  model.weights = sampling.weights;
+  model.vertices = sampling.vertices;
+  model.cells = sampling.cells;
+  const contact::ModalShapes nodal{along(basis.shapes, surface.nodes, model.frame.row(0)),
+                                   along(basis.shapes, surface.nodes, model.frame.row(1)),
+                                   along(basis.shapes, surface.nodes, model.frame.row(2))};
+  ShapesOnPatch shapes;
+  if (contact.fit == ContactDescription::Fit::none) {
+    shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
+  } else {
+    shapes = fit_shapes(mesh, surface, sampling, contact, nodal, model);
+  }
+  model.shapes = std::move(shapes.centres);
+  model.vertex_shapes = std::move(shapes.vertices);
+  set_stiffness(model, contact, sampling, residual);
+  const Eigen::Index n = model.weights.size();
+  const Eigen::Index n_vertices = model.vertices.rows();
+  const double unit_pressure = 1.0 / model.weights.sum();
+  model.friction_coefficient = Eigen::VectorXd::Constant(n, contact.friction_coefficient);
+  model.vertex_friction_coefficient =
+      Eigen::VectorXd::Constant(n_vertices, contact.friction_coefficient);
+  model.preload = Eigen::VectorXd::Constant(n, unit_pressure);
+  model.vertex_preload = Eigen::VectorXd::Constant(n_vertices, unit_pressure);
+}
+
+void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
+                     const ContactDescription& contact, std::vector<std::string>& warnings) {
+  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+  if (plane.largest_angle > angle_limit_rad) {
+    warnings.push_back(fmt::format(
+        "contact surface \"{}\": facet normals turn by up to {:.1f} degrees; one plane is used",
+        contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
+  }
+  if (model.fit_error.size() > 0 && model.fit_error.maxCoeff() > 0.05) {
+    Eigen::Index mode = 0;
+    const double worst = model.fit_error.maxCoeff(&mode);
+    warnings.push_back(fmt::format(
+        "fit-poor: the fitted field of mode {} errs by {:.1f} % on the patch (degree {}); "
+        "contact.fit = \"none\" interpolates instead",
+        mode + 1, 100.0 * worst, model.fit_degree));
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& contact) {
+  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+  if (plane.flatness > flatness_limit * plane.diameter) {
+    throw SceneError(fmt::format(
+        "contact.surface: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
+        "size {:.3g} m (at most {:.0f} %); name a plane face",
+        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter, plane.diameter,
+        100.0 * flatness_limit));
+  }
+  const Eigen::Vector3d q = plane.normal;
+  const Eigen::Vector3d p = contact.slip_direction - q * q.dot(contact.slip_direction);
+  if (p.norm() < 1e-6 * contact.slip_direction.norm()) {
+    throw SceneError(fmt::format(
+        "contact.slip_direction: along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
+        "direction with a part in the plane",
+        q.x(), q.y(), q.z(), contact.surface));
+  }
+  Eigen::Matrix3d frame;
+  frame.row(0) = p.normalized();
+  frame.row(1) = q;
+  frame.row(2) = p.normalized().cross(q);
+  return frame;
+}
+
+Eigen::VectorXd damping_ratios(const ModesDescription& modes, const Eigen::VectorXd& frequency) {
+  if (const auto* rayleigh = std::get_if<RayleighDamping>(&modes.damping)) {
+    if (rayleigh->alpha != 0.0 && frequency.minCoeff() == 0.0) {
+      throw SceneError("modes.damping_ratio: alpha acts on a rigid-body mode; ζ = α/(2ω) is infinite");
+    }
+    Eigen::VectorXd ratio = 0.5 * rayleigh->beta * frequency;
+    if (rayleigh->alpha != 0.0) ratio += 0.5 * rayleigh->alpha * frequency.cwiseInverse();
+    return ratio;
+  }
+  const auto& list = std::get<std::vector<double>>(modes.damping);
+  if (list.size() == 1) return Eigen::VectorXd::Constant(frequency.size(), list.front());
+  if (static_cast<Eigen::Index>(list.size()) != frequency.size()) {
+    throw SceneError(fmt::format("modes.damping_ratio: {} values for {} modes; give one, or one each",
+                                 list.size(), frequency.size()));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,
+                               const fem::ModalBasis& basis,
+                               const fem::ResidualFlexibility* residual,
+                               std::vector<std::string>& warnings) {
+  ReducedModel model;
+  model.frequency = basis.frequency;
+  model.damping_ratio = damping_ratios(scene.modes, basis.frequency);
+  set_excitation(model, mesh, scene, basis.shapes);
+  model.output = Eigen::VectorXd::Zero(basis.frequency.size());
+  if (scene.response) {
+    const OutputDescription& output = scene.response->output;
+    model.output = mean_motion(mesh, basis.shapes, output.at, output.direction);
+  }
+  if (scene.contact) {
+    set_contact(model, mesh, *scene.contact, basis, residual);
+    warn_of_the_fit(model, mesh, *scene.contact, warnings);
+  }
+  return model;
+}
+
+ReducedModel reduced_model(const ModalModel& modal) {
+  ReducedModel model;
+  model.frequency = 2.0 * std::numbers::pi * modal.frequency_hz;
+  model.damping_ratio = modal.damping_ratio;
+  model.force_sine = modal.force_sine;
+  model.force_cosine = modal.force_cosine;
+  model.force_static = modal.force_static;
+  model.output = modal.output;
+  model.weights = modal.weights;
+  model.shapes = modal.shapes;
+  const auto n = static_cast<Eigen::Index>(modal.points.size());
+  model.points = Eigen::MatrixX3d::Zero(n, 3);
+  if (modal.positions.rows() == n) {
+    model.points.col(0) = modal.positions.col(0);  // frame is the identity: p, q, r are x, y, z
+    model.points.col(2) = modal.positions.col(1);
+  }
+  model.tangential_stiffness.resize(n);
+  model.normal_stiffness.resize(n);
+  model.friction_coefficient.resize(n);
+  model.preload.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const contact::PointParameters& point = modal.points[static_cast<std::size_t>(i)];
+    model.tangential_stiffness[i] = point.tangential_stiffness;
+    model.normal_stiffness[i] = point.normal_stiffness;
+    model.friction_coefficient[i] = point.friction_coefficient;
+    model.preload[i] = point.preload;
+  }
+  return model;
+}
+
+}  // namespace microslip::pipelines

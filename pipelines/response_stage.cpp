@@ -1,0 +1,215 @@
+#include "pipelines/response_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "contact/patch_force.hpp"
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+bool is_modal(const SceneDescription& scene) {
+  return std::holds_alternative<ModalModel>(scene.model);
+}
+
+/// Pressure of each point: the unit field times the load, or the gap the load stands for.
+Eigen::VectorXd pressures(const Eigen::VectorXd& unit, const Eigen::VectorXd& normal_stiffness,
+                          double total_stiffness, double load) {
+  if (load >= 0.0 || unit.size() == 0 || total_stiffness == 0.0) return load * unit;
+  return (load / total_stiffness) * normal_stiffness;
+}
+
+contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
+  contact::Harmonics force(n_harmonics, model.frequency.size());
+  force.rows().row(0) = model.force_static;
+  force.rows().row(1) = model.force_sine;
+  force.rows().row(2) = model.force_cosine;
+  return force;
+}
+
+CurveRequest request_of(const PreloadEntry& entry) {
+  if (const auto* limit = std::get_if<LimitName>(&entry)) {
+    return {*limit == LimitName::free ? "free" : "stuck", *limit};
+  }
+  return {fmt::format("preload_{:g}", std::get<double>(entry)), std::get<double>(entry)};
+}
+
+/// A name twice (preload given twice) gets a number, so that no file overwrites another.
+void make_unique(std::vector<CurveRequest>& requests) {
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    int copy = 1;
+    const std::string stem = requests[i].name;
+    const auto taken = [&] {
+      return std::any_of(requests.begin(), requests.begin() + static_cast<std::ptrdiff_t>(i),
+                         [&](const CurveRequest& other) { return other.name == requests[i].name; });
+    };
+    while (taken()) requests[i].name = fmt::format("{}_{}", stem, ++copy);
+  }
+}
+
+NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double load,
+                const std::string& name, const solver::ResponsePoint& point) {
+  const double wear = scene.contact ? scene.contact->wear_coefficient : 0.0;
+  const int phases = scene.response->map_phases;
+  NamedMap map;
+  map.name = name;
+  map.frequency_hz = point.frequency / two_pi;
+  map.points = contact::contact_map(point_parameters(model, load, false), model.shapes, point.q,
+                                    phases, wear);
+  if (model.vertices.rows() > 0) {
+    map.vertices = contact::contact_map(point_parameters(model, load, true), model.vertex_shapes,
+                                        point.q, phases, wear);
+  }
+  return map;
+}
+
+}  // namespace
+
+std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
+  std::vector<CurveRequest> requests;
+  if (!is_modal(scene)) {
+    for (const PreloadEntry& entry : scene.response->preload) requests.push_back(request_of(entry));
+  } else {
+    for (const double scale : scene.response->preload_scale) {
+      requests.push_back({fmt::format("scale_{:g}", scale), scale});
+    }
+    if (scene.response->limits) {
+      requests.push_back({"free", LimitName::free});
+      requests.push_back({"stuck", LimitName::stuck});
+    }
+  }
+  make_unique(requests);
+  return requests;
+}
+
+std::vector<contact::PointParameters> point_parameters(const ReducedModel& model, double load,
+                                                       bool on_vertices) {
+  const bool meshed = model.vertices.rows() > 0;
+  const auto& stiffness = on_vertices ? model.vertex_normal_stiffness : model.normal_stiffness;
+  const auto& tangential =
+      on_vertices ? model.vertex_tangential_stiffness : model.tangential_stiffness;
+  const auto& friction =
+      on_vertices ? model.vertex_friction_coefficient : model.friction_coefficient;
+  const auto& unit = on_vertices ? model.vertex_preload : model.preload;
+  const double total = meshed ? model.normal_stiffness.dot(model.weights) : 0.0;
+  if (meshed && load < 0.0 && total <= 0.0) {
+    throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
+  }
+  const Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
+  std::vector<contact::PointParameters> points(static_cast<std::size_t>(preload.size()));
+  for (Eigen::Index i = 0; i < preload.size(); ++i) {
+    points[static_cast<std::size_t>(i)] = {tangential[i], stiffness[i], friction[i], preload[i]};
+  }
+  return points;
+}
+
+solver::Scene solver_scene(const ReducedModel& model, double load) {
+  solver::Scene scene;
+  scene.natural_frequency = model.frequency;
+  scene.damping_ratio = model.damping_ratio;
+  scene.excitation = excitation(model, 1);
+  scene.output = model.output;
+  if (model.weights.size() > 0) {
+    scene.contact = std::make_unique<contact::PatchForce>(
+        contact::ContactPatch(model.weights, point_parameters(model, load, false)), model.shapes);
+  }
+  return scene;
+}
+
+solver::ContinuationOptions continuation_options(const ResponseDescription& response) {
+  solver::ContinuationOptions options;
+  options.frequency_begin = two_pi * response.frequency_begin_hz;
+  options.frequency_end = two_pi * response.frequency_end_hz;
+  options.n_harmonics = response.harmonics;
+  return options;
+}
+
+CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
+                        const CurveRequest& request, const solver::PointObserver& observe) {
+  const solver::ContinuationOptions options = continuation_options(*scene.response);
+  CurveResult result{request.name, request.preload, {}, {}};
+  if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
+    result.curve = solver::trace_linear(solver_scene(model, 1.0),
+                                        *limit == LimitName::free ? solver::LinearLimit::free
+                                                                  : solver::LinearLimit::stuck,
+                                        options);
+    return result;
+  }
+  const solver::Scene problem = solver_scene(model, std::get<double>(request.preload));
+  result.curve = options.frequency_begin == options.frequency_end
+                     ? solver::solve_at_frequency(problem, options.frequency_begin, options)
+                     : solver::trace_response(problem, options, observe);
+  return result;
+}
+
+const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {
+  const solver::ResponsePoint* best = nullptr;
+  for (const bool marked : {true, false}) {
+    for (const solver::ResponsePoint& point : curve.points) {
+      if (marked && point.mark != solver::PointMark::peak) continue;
+      if (best == nullptr || point.amplitude > best->amplitude) best = &point;
+    }
+    if (best != nullptr) return best;
+  }
+  return nullptr;
+}
+
+std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescription& scene,
+                                 const CurveResult& result) {
+  std::vector<NamedMap> maps;
+  const auto* load = std::get_if<double>(&result.preload);
+  if (load == nullptr || model.weights.size() == 0) return maps;
+  const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
+    maps.push_back(map_of(model, scene, *load, result.name + "_" + suffix, point));
+  };
+  for (const MapEntry& entry : scene.response->maps) {
+    if (const auto* frequency = std::get_if<double>(&entry)) {
+      const solver::Scene problem = solver_scene(model, *load);
+      const auto points = solver::points_at_frequency(
+          problem, result.curve, two_pi * *frequency, continuation_options(*scene.response));
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
+      }
+    } else if (std::get<MapName>(entry) == MapName::peak) {
+      if (const auto* peak = highest_peak(result.curve)) add("peak", *peak);
+    } else {
+      int count = 0;
+      for (const solver::ResponsePoint& point : result.curve.points) {
+        if (point.mark == solver::PointMark::fold) add(fmt::format("fold_{}", ++count), point);
+      }
+    }
+  }
+  return maps;
+}
+
+solver::Optimum best_preload(const ReducedModel& model, const SceneDescription& scene) {
+  solver::OptimumOptions options;
+  if (scene.response->optimum_range) {
+    options.lower = (*scene.response->optimum_range)[0];
+    options.upper = (*scene.response->optimum_range)[1];
+  } else {
+    options.lower = std::numeric_limits<double>::infinity();
+    for (const CurveRequest& request : curve_requests(scene)) {
+      const auto* load = std::get_if<double>(&request.preload);
+      if (load == nullptr || *load <= 0.0) continue;
+      options.lower = std::min(options.lower, *load);
+      options.upper = std::max(options.upper, *load);
+    }
+  }
+  if (!(options.lower < options.upper)) {
+    throw SceneError(
+        "response.optimum: needs response.optimum_range = [low, high] in N, or two positive preloads");
+  }
+  return solver::minimise_peak([&](double load) { return solver_scene(model, load); },
+                               continuation_options(*scene.response), options);
+}
+
+}  // namespace microslip::pipelines

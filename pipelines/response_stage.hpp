@@ -1,0 +1,53 @@
+/// @file
+/// Reduced model → solver scenes → curves, maps and the best preload.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipelines/run_results.hpp"
+#include "solver/scene.hpp"
+
+namespace microslip::pipelines {
+
+/// What one curve is asked for: a preload (mesh kinds), a scale of the preload (modal scenes), or a
+/// linear limit.
+struct CurveRequest {
+  std::string name;                          ///< stem of the CSV
+  std::variant<double, LimitName> preload;   ///< [N], or the scale
+};
+
+/// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.
+[[nodiscard]] std::vector<CurveRequest> curve_requests(const SceneDescription& scene);
+
+/// Constants of the contact points under a preload. Mesh kinds: `load` is the total normal force [N],
+/// uniform pressure; negative: a uniform gap −load/∬k_v dA. Modal scenes: `load` scales the column.
+/// @throws RefusedError  a gap where the normal stiffness is zero.
+[[nodiscard]] std::vector<contact::PointParameters> point_parameters(const ReducedModel& model,
+                                                                     double load, bool on_vertices);
+
+/// The same patch as the solver takes it. Modes and excitation of the model are copied.
+[[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
+
+[[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
+
+/// Traces one curve: a solution at one frequency when the range has no width.
+[[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
+                                      const CurveRequest& request,
+                                      const solver::PointObserver& observe);
+
+/// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions of
+/// the branch at given frequencies (numbered in branch order).
+[[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,
+                                               const SceneDescription& scene,
+                                               const CurveResult& result);
+
+/// Best preload between the bounds the scene gives, or its smallest and largest positive preload.
+/// @throws SceneError  no bounds can be told.
+[[nodiscard]] solver::Optimum best_preload(const ReducedModel& model, const SceneDescription& scene);
+
+/// The highest solved peak; without one the largest point. nullptr: no points.
+[[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
+
+}  // namespace microslip::pipelines
