@@ -1,0 +1,34 @@
+/// @file
+/// Files that are there whole or not at all: written beside their place, then renamed into it.
+/// Every writer goes through here, so that a full disk or a folder without permission is told in one
+/// way: an ExhaustedError that names the path.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace microslip::pipelines {
+
+/// Writes `content` to a temporary file in the same folder and renames it to `file`. An older `file`
+/// stays as it was until the new one is complete; nothing is left behind on failure.
+/// @throws ExhaustedError  the folder is missing, not writable or full; names path and reason.
+void write_whole(const std::filesystem::path& file, std::string_view content);
+
+/// Bytes of a binary file, otherwise the same.
+void write_whole(const std::filesystem::path& file, std::span<const std::byte> content);
+
+/// Creates a folder and its parents where they are missing.
+/// @throws ExhaustedError  it cannot be created or is not a folder.
+void make_folder(const std::filesystem::path& folder);
+
+/// @throws ExhaustedError  no file can be created in `folder` (which must exist): asked before the
+///         long stages, not after them.
+void require_writable(const std::filesystem::path& folder);
+
+/// The shortest decimal text that reads back to the same double, with a point in any locale.
+[[nodiscard]] std::string format_number(double value);
+
+}  // namespace microslip::pipelines

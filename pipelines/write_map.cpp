@@ -1,0 +1,173 @@
+#include "pipelines/write_map.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "pipelines/hdf5_file.hpp"
+#include "pipelines/output_file.hpp"
+#include "pipelines/vtk_file.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+const std::vector<std::string> state_names{"stick", "positive slip", "negative slip", "separated",
+                                           "slip in two directions"};
+
+void require_rows(const char* what, const NamedMap& map, Eigen::Index rows, Eigen::Index expected) {
+  if (rows == expected) return;
+  throw std::invalid_argument("map " + map.name + " has " + std::to_string(rows) + " " + what +
+                              ", the model has " + std::to_string(expected));
+}
+
+/// Positions of the contact points [m]; a row along p where the model has none.
+Eigen::MatrixX3d point_positions(const ReducedModel& model) {
+  const Eigen::Index n = model.weights.size();
+  const bool given =
+      model.points.rows() == n &&
+      (n < 2 || (model.points.rowwise() - model.points.row(0)).cwiseAbs().maxCoeff() > 0.0);
+  if (given) return model.points;
+  constexpr double spacing = 1e-3;  // [m]: a scale for pictures, nothing is computed from it
+  Eigen::MatrixX3d row(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    row.row(i) = spacing * static_cast<double>(i) * model.frame.row(0);
+  }
+  return row;
+}
+
+vtkSmartPointer<vtkPolyData> make_patch(const ReducedModel& model) {
+  const bool has_cells = model.cells.rows() > 0;
+  const Eigen::MatrixX3d positions = has_cells ? model.vertices : point_positions(model);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& x : positions.rowwise()) points->InsertNextPoint(x[0], x[1], x[2]);
+  vtkNew<vtkCellArray> cells;
+  if (has_cells) {
+    for (const auto& cell : model.cells.rowwise()) {
+      const std::vector<vtkIdType> corners(cell.begin(), cell.end());
+      cells->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
+    }
+  } else {
+    for (vtkIdType point = 0; point < positions.rows(); ++point) cells->InsertNextCell(1, &point);
+  }
+  auto patch = vtkSmartPointer<vtkPolyData>::New();
+  patch->SetPoints(points);
+  if (has_cells) {
+    patch->SetPolys(cells);
+  } else {
+    patch->SetVerts(cells);
+  }
+  return patch;
+}
+
+void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map) {
+  add_array(data, "dissipated_energy_J_per_m2", map.dissipated_energy);
+  add_array(data, "slip_distance_m", map.slip_distance);
+  add_array(data, "wear_depth_m", map.wear_depth);
+}
+
+void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eigen::Index phase) {
+  add_integers(data, "state", map.state.col(phase).cast<int>());
+  data.SetActiveScalars("state");
+  add_array(data, "normal_traction_Pa", map.normal_traction.col(phase));
+  add_array(data, "friction_traction_Pa", map.friction_traction.col(phase));
+  add_array(data, "relative_displacement_m", map.relative_displacement.col(phase));
+  add_array(data, "approach_m", map.approach.col(phase));
+  add_array(data, "slip_m", map.slip.col(phase));
+}
+
+double in_degrees(double phase) {
+  const double degrees = phase * 180.0 / std::numbers::pi;
+  const double rounded = std::round(degrees * 1e6) / 1e6;  // 45, not 45.00000000000001
+  return std::abs(rounded - degrees) < 1e-9 ? rounded : degrees;
+}
+
+void write_series(const std::filesystem::path& folder, const ReducedModel& model,
+                  const NamedMap& map) {
+  const auto patch = make_patch(model);
+  const bool smooth = map.vertices.phase.size() > 0;
+  const bool points_only = model.cells.rows() == 0;
+  std::vector<std::pair<double, std::string>> steps;
+  for (Eigen::Index step = 0; step < map.points.phase.size(); ++step) {
+    vtkNew<vtkPolyData> frame;
+    frame->ShallowCopy(patch);
+    add_instant(*frame->GetCellData(), map.points, step);
+    add_cycle_totals(*frame->GetCellData(), map.points);
+    if (smooth || points_only) {
+      const contact::ContactMap& nodal = points_only ? map.points : map.vertices;
+      add_instant(*frame->GetPointData(), nodal, step);
+      add_cycle_totals(*frame->GetPointData(), nodal);
+    }
+    const double phase_deg = in_degrees(map.points.phase[step]);
+    add_array(*frame->GetFieldData(), "frequency_Hz",
+              Eigen::VectorXd::Constant(1, map.frequency_hz));
+    add_array(*frame->GetFieldData(), "phase_deg", Eigen::VectorXd::Constant(1, phase_deg));
+    add_texts(*frame->GetFieldData(), "state_names", state_names);
+    const std::string name = step_name(map.name, static_cast<int>(step), ".vtp");
+    write_vtk_file(folder / name, *frame);
+    steps.emplace_back(phase_deg, name);
+  }
+  if (!steps.empty()) steps.emplace_back(360.0, steps.front().second);
+  write_pvd(folder / (map.name + ".pvd"), steps);
+}
+
+/// Coordinates (p, r) in the plane of the patch, from its centroid where it has cells.
+Eigen::MatrixXd in_plane(const ReducedModel& model, const Eigen::MatrixX3d& positions) {
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  const double area = model.weights.sum();
+  if (model.cells.rows() > 0 && area > 0.0) {
+    origin = model.weights.transpose() * model.points / area;
+  }
+  const Eigen::MatrixX3d local = (positions.rowwise() - origin) * model.frame.transpose();
+  Eigen::MatrixXd plane(local.rows(), 2);
+  plane << local.col(0), local.col(2);
+  return plane;
+}
+
+void write_map_data(const std::filesystem::path& file, const ReducedModel& model,
+                    const NamedMap& map) {
+  Hdf5Writer out;
+  out.text("program", "microslip");
+  out.vector("/frequency_Hz", Eigen::VectorXd::Constant(1, map.frequency_hz), "Hz");
+  out.vector("/phase_deg", map.points.phase * (180.0 / std::numbers::pi), "deg");
+  out.matrix("/points", in_plane(model, point_positions(model)), "m");
+  out.vector("/weights", model.weights, "m^2");
+  out.matrix("/vertices", in_plane(model, model.vertices), "m");
+  out.integers("/cells", model.cells.cast<std::int64_t>(), "1");
+  out.bytes("/state", map.points.state, "1");
+  out.matrix("/normal_traction_Pa", map.points.normal_traction, "Pa");
+  out.matrix("/friction_traction_Pa", map.points.friction_traction, "Pa");
+  out.matrix("/relative_displacement_m", map.points.relative_displacement, "m");
+  out.matrix("/approach_m", map.points.approach, "m");
+  out.matrix("/slip_m", map.points.slip, "m");
+  out.vector("/dissipated_energy_J_per_m2", map.points.dissipated_energy, "J/m^2");
+  out.vector("/slip_distance_m", map.points.slip_distance, "m");
+  out.vector("/wear_depth_m", map.points.wear_depth, "m");
+  out.write(file);
+}
+
+}  // namespace
+
+void write_map(const std::filesystem::path& folder, const ReducedModel& model,
+               const NamedMap& map) {
+  require_rows("contact points", map, map.points.state.rows(), model.weights.size());
+  if (model.cells.rows() > 0) {
+    require_rows("cells", map, model.cells.rows(), model.weights.size());
+  }
+  if (model.cells.rows() > 0 && map.vertices.phase.size() > 0) {
+    require_rows("vertices", map, map.vertices.state.rows(), model.vertices.rows());
+  }
+  make_folder(folder);
+  write_series(folder, model, map);
+  write_map_data(folder / (map.name + ".h5"), model, map);
+}
+
+}  // namespace microslip::pipelines

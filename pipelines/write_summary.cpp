@@ -1,0 +1,198 @@
+#include "pipelines/write_summary.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "pipelines/output_file.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double hertz(double angular) { return angular / (2.0 * std::numbers::pi); }
+
+template <typename Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const std::variant<double, LimitName>& preload) {
+  if (const double* newton = std::get_if<double>(&preload)) return *newton;
+  return std::get<LimitName>(preload) == LimitName::free ? "free" : "stuck";
+}
+
+Json to_json(const PeakSummary& peak) {
+  return {{"frequency_Hz", hertz(peak.frequency)}, {"amplitude_m", peak.amplitude}};
+}
+
+Json to_json(const Machine& machine) {
+  return {{"processor", machine.processor},
+          {"cores", machine.cores},
+          {"memory_MB", machine.memory_mb},
+          {"blas", machine.blas},
+          {"blas_threads", machine.blas_threads}};
+}
+
+Json to_json(const StageRecord& stage) {
+  return {{"name", stage.name},
+          {"seconds", stage.seconds},
+          {"peak_memory_MB", stage.peak_memory_mb}};
+}
+
+Json to_json(const MeshSummary& mesh) {
+  return {{"nodes", mesh.nodes},
+          {"elements", mesh.elements},
+          {"degrees_of_freedom", mesh.degrees_of_freedom},
+          {"volume_m3", mesh.volume},
+          {"mass_kg", mesh.mass}};
+}
+
+Json to_json(const ModeSummary& mode) {
+  Json json{{"frequency_Hz", hertz(mode.frequency)},
+            {"damping_ratio", mode.damping_ratio},
+            {"residual", or_null(mode.residual)}};
+  if (mode.fit_error) json["fit_error"] = *mode.fit_error;
+  return json;
+}
+
+Json to_json(const CurveSummary& curve);
+Json to_json(const EffectRecord& effect);
+
+template <typename Item>
+Json to_array(const std::vector<Item>& items) {
+  Json array = Json::array();
+  for (const Item& item : items) array.push_back(to_json(item));
+  return array;
+}
+
+Json to_json(const CurveSummary& curve) {
+  Json folds = Json::array();
+  for (const double fold : curve.folds) folds.push_back(hertz(fold));
+  return {{"name", curve.name},
+          {"preload_N", to_json(curve.preload)},
+          {"complete", curve.complete},
+          {"diagnosis", curve.diagnosis},
+          {"message", curve.message},
+          {"peak", curve.peak ? to_json(*curve.peak) : Json(nullptr)},
+          {"peaks", to_array(curve.peaks)},
+          {"folds_Hz", folds},
+          {"points", curve.points},
+          {"iterations", curve.iterations},
+          {"contact_evaluations", curve.contact_evaluations},
+          {"seconds", curve.seconds},
+          {"largest_residual", curve.largest_residual},
+          {"largest_energy_imbalance", curve.largest_energy_imbalance},
+          {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
+          {"largest_three_states_share", curve.largest_three_states_share},
+          {"maps", curve.maps}};
+}
+
+Json to_json(const EffectRecord& effect) {
+  return {{"name", effect.name},
+          {"setting", effect.setting},
+          {"simulated", effect.simulated},
+          {"reason", effect.reason}};
+}
+
+Json to_json(const solver::Optimum& optimum) {
+  Json trace = Json::array();
+  for (const solver::PeakOfParameter& peak : optimum.trace) {
+    trace.push_back({{"preload_N", peak.parameter},
+                     {"amplitude_m", peak.amplitude},
+                     {"frequency_Hz", hertz(peak.frequency)}});
+  }
+  return {{"preload_N", optimum.best.parameter},
+          {"amplitude_m", optimum.best.amplitude},
+          {"frequency_Hz", hertz(optimum.best.frequency)},
+          {"found", optimum.found},
+          {"message", optimum.message},
+          {"iterations", optimum.iterations},
+          {"contact_evaluations", optimum.contact_evaluations},
+          {"trace", trace}};
+}
+
+Json libraries_json(const std::vector<std::pair<std::string, std::string>>& libraries) {
+  Json json = Json::object();
+  for (const auto& [name, version] : libraries) json[name] = version;
+  return json;
+}
+
+std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n_rows) {
+  if (column.size() != n_rows) return std::nullopt;
+  return column[row];
+}
+
+void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
+  if (point.mark == solver::PointMark::peak) {
+    summary.peaks.push_back({point.frequency, point.amplitude});
+  }
+  if (point.mark == solver::PointMark::fold) summary.folds.push_back(point.frequency);
+  const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
+  raise(summary.largest_residual, point.residual);
+  raise(summary.largest_energy_imbalance, point.energy_imbalance);
+  raise(summary.largest_dissipation_mismatch, point.dissipation_mismatch);
+  raise(summary.largest_three_states_share, point.report.three_states_share);
+}
+
+}  // namespace
+
+CurveSummary summarise(const CurveResult& result) {
+  CurveSummary summary;
+  summary.name = result.name;
+  summary.preload = result.preload;
+  summary.complete = result.curve.complete;
+  summary.diagnosis = result.curve.diagnosis;
+  summary.message = result.curve.message;
+  summary.points = result.curve.points.size();
+  summary.iterations = result.curve.iterations;
+  summary.contact_evaluations = result.curve.contact_evaluations;
+  summary.seconds = result.curve.seconds;
+  for (const solver::ResponsePoint& point : result.curve.points) add_point(summary, point);
+  const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);
+  if (highest != summary.peaks.end()) summary.peak = *highest;
+  for (const NamedMap& map : result.maps) summary.maps.push_back(map.name);
+  return summary;
+}
+
+std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
+                                         const Eigen::VectorXd& damping_ratio,
+                                         const Eigen::VectorXd& residual,
+                                         const Eigen::VectorXd& fit_error) {
+  const Eigen::Index n = frequency.size();
+  std::vector<ModeSummary> modes;
+  for (Eigen::Index mode = 0; mode < n; ++mode) {
+    modes.push_back({frequency[mode], entry(damping_ratio, mode, n).value_or(0.0),
+                     entry(residual, mode, n), entry(fit_error, mode, n)});
+  }
+  return modes;
+}
+
+std::string summary_json(const RunSummary& summary, int indent) {
+  const Json json{{"program", "microslip"},
+                  {"version", summary.version},
+                  {"machine", to_json(summary.machine)},
+                  {"libraries", libraries_json(summary.libraries)},
+                  {"scene", summary.scene},
+                  {"title", summary.title},
+                  {"exit_code", static_cast<int>(summary.exit_code)},
+                  {"message", summary.message},
+                  {"warnings", summary.warnings},
+                  {"stages", to_array(summary.stages)},
+                  {"mesh", summary.mesh ? to_json(*summary.mesh) : Json(nullptr)},
+                  {"modes", to_array(summary.modes)},
+                  {"curves", to_array(summary.curves)},
+                  {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
+                  {"effects", to_array(summary.effects)},
+                  {"error_budget", Json::array()}};
+  constexpr char space = ' ';
+  // A name that is not UTF-8 is written with replacement characters rather than lost with the run.
+  return json.dump(indent, space, false, Json::error_handler_t::replace);
+}
+
+void write_summary(const std::filesystem::path& file, const RunSummary& summary) {
+  write_whole(file, summary_json(summary) + "\n");
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,96 @@
+/// @file
+/// summary.json: what a run found and what it cost, for scripts (interfaces.md section 3.1).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/machine.hpp"
+#include "pipelines/run_results.hpp"
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+
+struct MeshSummary {
+  Eigen::Index nodes = 0;
+  Eigen::Index elements = 0;
+  Eigen::Index degrees_of_freedom = 0;  ///< without the clamped ones
+  double volume = 0.0;                  ///< [m³]
+  double mass = 0.0;                    ///< [kg]
+};
+
+struct ModeSummary {
+  double frequency = 0.0;  ///< ω [rad/s]
+  double damping_ratio = 0.0;
+  std::optional<double> residual;   ///< none for modes that were given
+  std::optional<double> fit_error;  ///< none without a fit
+};
+
+struct PeakSummary {
+  double frequency = 0.0;  ///< ω [rad/s]
+  double amplitude = 0.0;  ///< [m]
+};
+
+/// A ResponseCurve in a few numbers.
+struct CurveSummary {
+  std::string name;
+  std::variant<double, LimitName> preload;
+  bool complete = false;
+  std::string diagnosis;
+  std::string message;
+  std::optional<PeakSummary> peak;  ///< the highest of `peaks`; none when no peak was in range
+  std::vector<PeakSummary> peaks;
+  std::vector<double> folds;  ///< ω [rad/s], in branch order
+  std::size_t points = 0;
+  long iterations = 0;
+  long contact_evaluations = 0;
+  double seconds = 0.0;
+  double largest_residual = 0.0;
+  double largest_energy_imbalance = 0.0;
+  double largest_dissipation_mismatch = 0.0;
+  double largest_three_states_share = 0.0;
+  std::vector<std::string> maps;  ///< stems in maps/
+};
+
+struct EffectRecord {
+  std::string name;
+  std::string setting;     ///< auto | on | off
+  bool simulated = false;
+  std::string reason;
+};
+
+struct RunSummary {
+  std::string version;
+  std::string scene;  ///< file name of the scene, without its folder
+  std::string title;
+  ExitCode exit_code = ExitCode::complete;
+  std::string message;  ///< of the error that ended the run; empty when there was none
+  Machine machine;
+  std::vector<std::pair<std::string, std::string>> libraries;
+  std::vector<StageRecord> stages;
+  std::optional<MeshSummary> mesh;
+  std::vector<ModeSummary> modes;
+  std::vector<CurveSummary> curves;
+  std::optional<solver::Optimum> optimum;
+  std::vector<EffectRecord> effects;
+  std::vector<std::string> warnings;
+};
+
+[[nodiscard]] CurveSummary summarise(const CurveResult& result);
+
+/// @param residual, fit_error  N, or of another size where they do not exist.
+[[nodiscard]] std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
+                                                       const Eigen::VectorXd& damping_ratio,
+                                                       const Eigen::VectorXd& residual,
+                                                       const Eigen::VectorXd& fit_error);
+
+/// The text of summary.json; on one line when `indent` is −1.
+[[nodiscard]] std::string summary_json(const RunSummary& summary, int indent = 2);
+
+/// @throws ExhaustedError  cannot be written.
+void write_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+}  // namespace microslip::pipelines
