@@ -214,6 +214,7 @@ Solution solve(const PointParameters& point, const PointMotion& motion) {
   solution.w = slip_functions(point, motion);
   const SlipFunctions& w = solution.w;
   solution.regime = cycle_regime(w);
+  solution.force.regime = solution.regime;
   if (solution.regime == CycleRegime::separated) {
     return solution;
   }
