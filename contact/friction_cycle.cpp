@@ -214,6 +214,7 @@ Solution solve(const PointParameters& point, const PointMotion& motion) {
   solution.w = slip_functions(point, motion);
   const SlipFunctions& w = solution.w;
   solution.regime = cycle_regime(w);
+  solution.force.regime = solution.regime;
   if (solution.regime == CycleRegime::separated) {
     return solution;
   }
@@ -312,13 +313,14 @@ double start_angle(const Direction& d) {
   return wrapped < 2.0 * pi ? wrapped : 0.0;
 }
 
+// A segment as short as the rounding of its angles, a few units in the last place of 2π, is none;
+// its length goes to the one before it.
 void add_segment(FrictionCycle& cycle, const CycleSegment& segment) {
-  if (segment.length <= 0.0) {
-    return;
-  }
-  if (cycle.n_segments_ > 0 && cycle.segment_[cycle.n_segments_ - 1].state == segment.state) {
-    cycle.segment_[cycle.n_segments_ - 1].length += segment.length;
-  } else {
+  constexpr double shortest = 4e-15;
+  const std::size_t n = cycle.n_segments_;
+  if (n > 0 && (cycle.segment_[n - 1].state == segment.state || segment.length < shortest)) {
+    cycle.segment_[n - 1].length += segment.length;
+  } else if (segment.length >= shortest) {
     cycle.segment_[cycle.n_segments_++] = segment;
   }
 }

@@ -71,6 +71,7 @@ using CycleJacobian = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 /// Forces and the entries of their Jacobian that can differ from zero [Pa, N/m³].
 struct CycleForce {
+  CycleRegime regime = CycleRegime::separated;
   ForceCoefficients friction;   ///< f, resists u
   ForceCoefficients normal;     ///< n ≥ 0, the whole load (not n − n_ref)
   double mean_by_u_mean = 0.0;  ///< ∂f_mean/∂u_mean: k_u while (2) does not clip, else 0

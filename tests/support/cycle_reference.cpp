@@ -15,18 +15,22 @@ constexpr Real pi = std::numbers::pi_v<Real>;
 constexpr int n_cells = 32;  // per period; a guard with one harmonic turns twice per period
 constexpr int n_nodes = 24;  // integrands of degree 2 over at most one period: exact to rounding
 
+struct Instant {
+  explicit Instant(Real at) : angle(at), sin(std::sin(at)), cos(std::cos(at)) {}
+  Real angle;
+  Real sin;
+  Real cos;
+};
+
 // Value and derivative of a0 + as sin + ac cos at an angle.
 struct Wave {
   Real mean = 0.0L;
   Real sin = 0.0L;
   Real cos = 0.0L;
 
-  [[nodiscard]] Real at(Real angle) const {
-    return mean + sin * std::sin(angle) + cos * std::cos(angle);
-  }
-  [[nodiscard]] Real rate(Real angle) const {
-    return sin * std::cos(angle) - cos * std::sin(angle);
-  }
+  [[nodiscard]] Real at(const Instant& t) const { return mean + sin * t.sin + cos * t.cos; }
+  [[nodiscard]] Real rate(const Instant& t) const { return sin * t.cos - cos * t.sin; }
+  [[nodiscard]] Real at(Real angle) const { return at(Instant(angle)); }
 };
 
 Wave operator+(const Wave& a, const Wave& b) {
@@ -71,7 +75,8 @@ class March {
         spring_{k_u_ * static_cast<Real>(m.u_mean), k_u_ * static_cast<Real>(m.u_sin),
                 k_u_ * static_cast<Real>(m.u_cos)} {
     const Real k_v = point.normal_stiffness;
-    load_ = {point.preload + k_v * m.v_mean, k_v * m.v_sin, k_v * m.v_cos};
+    load_ = {std::fma(k_v, static_cast<Real>(m.v_mean), static_cast<Real>(point.preload)),
+             k_v * m.v_sin, k_v * m.v_cos};
     const Real load = std::abs(load_.mean) + std::hypot(load_.sin, load_.cos);
     // A guard is broken when it is below zero by more than rounding; what a tolerance moves in time
     // it moves in force by no more than itself.
@@ -129,20 +134,21 @@ class March {
   }
 
   // First angle in (from, to] where the guard is broken, or `to` + 1 if there is none.
-  static Real first_breach(const Guard& guard, Real from, Real to) {
+  static Real first_breach(const Guard& guard, const Instant& from, const Instant& to) {
     const auto broken = [&](Real angle) { return guard.wave.at(angle) < -guard.tolerance; };
-    Real bad = to;
-    if (!broken(to)) {
+    Real bad = to.angle;
+    if (guard.wave.at(to) >= -guard.tolerance) {
       // A dip inside the cell: the guard falls at its begin and rises at its end.
       if (!(guard.wave.rate(from) < 0.0L && guard.wave.rate(to) > 0.0L)) {
-        return to + 1.0L;
+        return to.angle + 1.0L;
       }
-      bad = bisect(from, to, [&](Real angle) { return guard.wave.rate(angle) > 0.0L; });
+      bad = bisect(from.angle, to.angle,
+                   [&](Real angle) { return guard.wave.rate(Instant(angle)) > 0.0L; });
       if (!broken(bad)) {
-        return to + 1.0L;
+        return to.angle + 1.0L;
       }
     }
-    return bisect(from, bad, broken);
+    return bisect(from.angle, bad, broken);
   }
 
   // Boundary between false (low) and true (high).
@@ -162,8 +168,9 @@ class March {
       }
       const Real from = time_;
       char next = state_;
+      const std::vector<Guard> held = guards();
       while (time_ < end && next == state_) {
-        next = step(end);
+        next = step(held, end);
       }
       if (recording_) {
         record(from, time_);
@@ -173,13 +180,14 @@ class March {
   }
 
   // One cell of the fixed grid, or up to the first broken guard.
-  char step(Real end) {
+  char step(const std::vector<Guard>& held, Real end) {
     const Real cell = 2.0L * pi / n_cells;
-    const Real to = std::min(end, cell * (std::floor(time_ / cell + 1e-9L) + 1.0L));
-    Real first = to;
+    const Instant from(time_);
+    const Instant to(std::min(end, cell * (std::floor(time_ / cell + 1e-9L) + 1.0L)));
+    Real first = to.angle;
     char next = state_;
-    for (const Guard& guard : guards()) {
-      const Real breach = first_breach(guard, time_, to);
+    for (const Guard& guard : held) {
+      const Real breach = first_breach(guard, from, to);
       if (breach <= first && (next == state_ || breach < first)) {
         first = breach;
         next = guard.next;
@@ -200,14 +208,14 @@ class March {
     state_ = next;
   }
 
-  [[nodiscard]] Real friction(Real angle) const {
+  [[nodiscard]] Real friction(const Instant& now) const {
     switch (state_) {
       case 'P':
-        return mu_ * load_.at(angle);
+        return mu_ * load_.at(now);
       case 'N':
-        return -mu_ * load_.at(angle);
+        return -mu_ * load_.at(now);
       case 'S':
-        return k_u_ == 0.0L || mu_ == 0.0L ? 0.0L : spring_.at(angle) - slider_;
+        return k_u_ == 0.0L || mu_ == 0.0L ? 0.0L : spring_.at(now) - slider_;
       default:
         return 0.0L;
     }
@@ -218,17 +226,17 @@ class March {
     const Real half = 0.5L * (to - from);
     const Wave slip = derivative(spring_ + (state_ == 'P' ? -mu_ : mu_) * load_);
     for (std::size_t i = 0; i < n_nodes; ++i) {
-      const Real angle = 0.5L * (from + to) + half * rule.node[i];
+      const Instant now(0.5L * (from + to) + half * rule.node[i]);
       const Real weight = half * rule.weight[i];
-      const Real f = friction(angle);
-      const Real n = state_ == 'E' ? 0.0L : load_.at(angle);
-      const std::array<Real, 3> kernel{0.5L / pi, std::sin(angle) / pi, std::cos(angle) / pi};
+      const Real f = friction(now);
+      const Real n = state_ == 'E' ? 0.0L : load_.at(now);
+      const std::array<Real, 3> kernel{0.5L / pi, now.sin / pi, now.cos / pi};
       for (std::size_t k = 0; k < 3; ++k) {
         result_.friction[k] += weight * kernel[k] * f;
         result_.normal[k] += weight * kernel[k] * n;
       }
       if ((state_ == 'P' || state_ == 'N') && k_u_ > 0.0L) {
-        const Real rate = std::abs(slip.at(angle)) / k_u_;
+        const Real rate = std::abs(slip.at(now)) / k_u_;
         result_.slip_distance += weight * rate;
         result_.dissipated_energy += weight * rate * mu_ * n;
       }

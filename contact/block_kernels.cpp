@@ -1,0 +1,141 @@
+#include "contact/block_kernels.hpp"
+
+namespace microslip::contact {
+namespace {
+
+// W doubles side by side; aligned as the arrays are, to one double only.
+template <int W>
+struct Lanes {
+  using Vector
+      [[gnu::vector_size(W * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] =
+          double;
+};
+
+#define MICROSLIP_INLINE [[gnu::always_inline]] inline
+
+template <int W>
+MICROSLIP_INLINE const typename Lanes<W>::Vector& at(const double* row, std::size_t point) {
+  return *reinterpret_cast<const typename Lanes<W>::Vector*>(row + point);
+}
+
+template <int W>
+MICROSLIP_INLINE void project(std::size_t n_modes, const double* phi, const double* q,
+                              double* motion) {
+  using Vector = typename Lanes<W>::Vector;
+  for (std::size_t point = 0; point < block_points; point += W) {
+    Vector sum[3] = {};
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const Vector& shape = at<W>(phi + mode * block_points, point);
+      for (std::size_t r = 0; r < 3; ++r) {
+        sum[r] += shape * q[r * n_modes + mode];
+      }
+    }
+    for (std::size_t r = 0; r < 3; ++r) {
+      *reinterpret_cast<Vector*>(motion + r * block_points + point) = sum[r];
+    }
+  }
+}
+
+template <int W>
+MICROSLIP_INLINE double total(const typename Lanes<W>::Vector& x) {
+  double sum = 0.0;
+  for (int k = 0; k < W; ++k) {
+    sum += x[k];
+  }
+  return sum;
+}
+
+template <int W>
+MICROSLIP_INLINE void add_force(std::size_t n_modes, const double* phi, const double* force,
+                                double* sum) {
+  using Vector = typename Lanes<W>::Vector;
+  for (std::size_t mode = 0; mode < n_modes; ++mode) {
+    Vector s[3] = {};
+    for (std::size_t point = 0; point < block_points; point += W) {
+      const Vector& shape = at<W>(phi + mode * block_points, point);
+      for (std::size_t r = 0; r < 3; ++r) {
+        s[r] += shape * at<W>(force + r * block_points, point);
+      }
+    }
+    for (std::size_t r = 0; r < 3; ++r) {
+      sum[r * n_modes + mode] += total<W>(s[r]);
+    }
+  }
+}
+
+// One pair of modes: E sums share the product of the two shapes and stay in registers.
+template <int W, std::size_t E>
+MICROSLIP_INLINE void add_pair(const double* phi, const double* psi, const double* a, double* sum) {
+  using Vector = typename Lanes<W>::Vector;
+  Vector s[E] = {};
+  for (std::size_t point = 0; point < block_points; point += W) {
+    const Vector product = at<W>(phi, point) * at<W>(psi, point);
+#pragma GCC unroll 16
+    for (std::size_t e = 0; e < E; ++e) {
+      s[e] += product * at<W>(a + e * block_points, point);
+    }
+  }
+#pragma GCC unroll 16
+  for (std::size_t e = 0; e < E; ++e) {
+    sum[e] += total<W>(s[e]);
+  }
+}
+
+template <int W, std::size_t E>
+MICROSLIP_INLINE void add_products(std::size_t n_modes, const double* phi, const double* psi,
+                                   const double* a, double* sum, bool half) {
+  for (std::size_t i = 0; i < n_modes; ++i) {
+    const std::size_t n_j = half ? i + 1 : n_modes;
+    for (std::size_t j = 0; j < n_j; ++j) {
+      add_pair<W, E>(phi + i * block_points, psi + j * block_points, a,
+                     sum + (i * n_modes + j) * E);
+    }
+  }
+}
+
+// One set of kernels per instruction set; the bodies above take on the target of the function they
+// are inlined into.
+#define MICROSLIP_KERNELS(name, width, attribute)                                                \
+  struct name {                                                                                  \
+    attribute static void motion(std::size_t n, const double* phi, const double* q, double* u) { \
+      project<width>(n, phi, q, u);                                                              \
+    }                                                                                            \
+    attribute static void force(std::size_t n, const double* phi, const double* f, double* g) {  \
+      add_force<width>(n, phi, f, g);                                                            \
+    }                                                                                            \
+    attribute static void products_9(std::size_t n, const double* phi, const double* psi,        \
+                                     const double* a, double* c) {                               \
+      add_products<width, 9>(n, phi, psi, a, c, false);                                          \
+    }                                                                                            \
+    attribute static void products_7(std::size_t n, const double* phi, const double* a,          \
+                                     double* c) {                                                \
+      add_products<width, 7>(n, phi, phi, a, c, true);                                           \
+    }                                                                                            \
+    attribute static void products_6(std::size_t n, const double* phi, const double* a,          \
+                                     double* c) {                                                \
+      add_products<width, 6>(n, phi, phi, a, c, true);                                           \
+    }                                                                                            \
+    static constexpr BlockKernels all{motion, force, products_9, products_7, products_6};        \
+  };
+
+MICROSLIP_KERNELS(PlainKernels, 2, )
+#if defined(__x86_64__)
+MICROSLIP_KERNELS(Avx2Kernels, 4, [[gnu::target("avx2,fma")]])
+MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
+#endif
+
+}  // namespace
+
+const BlockKernels& block_kernels() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
+    return Avx512Kernels::all;
+  }
+  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+    return Avx2Kernels::all;
+  }
+#endif
+  return PlainKernels::all;
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,131 @@
+/// @file
+/// Cost of a contact point: modal force and Jacobian of a patch together, ten modes, normal load
+/// that varies and separates, so that stick, stick–slip and separation all occur. Time per point in
+/// the counter `per_point`; BM_cycle and BM_kernels split it into its parts.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "contact/block_kernels.hpp"
+#include "contact/patch_force.hpp"
+#include "contact/point_motions.hpp"
+
+namespace {
+
+using namespace microslip::contact;
+
+constexpr Eigen::Index n_modes = 10;
+
+// Smooth shapes over a strip; amplitudes chosen so that about a third of the points stays stuck or
+// slips in contact and the rest separates during the period.
+struct Setup {
+  ContactPatch patch;
+  ModalShapes shapes;
+  Harmonics q;
+};
+
+ModalShapes shapes_of(Eigen::Index n) {
+  ModalShapes shapes{Eigen::MatrixXd(n, n_modes), Eigen::MatrixXd(n, n_modes), {}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    for (Eigen::Index mode = 0; mode < n_modes; ++mode) {
+      const auto m = static_cast<double>(mode + 1);
+      shapes.u(i, mode) = std::cos(m * x + 0.3 * m);
+      shapes.v(i, mode) = std::sin(2.0 * m * x + 0.7 * m);
+    }
+  }
+  return shapes;
+}
+
+Setup setup(Eigen::Index n) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<PointParameters> points(static_cast<std::size_t>(n));
+  for (PointParameters& point : points) {
+    point = {1e12, 1e12, 0.4, 1e6 * (1.5 + uniform(random))};
+  }
+  Harmonics q(1, n_modes);
+  for (Eigen::Index i = 0; i < q.vector().size(); ++i) {
+    q.vector()[i] = 8e-7 * uniform(random);
+  }
+  return {ContactPatch(Eigen::VectorXd::Constant(n, 1e-4 / static_cast<double>(n)), points),
+          shapes_of(n), q};
+}
+
+void count_points(benchmark::State& state, std::size_t n) {
+  state.counters["per_point"] =
+      benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate |
+                                                     benchmark::Counter::kInvert);
+}
+
+void patch_force(benchmark::State& state) {
+  const Setup s = setup(state.range(0));
+  const PatchForce force(s.patch, s.shapes);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(force.evaluate(s.q, 1000.0));
+  }
+  const CycleReport report = force.report(s.q, 1000.0);
+  state.counters["slip"] = report.slip_share;
+  state.counters["separated"] = report.separated_share;
+  count_points(state, static_cast<std::size_t>(state.range(0)));
+}
+BENCHMARK(patch_force)->Arg(30)->Arg(300)->Arg(3000)->Arg(30000);
+
+void cycles_only(benchmark::State& state) {
+  const Setup s = setup(state.range(0));
+  const std::vector<PointMotion> motions = point_motions(s.shapes, s.q);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      benchmark::DoNotOptimize(cycle_force(s.patch.points()[i], motions[i]));
+    }
+  }
+  count_points(state, motions.size());
+}
+BENCHMARK(cycles_only)->Arg(3000);
+
+void whole_cycles(benchmark::State& state) {
+  const Setup s = setup(state.range(0));
+  const std::vector<PointMotion> motions = point_motions(s.shapes, s.q);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      benchmark::DoNotOptimize(friction_cycle(s.patch.points()[i], motions[i]));
+    }
+  }
+  count_points(state, motions.size());
+}
+BENCHMARK(whole_cycles)->Arg(3000);
+
+void projection_only(benchmark::State& state) {
+  const std::vector<double> phi(n_modes * block_points, 0.5);
+  const std::vector<double> q(3 * n_modes, 1e-6);
+  std::vector<double> motion(3 * block_points);
+  for (auto _ : state) {
+    for (int direction = 0; direction < 2; ++direction) {
+      block_kernels().project(n_modes, phi.data(), q.data(), motion.data());
+      benchmark::ClobberMemory();
+    }
+  }
+  count_points(state, block_points);
+}
+BENCHMARK(projection_only);
+
+void jacobian_only(benchmark::State& state) {
+  const std::vector<double> phi(n_modes * block_points, 0.5);
+  const std::vector<double> psi(n_modes * block_points, 0.25);
+  const std::vector<double> entries(9 * block_points, 1e-3);
+  std::vector<double> sum(9 * n_modes * n_modes);
+  for (auto _ : state) {
+    block_kernels().add_products_9(n_modes, phi.data(), psi.data(), entries.data(), sum.data());
+    block_kernels().add_symmetric_products_7(n_modes, phi.data(), entries.data(), sum.data());
+    block_kernels().add_symmetric_products_6(n_modes, psi.data(), entries.data(), sum.data());
+    benchmark::ClobberMemory();
+  }
+  count_points(state, block_points);
+}
+BENCHMARK(jacobian_only);
+
+}  // namespace
+
+BENCHMARK_MAIN();
