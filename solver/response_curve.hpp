@@ -32,7 +32,6 @@ struct ResponsePoint {
   double determinant_sign = 0.0;   ///< of ∂R/∂q
   PointMark mark = PointMark::none;
   int iterations = 0;
-  double tangent_frequency = 0.0;  ///< ω component of the branch tangent, sign only is meaningful
 };
 
 struct ResponseCurve {

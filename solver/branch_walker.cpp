@@ -1,0 +1,160 @@
+#include "solver/branch_walker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace microslip::solver {
+namespace {
+
+// Lengths in scaled variables: a share of the amplitude, or of the width of the nearest resonance.
+constexpr double longest_step = 0.2;
+constexpr double shortest_step = 1e-7;
+// Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
+constexpr double kink_step = 2e-4;
+constexpr double cosine_limit = 0.93;      // 21.5°: beyond, the curve would look angular
+constexpr double angle_wanted = 0.13;      // rad per step
+constexpr double correction_limit = 0.3;   // of the step: beyond, the point may be another branch's
+constexpr int wanted_iterations = 4;
+
+double dot(const BranchVector& a, const BranchVector& b) {
+  return a.x.dot(b.x) + a.parameter * b.parameter;
+}
+
+double length(const BranchVector& a) { return std::sqrt(dot(a, a)); }
+
+BranchVector rescaled(const BranchVector& direction, const Scaling& from, const Scaling& to) {
+  BranchVector result{direction.x * (from.x / to.x),
+                      direction.parameter * (from.parameter / to.parameter)};
+  const double size = length(result);
+  result.x /= size;
+  result.parameter /= size;
+  return result;
+}
+
+BranchVector difference(const BranchVector& a, const BranchVector& b, const Scaling& scaling) {
+  return {(a.x - b.x) / scaling.x, (a.parameter - b.parameter) / scaling.parameter};
+}
+
+BranchVector moved(const BranchVector& from, const BranchVector& direction, double distance,
+                   const Scaling& scaling) {
+  return {from.x + distance * scaling.x * direction.x,
+          from.parameter + distance * scaling.parameter * direction.parameter};
+}
+
+}  // namespace
+
+BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start,
+                           double forward)
+    : system_(std::move(system)), rule_(std::move(rule)) {
+  now_.scaling = rule_(start);
+  now_.solution = std::move(start);
+  const BranchVector along{Eigen::VectorXd::Zero(now_.solution.point.x.size()), forward};
+  const Tangent tangent = branch_tangent(now_.solution.evaluation, along, now_.scaling);
+  now_.tangent = tangent.direction;
+  orientation_ = tangent.orientation;
+  before_ = now_;
+}
+
+BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) const {
+  Trial trial;
+  NewtonOptions options;
+  options.max_iterations = max_iterations;
+  const BranchVector predicted =
+      moved(now_.solution.point, now_.tangent, distance, now_.scaling);
+  NewtonResult solution =
+      solve_newton(system_, predicted, now_.tangent, now_.scaling, options);
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  trial.converged = solution.converged;
+  if (!solution.converged) return trial;
+  trial.correction = length(difference(solution.point, predicted, now_.scaling)) / distance;
+  const Scaling scaling = rule_(solution);
+  const BranchVector previous = rescaled(now_.tangent, now_.scaling, scaling);
+  const Tangent tangent = branch_tangent(solution.evaluation, previous, scaling);
+  trial.cosine = dot(tangent.direction, previous);
+  trial.orientation = tangent.orientation;
+  trial.point = {std::move(solution), tangent.direction, scaling};
+  return trial;
+}
+
+bool BranchWalker::smooth(const Trial& trial) const {
+  return trial.cosine > cosine_limit && trial.correction < correction_limit;
+}
+
+void BranchWalker::accept(Trial trial) {
+  // At a kink where the branch turns back by more than a right angle the determinant tells the way on.
+  const bool turned = trial.orientation != 0.0 && orientation_ != 0.0 &&
+                      trial.orientation != orientation_;
+  if (turned && trial.cosine < cosine_limit) {
+    trial.point.tangent.x = -trial.point.tangent.x;
+    trial.point.tangent.parameter = -trial.point.tangent.parameter;
+  } else if (trial.orientation != 0.0) {
+    orientation_ = trial.orientation;
+  }
+  before_ = std::move(now_);
+  now_ = std::move(trial.point);
+}
+
+void BranchWalker::choose_step(const Trial& trial) {
+  const double effort = std::sqrt(static_cast<double>(wanted_iterations) /
+                                  std::max(trial.point.solution.iterations, 1));
+  const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
+  const double bend = angle > 0.0 ? angle_wanted / angle : 2.0;
+  step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
+}
+
+bool BranchWalker::advance() {
+  while (step_ >= shortest_step) {
+    Trial trial = attempt(step_, 10);
+    if (trial.converged && (smooth(trial) || step_ < kink_step)) {
+      choose_step(trial);
+      accept(std::move(trial));
+      return true;
+    }
+    step_ *= 0.5;
+  }
+  return leap();
+}
+
+bool BranchWalker::leap() {
+  // A kink the corrector cannot cross in small steps may be crossed in a long one.
+  for (double distance = 1e-5; distance < 2.0 * longest_step; distance *= 3.0) {
+    Trial trial = attempt(distance, 40);
+    if (!trial.converged || trial.correction > 1.0) continue;
+    step_ = std::min(distance, 1e-2);
+    accept(std::move(trial));
+    return true;
+  }
+  return false;
+}
+
+std::optional<WalkerPoint> BranchWalker::between(double share) const {
+  const Scaling& scaling = now_.scaling;
+  BranchVector chord = difference(now_.solution.point, before_.solution.point, scaling);
+  const double size = length(chord);
+  if (size == 0.0) return std::nullopt;
+  chord.x /= size;
+  chord.parameter /= size;
+  const BranchVector start = moved(before_.solution.point, chord, share * size, scaling);
+  NewtonResult solution = solve_newton(system_, start, chord, scaling, {});
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  if (!solution.converged) return std::nullopt;
+  const Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
+  return WalkerPoint{std::move(solution), tangent.direction, scaling};
+}
+
+NewtonResult BranchWalker::at_parameter(double parameter, double share) const {
+  const auto& a = before_.solution.point;
+  const auto& b = now_.solution.point;
+  NewtonOptions options;
+  options.max_iterations = 30;
+  NewtonResult result = solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling,
+                                     options);
+  evaluations_ += result.evaluations;
+  iterations_ += result.iterations;
+  return result;
+}
+
+}  // namespace microslip::solver

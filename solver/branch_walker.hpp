@@ -1,0 +1,69 @@
+/// @file
+/// One step at a time along a solution branch R(x, p) = 0 by pseudo-arclength continuation (theory
+/// section 16). The step chooses itself by curvature, Newton's effort and the distance to the next
+/// kink of the force; what stalls is tried again by a ladder of remedies.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "solver/newton.hpp"
+
+namespace microslip::solver {
+
+/// Scaling for the next step at an accepted point.
+using ScalingRule = std::function<Scaling(const NewtonResult& at)>;
+
+/// A point of the branch with what the next step and the search for peaks and folds need.
+struct WalkerPoint {
+  NewtonResult solution;
+  BranchVector tangent;  ///< in scaled variables of `scaling`
+  Scaling scaling;
+};
+
+class BranchWalker {
+ public:
+  /// @param start    converged.
+  /// @param forward  sign of the parameter's first change, 1 or −1.
+  BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start, double forward);
+
+  /// One accepted step. False: no remedy helped; now() is the last good point.
+  [[nodiscard]] bool advance();
+
+  [[nodiscard]] const WalkerPoint& now() const { return now_; }
+  [[nodiscard]] const WalkerPoint& before() const { return before_; }
+  /// The branch between before() and now() at a share of the way, 0 … 1; empty: Newton failed there.
+  [[nodiscard]] std::optional<WalkerPoint> between(double share) const;
+  /// The solution at a fixed parameter near now() and before(), from the share of the way given.
+  [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
+
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] long iterations() const { return iterations_; }
+  [[nodiscard]] double step() const { return step_; }
+
+ private:
+  struct Trial {
+    WalkerPoint point;
+    double cosine = -1.0;  ///< between the old and the new tangent
+    double correction = 0.0;  ///< distance from predictor to corrected point, over the step
+    double orientation = 0.0;
+    bool converged = false;
+  };
+
+  [[nodiscard]] Trial attempt(double length, int max_iterations) const;
+  [[nodiscard]] bool smooth(const Trial& trial) const;
+  void accept(Trial trial);
+  void choose_step(const Trial& trial);
+  [[nodiscard]] bool leap();
+
+  ParametricSystem system_;
+  ScalingRule rule_;
+  WalkerPoint now_;
+  WalkerPoint before_;
+  double step_ = 0.05;
+  double orientation_ = 0.0;  ///< 0: not known yet
+  mutable long evaluations_ = 0;
+  mutable long iterations_ = 0;
+};
+
+}  // namespace microslip::solver

@@ -1,0 +1,151 @@
+#include "solver/continuation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "solver/certificate.hpp"
+#include "solver/curve_tracer.hpp"
+#include "solver/linear_force.hpp"
+#include "solver/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+void check_range(const ContinuationOptions& options) {
+  const auto bad = [](double frequency) { return !(frequency > 0.0) || !std::isfinite(frequency); };
+  if (bad(options.frequency_begin) || bad(options.frequency_end)) {
+    throw std::invalid_argument("continuation: frequencies " +
+                                std::to_string(options.frequency_begin) + " and " +
+                                std::to_string(options.frequency_end) +
+                                " rad/s; both must be finite and above 0");
+  }
+}
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
+
+void note_boundary_peak(ResponseCurve& curve) {
+  if (!curve.complete || curve.points.size() < 2) return;
+  const auto largest = std::max_element(
+      curve.points.begin(), curve.points.end(),
+      [](const ResponsePoint& a, const ResponsePoint& b) { return a.amplitude < b.amplitude; });
+  const bool at_end = largest == curve.points.begin() || largest == std::prev(curve.points.end());
+  if (at_end && largest->amplitude > 0.0) {
+    curve.message = "peak at boundary: the largest amplitude lies at an end of the range";
+  }
+}
+
+/// From the other end; the points are turned to the order asked for.
+ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
+                              const PointObserver& observe) {
+  std::swap(options.frequency_begin, options.frequency_end);
+  ResponseCurve curve = CurveTracer(scene, options, observe).run();
+  std::reverse(curve.points.begin(), curve.points.end());
+  return curve;
+}
+
+}  // namespace
+
+ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
+                             const PointObserver& observe) {
+  check_range(options);
+  if (options.frequency_begin == options.frequency_end) {
+    return solve_at_frequency(scene, options.frequency_begin, options);
+  }
+  const Stopwatch watch;
+  ResponseCurve curve = CurveTracer(scene, options, observe).run();
+  if (!curve.complete && curve.diagnosis != "interrupted") {
+    ResponseCurve other = trace_backwards(scene, options, observe);
+    const long iterations = curve.iterations + other.iterations;
+    const long evaluations = curve.contact_evaluations + other.contact_evaluations;
+    if (other.complete || other.points.size() > curve.points.size()) curve = std::move(other);
+    curve.iterations = iterations;
+    curve.contact_evaluations = evaluations;
+  }
+  note_boundary_peak(curve);
+  curve.seconds = watch.seconds();
+  return curve;
+}
+
+ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
+                                 const ContinuationOptions& options) {
+  ContinuationOptions here = options;
+  here.frequency_begin = here.frequency_end = frequency;
+  check_range(here);
+  const Stopwatch watch;
+  const HarmonicBalance balance(scene, options.n_harmonics);
+  const StartPoint start = find_start(balance, frequency, options.residual_tolerance);
+  ResponseCurve curve;
+  curve.iterations = start.iterations;
+  curve.contact_evaluations = start.evaluations;
+  if (start.solution) {
+    const auto stability =
+        assess_stability(balance, start.solution->evaluation.jacobian, frequency);
+    curve.points.push_back(certified_point(balance, *start.solution, frequency, stability));
+    curve.complete = true;
+  } else {
+    curve.diagnosis = "no-start";
+    curve.message = "no solution found; tried " + start.way;
+  }
+  curve.seconds = watch.seconds();
+  return curve;
+}
+
+std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const ResponseCurve& curve,
+                                               double frequency,
+                                               const ContinuationOptions& options) {
+  const HarmonicBalance balance(scene, options.n_harmonics);
+  std::vector<ResponsePoint> found;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const ResponsePoint& a = curve.points[i - 1];
+    const ResponsePoint& b = curve.points[i];
+    const bool crosses = (a.frequency <= frequency) != (b.frequency <= frequency);
+    const bool ends_here = i + 1 == curve.points.size() && b.frequency == frequency && !crosses;
+    if (!crosses && !ends_here) continue;
+    const double share = ends_here ? 1.0 : (frequency - a.frequency) / (b.frequency - a.frequency);
+    const Eigen::VectorXd guess = (1.0 - share) * a.q.vector() + share * b.q.vector();
+    NewtonOptions newton;
+    newton.tolerance = options.residual_tolerance;
+    newton.max_iterations = 30;
+    const NewtonResult solution = solve_at(balance, guess, frequency, newton);
+    if (!solution.converged) continue;
+    found.push_back(
+        certified_point(balance, solution, frequency,
+                        assess_stability(balance, solution.evaluation.jacobian, frequency)));
+  }
+  return found;
+}
+
+ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
+                           const ContinuationOptions& options) {
+  Scene linear;
+  linear.natural_frequency = scene.natural_frequency;
+  linear.damping_ratio = scene.damping_ratio;
+  linear.excitation = scene.excitation;
+  linear.output = scene.output;
+  if (scene.contact) {
+    const Eigen::Index n = scene.n_modes();
+    linear.contact = limit == LinearLimit::stuck
+                         ? std::make_unique<LinearForce>(scene.contact->stuck_stiffness(),
+                                                         contact::CycleReport{1.0, 0.0, 0.0})
+                         : std::make_unique<LinearForce>(Eigen::MatrixXd::Zero(n, n),
+                                                         contact::CycleReport{0.0, 0.0, 1.0});
+  }
+  ResponseCurve curve = trace_response(linear, options);
+  curve.contact_evaluations = 0;  // nothing nonlinear was evaluated
+  return curve;
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,146 @@
+#include "solver/harmonic_balance.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/LU>
+
+namespace microslip::solver {
+namespace {
+
+void require(bool condition, const std::string& message) {
+  if (!condition) throw std::invalid_argument("scene: " + message);
+}
+
+void check(const Scene& scene, int n_harmonics) {
+  const Eigen::Index n = scene.n_modes();
+  require(n_harmonics >= 1, "at least one harmonic, not " + std::to_string(n_harmonics));
+  require(n >= 1, "no modes");
+  require(scene.damping_ratio.size() == n && scene.output.size() == n &&
+              scene.excitation.n_signals() == n,
+          "damping ratios, output and excitation must have one entry per mode (" +
+              std::to_string(n) + ")");
+  require(scene.contact == nullptr || scene.contact->n_modes() == n,
+          "the contact has another number of modes");
+  require(scene.natural_frequency.allFinite() && (scene.natural_frequency.array() >= 0.0).all(),
+          "natural frequencies must be finite and at least 0");
+  require(scene.damping_ratio.allFinite() && scene.output.allFinite() &&
+              scene.excitation.rows().allFinite(),
+          "damping ratios, output and excitation must be finite");
+}
+
+}  // namespace
+
+HarmonicBalance::HarmonicBalance(const Scene& scene, int n_harmonics)
+    : scene_(scene), n_harmonics_(n_harmonics) {
+  check(scene, n_harmonics);
+  const Eigen::Index n = scene.n_modes();
+  Harmonics excitation(n_harmonics, n);
+  const Eigen::Index rows = std::min(excitation.rows().rows(), scene.excitation.rows().rows());
+  excitation.rows().topRows(rows) = scene.excitation.rows().topRows(rows);
+  excitation_ = excitation.vector();
+  stiffness_ = scene.natural_frequency.array().square();
+  damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+  stuck_stiffness_ =
+      scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
+}
+
+Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
+  return {n_harmonics_, scene_.n_modes(), x};
+}
+
+void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
+                                      BalanceEvaluation& result) const {
+  const Eigen::Index n = scene_.n_modes();
+  auto& J = result.jacobian;
+  result.residual.head(n) += stiffness_.cwiseProduct(x.head(n));
+  J.diagonal().head(n) += stiffness_;
+  for (int k = 1; k <= n_harmonics_; ++k) {
+    const Eigen::Index s = (2 * k - 1) * n;
+    const Eigen::Index c = s + n;
+    const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
+    const Eigen::ArrayXd viscous = k * frequency * damping_.array();
+    const auto sine = x.segment(s, n).array();
+    const auto cosine = x.segment(c, n).array();
+    result.residual.segment(s, n).array() += dynamic * sine - viscous * cosine;
+    result.residual.segment(c, n).array() += dynamic * cosine + viscous * sine;
+    result.parameter_derivative.segment(s, n).array() +=
+        -2.0 * k * k * frequency * sine - k * damping_.array() * cosine;
+    result.parameter_derivative.segment(c, n).array() +=
+        -2.0 * k * k * frequency * cosine + k * damping_.array() * sine;
+    J.diagonal().segment(s, 2 * n) += dynamic.matrix().replicate(2, 1);
+    J.block(s, c, n, n).diagonal() -= viscous.matrix();
+    J.block(c, s, n, n).diagonal() += viscous.matrix();
+  }
+}
+
+void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
+                                    Eigen::MatrixXd& matrix) const {
+  const Eigen::Index n = scene_.n_modes();
+  for (Eigen::Index i = 0; i < size(); i += n) matrix.block(i, i, n, n) += factor * stiffness;
+}
+
+BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) const {
+  BalanceEvaluation result;
+  if (scene_.contact) {
+    contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency);
+    result.contact_force = contact.force.vector();
+    result.residual = result.contact_force - excitation_;
+    result.jacobian = std::move(contact.jacobian);
+    result.parameter_derivative = std::move(contact.frequency_derivative);
+  } else {
+    result.contact_force = Eigen::VectorXd::Zero(size());
+    result.residual = -excitation_;
+    result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+    result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  }
+  add_linear_part(x, frequency, result);
+  return result;
+}
+
+BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, double frequency,
+                                                     double share,
+                                                     const Eigen::MatrixXd& stiffness) const {
+  BalanceEvaluation result;
+  const contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency);
+  result.contact_force = contact.force.vector();
+  Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
+  add_stiffness(stiffness, 1.0, linear);
+  const Eigen::VectorXd linear_force = linear * x;
+  result.residual =
+      share * result.contact_force + (1.0 - share) * linear_force - excitation_;
+  result.jacobian = share * contact.jacobian + (1.0 - share) * linear;
+  result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  add_linear_part(x, frequency, result);
+  result.parameter_derivative = result.contact_force - linear_force;
+  return result;
+}
+
+Eigen::MatrixXd HarmonicBalance::linear_operator(double frequency) const {
+  BalanceEvaluation result;
+  result.residual = Eigen::VectorXd::Zero(size());
+  result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+  add_linear_part(Eigen::VectorXd::Zero(size()), frequency, result);
+  return result.jacobian;
+}
+
+Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
+                                                 const Eigen::MatrixXd& stiffness) const {
+  Eigen::MatrixXd matrix = linear_operator(frequency);
+  add_stiffness(stiffness, 1.0, matrix);
+  return matrix.partialPivLu().solve(excitation_);
+}
+
+double HarmonicBalance::force_scale(double frequency) const {
+  const double load = excitation_.norm();
+  if (load == 0.0 || !scene_.contact) return load;
+  const Eigen::VectorXd stuck = linear_response(frequency, stuck_stiffness_);
+  if (!stuck.allFinite()) return load;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
+  add_stiffness(stuck_stiffness_, 1.0, stiffness);
+  return std::max(load, (stiffness * stuck).norm());
+}
+
+}  // namespace microslip::solver

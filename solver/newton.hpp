@@ -1,0 +1,65 @@
+/// @file
+/// Newton's method for a residual that is only piecewise smooth, on the plane through the first iterate
+/// that a constraint row spans: the corrector of continuation, and at fixed parameter the plain solver.
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "solver/harmonic_balance.hpp"
+
+namespace microslip::solver {
+
+/// R(x, p) and its derivatives.
+using ParametricSystem = std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
+
+/// Sizes that make unknowns, parameter and residual numbers of order one. All > 0.
+struct Scaling {
+  double x = 1.0;
+  double parameter = 1.0;
+  double residual = 1.0;
+};
+
+/// A point of the branch, or a direction: (x, p).
+struct BranchVector {
+  Eigen::VectorXd x;
+  double parameter = 0.0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual
+  int max_iterations = 15;
+};
+
+struct NewtonResult {
+  BranchVector point;
+  BalanceEvaluation evaluation;  ///< at `point`
+  double residual = 0.0;         ///< ‖R‖ / scaling.residual
+  int iterations = 0;            ///< Newton steps until the tolerance was met
+  int evaluations = 0;
+  bool converged = false;
+};
+
+/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After the tolerance is met the iteration goes on while
+/// the residual still falls: points carry rounding error only.
+/// @param constraint  (c_x, c_p) in scaled variables; (0, 1) holds the parameter.
+[[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                                        const BranchVector& constraint, const Scaling& scaling,
+                                        const NewtonOptions& options);
+
+/// Newton at a fixed parameter.
+[[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                                        const Scaling& scaling, const NewtonOptions& options);
+
+/// Tangent of the branch in scaled variables, of length one.
+struct Tangent {
+  BranchVector direction;
+  double orientation = 0.0;  ///< sign of det [∂R/∂y; tᵀ]: constant along a branch, kinks included
+};
+
+/// @param previous  last tangent; the new one makes an angle below 90° with it.
+[[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
+                                     const Scaling& scaling);
+
+}  // namespace microslip::solver
