@@ -26,14 +26,16 @@ struct HalfAngle {
   Direction direction;
 };
 
+// Shares before roots: scaling all forces by a power of two, odd or even, changes no bit.
 HalfAngle from_versines(double one_minus_cos, double one_plus_cos) {
-  const double s = std::sqrt(std::max(one_minus_cos, 0.0));
-  const double c = std::sqrt(std::max(one_plus_cos, 0.0));
-  const double square = s * s + c * c;
-  if (square <= 0.0) {
+  const double x = std::max(one_minus_cos, 0.0);
+  const double y = std::max(one_plus_cos, 0.0);
+  if (x + y <= 0.0) {
     return {0.0, {}};
   }
-  return {2.0 * std::atan2(s, c), {2.0 * s * c / square, (c - s) * (c + s) / square}};
+  const double s = std::sqrt(x / (x + y));
+  const double c = std::sqrt(y / (x + y));
+  return {2.0 * std::atan2(s, c), {2.0 * s * c, (c - s) * (c + s)}};
 }
 
 // What follows a slip phase: stick, then slip the other way until its own extremum.

@@ -70,6 +70,16 @@ PhaseSums phase_sums(const CyclePhases& phases) {
   return sums;
 }
 
+// From touch-down to lift-off; separation is the last phase.
+Integrals contact_integrals(const CyclePhases& phases) {
+  const auto last = static_cast<std::size_t>(phases.n_phases - 1);
+  double length = 0.0;
+  for (std::size_t i = 0; i < last; ++i) {
+    length += phases.phase[i].length;
+  }
+  return integrals(phases.phase[0].begin, phases.phase[last].begin, length);
+}
+
 // A force offset c that is frozen during a stick phase, and its derivatives (theory section 6).
 struct Memory {
   double value = 0.0;
@@ -232,11 +242,7 @@ Solution solve(const PointParameters& point, const PointMotion& motion) {
   }
   const PhaseSums sums = phase_sums(solution.phases);
   if (solution.regime == CycleRegime::separation) {
-    Integrals contact;
-    for (std::size_t k = 1; k < sums.by_kind.size(); ++k) {
-      contact += sums.by_kind[k];
-    }
-    set_normal(solution.force, w, point, motion, contact);
+    set_normal(solution.force, w, point, motion, contact_integrals(solution.phases));
   }
   if (!frictionless(point)) {
     set_friction(solution.force, w, point, motion, solution.phases, sums);
