@@ -16,10 +16,10 @@ namespace microslip::contact {
 
 /// Fields over n points at m phases; matrices are n × m.
 struct ContactMap {
-  Eigen::VectorXd phase;                                    ///< θ [rad], m
+  Eigen::VectorXd phase;                                              ///< θ [rad], m
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic> state;  ///< ContactState values
-  Eigen::MatrixXd normal_traction;        ///< n [Pa]
-  Eigen::MatrixXd friction_traction;      ///< f [Pa], along p
+  Eigen::MatrixXd normal_traction;                                    ///< n [Pa]
+  Eigen::MatrixXd friction_traction;                                  ///< f [Pa], along p
   Eigen::MatrixXd relative_displacement;  ///< u [m], along p, mean included
   Eigen::MatrixXd approach;               ///< v [m], along q, mean included
   Eigen::MatrixXd slip;                   ///< s, position of the slider [m]

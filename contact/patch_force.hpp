@@ -1,6 +1,11 @@
 /// @file
 /// Modal force of a friction patch: field → point cycles → modal force and exact Jacobian by
 /// quadrature over the points (theory section 13).
+///
+///   G_n^s = Σ_i w_i [ φ_u,in f_s,i + φ_v,in n_s,i ],       G_n^c likewise
+///   G_b,n = Σ_i w_i [ φ_u,in f_b,i + φ_v,in (n_b,i − n_ref,i) ],    n_ref = max(n₀', 0)
+///
+/// and ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i with the 6 × 6 Jacobian J_i of the point.
 #pragma once
 
 #include "contact/contact_patch.hpp"
@@ -11,14 +16,16 @@ namespace microslip::contact {
 class PatchForce final : public ModalForce {
  public:
   /// @param patch   points, n_points.
-  /// @param shapes  relative mode shapes at the points, n_points × n_modes.
+  /// @param shapes  relative mode shapes at the points, n_points × n_modes; w is not used.
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
   PatchForce(ContactPatch patch, ModalShapes shapes);
 
   [[nodiscard]] Eigen::Index n_modes() const override;
   /// H = 1. @throws std::invalid_argument  another number of harmonics or modes.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
+  /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
+  /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ) dA; a point without friction (μ = 0) resists normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
 
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }

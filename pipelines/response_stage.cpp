@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "contact/patch_force.hpp"
@@ -122,6 +123,20 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
         contact::ContactPatch(model.weights, point_parameters(model, load, false)), model.shapes);
   }
   return scene;
+}
+
+void require_held(const ReducedModel& model) {
+  const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
+  if (n_rigid == 0) return;
+  const solver::Scene scene = solver_scene(model, 1.0);
+  Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
+  if (scene.contact) stuck += scene.contact->stuck_stiffness();
+  const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
+  if (factors.isInvertible()) return;
+  throw RefusedError(fmt::format(
+      "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
+      "with every contact point stuck): name the clamped surfaces in [supports] clamped",
+      n_rigid, model.frequency.size(), factors.dimensionOfKernel()));
 }
 
 solver::ContinuationOptions continuation_options(const ResponseDescription& response) {

@@ -1,0 +1,21 @@
+/// @file
+/// Motion of the points of a patch from the modal coordinates: u = Φ_u q, v = Φ_v q, harmonic by
+/// harmonic (theory section 13).
+#pragma once
+
+#include <vector>
+
+#include "contact/contact_patch.hpp"
+#include "contact/friction_cycle.hpp"
+#include "contact/harmonics.hpp"
+
+namespace microslip::contact {
+
+/// @throws std::invalid_argument  q has another number of harmonics than 1 or of modes than the
+///         shapes.
+void require_single_harmonic(const Harmonics& q, Eigen::Index n_modes);
+
+/// @param shapes  n_points × n_modes.   @param q  H = 1, n_modes.   @return n_points.
+[[nodiscard]] std::vector<PointMotion> point_motions(const ModalShapes& shapes, const Harmonics& q);
+
+}  // namespace microslip::contact

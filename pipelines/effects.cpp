@@ -1,0 +1,66 @@
+#include "pipelines/effects.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace microslip::pipelines {
+namespace {
+
+/// What the scene's numbers say about its contact.
+struct ContactFacts {
+  bool has_contact = false;
+  bool has_friction = false;
+  bool has_normal_stiffness = false;
+};
+
+ContactFacts facts_of(const SceneDescription& scene) {
+  ContactFacts facts;
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    facts.has_contact = !modal->points.empty();
+    facts.has_friction = std::any_of(modal->points.begin(), modal->points.end(), [](const auto& p) {
+      return p.friction_coefficient > 0.0 && p.tangential_stiffness > 0.0;
+    });
+    facts.has_normal_stiffness = std::any_of(modal->points.begin(), modal->points.end(),
+                                             [](const auto& p) { return p.normal_stiffness > 0.0; });
+  } else if (scene.contact) {
+    facts.has_contact = true;
+    facts.has_friction = scene.contact->friction_coefficient > 0.0;
+    facts.has_normal_stiffness = scene.contact->normal_stiffness.value_or(1.0) > 0.0;
+  }
+  return facts;
+}
+
+std::string setting_of(const SceneDescription& scene, const std::string& name) {
+  for (const auto& [effect, setting] : scene.effects) {
+    if (effect == name) return setting;
+  }
+  return "auto";
+}
+
+}  // namespace
+
+std::vector<EffectRecord> effects_of(const SceneDescription& scene) {
+  const ContactFacts facts = facts_of(scene);
+  const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
+  const bool normal = facts.has_normal_stiffness;
+  std::vector<EffectRecord> effects;
+  const auto add = [&](const char* name, bool simulated, const char* why, const char* why_not) {
+    effects.push_back({name, setting_of(scene, name), simulated, simulated ? why : why_not});
+  };
+  add("friction", facts.has_friction, "friction coefficient and tangential stiffness are positive",
+      facts.has_contact ? "no point has friction" : "the scene has no contact");
+  add("normal_motion", normal, "the contact has normal stiffness: its load varies with the approach",
+      "no normal stiffness: the load is constant");
+  add("separation", normal, "the contact is one-sided", "the load is constant");
+  add("mean_coupling", normal, "the mean approach changes the load", "the load is constant");
+  add("residual", meshed && facts.has_contact && scene.modes.residual == ResidualKind::stiffness,
+      "flexibility of the omitted modes stands in series with the contact stiffness",
+      meshed ? "modes.residual = \"none\", or no contact" : "the given stiffness is used as it is");
+  add("stability", facts.has_contact, "slow-flow eigenvalues of every point",
+      "a linear scene is stable");
+  add("second_direction", false, "", "friction acts along the slip direction only in this version");
+  add("higher_harmonics", false, "", "mean and first harmonic in this version");
+  return effects;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,249 @@
+#include "pipelines/run_record.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <numbers>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fem/slepc_session.hpp"
+#include "pipelines/effects.hpp"
+#include "pipelines/exit_code.hpp"
+#include "pipelines/interrupt.hpp"
+#include "pipelines/output_file.hpp"
+#include "pipelines/response_stage.hpp"
+#include "pipelines/write_csv.hpp"
+#include "pipelines/model_file.hpp"
+#include "pipelines/write_map.hpp"
+#include "pipelines/write_vtk.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
+constexpr double to_hz = 0.5 / std::numbers::pi;
+
+/// An advisory lock that dies with the process: two runs in one folder would mix their files.
+int lock_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / ".lock";
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) throw ExhaustedError("cannot write in " + folder.string());
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor);
+    throw ExhaustedError("another run is writing in " + folder.string() + "; choose another -o");
+  }
+  return descriptor;
+}
+
+/// Files of an earlier run would stand beside the new ones and be taken for theirs.
+void clear_results(const std::filesystem::path& folder) {
+  for (const char* name : {"curves", "maps", "motion", "plots", "summary.json", "modes.csv",
+                           "modes.vtu", "model.h5", "report.md", "peak_against_preload.csv"}) {
+    std::error_code ignored;  // what cannot be removed cannot be written either: said there
+    std::filesystem::remove_all(folder / name, ignored);
+  }
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
+    : folder_(options.output),
+      writes_(options.rank == 0),
+      progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
+                writes_ ? options.verbosity : Verbosity::quiet) {
+  summary_.version = MICROSLIP_VERSION;
+  summary_.scene = scene.file.filename().string();
+  summary_.title = scene.title;
+  summary_.machine = describe_machine();
+  summary_.libraries = library_versions();
+  summary_.effects = effects_of(scene);
+  if (!writes_) return;
+  make_folder(folder_);
+  require_writable(folder_);
+  lock_ = lock_folder(folder_);
+  clear_results(folder_);
+  progress_.keep_in(folder_);
+  write_whole(folder_ / "scene.toml", scene.complete_toml);
+}
+
+RunRecord::~RunRecord() {
+  if (lock_ < 0) return;
+  ::unlink((folder_ / ".lock").c_str());
+  ::close(lock_);
+}
+
+int RunRecord::run(const std::function<void()>& stages) {
+  std::jthread watch([this](const std::stop_token& stop) {
+    while (!interrupt_requested()) {
+      if (stop.stop_requested()) return;
+      std::this_thread::sleep_for(20ms);
+    }
+    for (auto waited = 0ms; waited < patience; waited += 20ms) {
+      if (stop.stop_requested()) return;
+      std::this_thread::sleep_for(20ms);
+    }
+    fail(ExitCode::incomplete, "interrupted");  // a library is in the way: end here
+    std::_Exit(static_cast<int>(ExitCode::incomplete));
+  });
+  try {
+    stages();
+  } catch (const std::exception& error) {
+    watch.request_stop();
+    watch.join();
+    fail(exit_code_of(error), error.what());
+    throw;
+  }
+  watch.request_stop();
+  watch.join();
+  progress_.finish();
+  keep_summary();
+  return static_cast<int>(verdict());
+}
+
+void RunRecord::stage(const std::string& name) {
+  if (interrupt_requested()) throw InterruptedError("interrupted before the stage " + name);
+  progress_.stage(name);
+}
+
+void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
+  progress_.info(describe_mesh(mesh, density));
+  const std::lock_guard lock(mutex_);
+  summary_.mesh = MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(),
+                              density * mesh.volume()};
+}
+
+void RunRecord::describe(const StructureModes& modes) {
+  progress_.info(fmt::format("BLAS: {}", fem::blas_description()));
+  progress_.info(fmt::format(
+      "modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, factorisation {:.2f} s, "
+      "eigensolve {:.2f} s, inertia count {:.2f} s",
+      modes.n_dofs, modes.timings.assembly, modes.timings.ordering, modes.timings.factorisation,
+      modes.timings.eigensolve, modes.timings.inertia));
+  if (modes.basis.n_rigid_body > 0) {
+    progress_.info(fmt::format("{} rigid-body modes: nothing holds the structure against them",
+                               modes.basis.n_rigid_body));
+  }
+  for (Eigen::Index i = 0; i < modes.basis.frequency.size(); ++i) {
+    progress_.info(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
+                               to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
+  }
+  progress_.info(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
+                             modes.basis.inertia_count, modes.basis.frequency.size()));
+}
+
+void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
+                           const Eigen::VectorXd& damping_ratio) {
+  describe(modes);
+  const std::lock_guard lock(mutex_);
+  summary_.mesh->degrees_of_freedom = modes.n_dofs;
+  summary_.mesh->mass = modes.mass;
+  summary_.modes = summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {});
+  if (!writes_) return;
+  write_modes_csv(folder_ / "modes.csv",
+                  {modes.basis.frequency, modes.basis.residual, damping_ratio, {}});
+  write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
+}
+
+void RunRecord::keep_model(const ReducedModel& model) {
+  const std::lock_guard lock(mutex_);
+  Eigen::VectorXd residual(0);
+  if (!summary_.modes.empty() && summary_.modes.front().residual) {
+    residual.resize(static_cast<Eigen::Index>(summary_.modes.size()));
+    for (Eigen::Index i = 0; i < residual.size(); ++i) {
+      residual[i] = *summary_.modes[static_cast<std::size_t>(i)].residual;
+    }
+  }
+  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, model.fit_error);
+  if (!writes_) return;
+  write_modes_csv(folder_ / "modes.csv",
+                  {model.frequency, residual, model.damping_ratio, model.fit_error});
+  write_model(folder_ / "model.h5", model);
+}
+
+void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
+  structure_.emplace(Structure{mesh, std::move(basis)});
+}
+
+void RunRecord::keep_curve(const CurveResult& result, Eigen::Index n_modes) {
+  const auto& curve = result.curve;
+  const auto* peak = highest_peak(curve);
+  const std::string outcome =
+      curve.complete ? std::string("complete")
+                     : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
+  progress_.info(fmt::format(
+      "curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name, curve.points.size(),
+      curve.iterations, curve.seconds, outcome,
+      peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude,
+                                    to_hz * peak->frequency)
+                      : std::string()));
+  const std::lock_guard lock(mutex_);
+  summary_.curves.push_back(summarise(result));
+  write_curve(folder_, result, n_modes);
+}
+
+void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
+  const std::lock_guard lock(mutex_);
+  write_map(folder_ / "maps", model, map);
+  summary_.curves.at(curve).maps.push_back(map.name);
+}
+
+void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
+  if (!structure_) return;  // a modal scene has no body to draw
+  write_motion(folder_ / "motion", name, structure_->mesh, structure_->basis, point.q,
+               to_hz * point.frequency);
+}
+
+void RunRecord::keep_optimum(const solver::Optimum& optimum) {
+  progress_.info(optimum.found
+                     ? fmt::format("best preload: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
+                                   optimum.best.parameter, optimum.best.amplitude,
+                                   to_hz * optimum.best.frequency)
+                     : "best preload: not found: " + optimum.message);
+  const std::lock_guard lock(mutex_);
+  summary_.optimum = optimum;
+  write_optimum_csv(folder_ / "peak_against_preload.csv", optimum);
+}
+
+void RunRecord::keep_summary() {
+  const std::lock_guard lock(mutex_);
+  summary_.exit_code = verdict();
+  write_summary_file();
+}
+
+void RunRecord::write_summary_file() {
+  summary_.stages = progress_.stages();
+  summary_.warnings = progress_.warnings();
+  if (writes_) write_summary(folder_ / "summary.json", summary_);
+}
+
+void RunRecord::fail(ExitCode code, const std::string& message) {
+  progress_.error(message);
+  progress_.finish();
+  const std::lock_guard lock(mutex_);
+  summary_.exit_code = code;
+  summary_.message = message;
+  try {
+    write_summary_file();
+  } catch (const ExhaustedError& error) {
+    progress_.error(error.what());  // the first error is the one to report
+  }
+}
+
+ExitCode RunRecord::verdict() const {
+  const bool complete = std::all_of(summary_.curves.begin(), summary_.curves.end(),
+                                    [](const CurveSummary& curve) { return curve.complete; });
+  return complete ? ExitCode::complete : ExitCode::incomplete;
+}
+
+}  // namespace microslip::pipelines

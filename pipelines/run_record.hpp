@@ -1,0 +1,78 @@
+/// @file
+/// What a run leaves behind, kept as it goes: every finished part is on disk before the next begins, so
+/// that an error, an interrupt or a full disk costs only the part it hit.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "pipelines/progress.hpp"
+#include "pipelines/run_results.hpp"
+#include "pipelines/scene_error.hpp"
+#include "pipelines/structure_stage.hpp"
+#include "pipelines/study.hpp"
+#include "pipelines/write_summary.hpp"
+
+namespace microslip::pipelines {
+
+class RunRecord {
+ public:
+  /// Creates the run folder, its lock and log, and writes scene.toml. On MPI ranks above 0 nothing is
+  /// written by any member.
+  /// @throws ExhaustedError  the folder cannot be written, or another run holds it.
+  RunRecord(const SceneDescription& scene, const RunOptions& options);
+  ~RunRecord();
+  RunRecord(const RunRecord&) = delete;
+  RunRecord& operator=(const RunRecord&) = delete;
+  RunRecord(RunRecord&&) = delete;
+  RunRecord& operator=(RunRecord&&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] Progress& progress() { return progress_; }
+
+  /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
+  /// interrupt ends the process within a second, with summary.json written, even inside a library.
+  /// @return exit code: complete, or incomplete when a curve is.
+  int run(const std::function<void()>& stages);
+
+  void stage(const std::string& name);
+  void keep_mesh(const mesh::Mesh& mesh, double density);
+  /// modes.csv and modes.vtu, residuals and counts to the log.
+  void keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
+                  const Eigen::VectorXd& damping_ratio);
+  /// model.h5; a modal scene's modes.csv as well.
+  void keep_model(const ReducedModel& model);
+  /// Mesh and modes for pictures of the moving blade.
+  void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
+  void keep_curve(const CurveResult& result, Eigen::Index n_modes);
+  void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
+  /// Motion of the whole blade at one solution.
+  void keep_motion(const std::string& name, const solver::ResponsePoint& point);
+  void keep_optimum(const solver::Optimum& optimum);
+  void keep_summary();
+
+ private:
+  struct Structure {
+    mesh::Mesh mesh;
+    fem::ModalBasis basis;
+  };
+
+  void describe(const StructureModes& modes);
+  void write_summary_file();
+  void fail(ExitCode code, const std::string& message);
+  [[nodiscard]] ExitCode verdict() const;
+
+  std::filesystem::path folder_;
+  bool writes_;  ///< false on MPI ranks above 0
+  Progress progress_;
+  std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
+  RunSummary summary_;
+  std::optional<Structure> structure_;
+  int lock_ = -1;
+};
+
+}  // namespace microslip::pipelines

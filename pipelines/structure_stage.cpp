@@ -1,0 +1,58 @@
+#include "pipelines/structure_stage.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mesh/mesh_reader.hpp"
+#include "mesh/mesher_process.hpp"
+#include "pipelines/contact_stage.hpp"
+
+namespace microslip::pipelines {
+mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
+    mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file);
+    return mesh::read_gmsh(mesh_file);
+  }
+  const auto& given = std::get<MeshFileModel>(scene.model);
+  return mesh::read_gmsh(given.file, given.length_unit);
+}
+
+std::string describe_mesh(const mesh::Mesh& mesh, double density) {
+  const Eigen::Vector3d lower = mesh.lower();
+  const Eigen::Vector3d upper = mesh.upper();
+  std::string text = fmt::format(
+      "mesh: {} nodes, {} elements, volume {:.6g} m^3, mass {:.6g} kg\n"
+      "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
+      "surfaces: {}",
+      mesh.n_nodes(), mesh.n_elements(), mesh.volume(), density * mesh.volume(), lower.x(), upper.x(),
+      lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
+  const auto sets = mesh.node_set_names();
+  if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
+  return text;
+}
+
+void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  for (const std::string& name : scene.clamped) static_cast<void>(mesh.node_set(name));
+  for (const ForceDescription& force : scene.forces) static_cast<void>(mesh.node_set(force.at));
+  if (scene.response) static_cast<void>(mesh.node_set(scene.response->output.at));
+  if (scene.contact) static_cast<void>(contact_frame(mesh, *scene.contact));
+}
+
+StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  fem::Structure structure(mesh, scene.material, scene.clamped);
+  StructureModes result;
+  result.n_dofs = structure.n_dofs();
+  result.mass = structure.mass();
+  fem::ModalOptions options;
+  options.n_modes = scene.modes.count;
+  result.basis = structure.solve_modes(options);
+  if (scene.contact && scene.modes.residual == ResidualKind::stiffness &&
+      result.basis.n_rigid_body == 0) {
+    result.residual = structure.residual_flexibility(
+        result.basis, mesh.surface(scene.contact->surface), contact_frame(mesh, *scene.contact));
+  }
+  result.timings = structure.timings();
+  return result;
+}
+
+}  // namespace microslip::pipelines
