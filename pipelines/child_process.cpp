@@ -56,7 +56,8 @@ int start(const std::vector<std::string>& command, int output, pid_t& child) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const int code = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int code =
+      ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return code;
 }

@@ -41,7 +41,8 @@ std::filesystem::path plot_script() {
 
 std::string make_plots(const std::filesystem::path& folder) {
   try {
-    const ChildResult result = run_child({python, plot_script().string(), folder.string()}, plot_limit);
+    const ChildResult result =
+        run_child({python, plot_script().string(), folder.string()}, plot_limit);
     return result.succeeded ? "" : "plots were not made: " + result.message;
   } catch (const std::runtime_error& error) {
     return std::string("plots were not made: ") + error.what();
@@ -69,23 +70,25 @@ std::vector<std::string> plot_names(const std::filesystem::path& folder) {
 
 std::string preload_text(const Json& curve) {
   const Json& preload = curve.at("preload_N");
-  return preload.is_string() ? preload.get<std::string>() : fmt::format("{:g}", preload.get<double>());
+  return preload.is_string() ? preload.get<std::string>()
+                             : fmt::format("{:g}", preload.get<double>());
 }
 
 std::string structure_text(const Json& run) {
   std::string text;
   if (const Json& mesh = run.at("mesh"); !mesh.is_null()) {
-    text += fmt::format(
-        "Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
-        mesh.at("nodes").get<long>(), mesh.at("elements").get<long>(),
-        mesh.at("degrees_of_freedom").get<long>(), mesh.at("volume_m3").get<double>(),
-        mesh.at("mass_kg").get<double>());
+    text +=
+        fmt::format("Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
+                    mesh.at("nodes").get<long>(), mesh.at("elements").get<long>(),
+                    mesh.at("degrees_of_freedom").get<long>(), mesh.at("volume_m3").get<double>(),
+                    mesh.at("mass_kg").get<double>());
   }
   text += "| mode | frequency [Hz] | damping ratio |\n|---:|---:|---:|\n";
   int number = 0;
   for (const Json& mode : run.at("modes")) {
-    text += fmt::format("| {} | {:.4f} | {:.4g} |\n", ++number, mode.at("frequency_Hz").get<double>(),
-                        mode.at("damping_ratio").get<double>());
+    text +=
+        fmt::format("| {} | {:.4f} | {:.4g} |\n", ++number, mode.at("frequency_Hz").get<double>(),
+                    mode.at("damping_ratio").get<double>());
   }
   return text;
 }
@@ -101,11 +104,12 @@ std::string curve_row(const Json& curve) {
     folds += fmt::format("{}{:.4f}", folds.empty() ? "" : ", ", fold.get<double>());
   }
   const std::string name = curve.at("name").get<std::string>();
-  const std::string state = curve.at("complete").get<bool>()
-                                ? "complete"
-                                : fmt::format("**incomplete**: {}", curve.at("diagnosis").get<std::string>());
-  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n", preload_text(curve),
-                     peak_text, folds.empty() ? "–" : folds, state, name, name,
+  const std::string state =
+      curve.at("complete").get<bool>()
+          ? "complete"
+          : fmt::format("**incomplete**: {}", curve.at("diagnosis").get<std::string>());
+  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n",
+                     preload_text(curve), peak_text, folds.empty() ? "–" : folds, state, name, name,
                      curve.at("points").get<long>());
 }
 
@@ -130,8 +134,9 @@ std::string curves_text(const Json& run) {
 std::string cost_text(const Json& run) {
   std::string text = "| stage | seconds | memory [MB] |\n|---|---:|---:|\n";
   for (const Json& stage : run.at("stages")) {
-    text += fmt::format("| {} | {:.2f} | {:.0f} |\n", stage.at("name").get<std::string>(),
-                        stage.at("seconds").get<double>(), stage.at("peak_memory_MB").get<double>());
+    text +=
+        fmt::format("| {} | {:.2f} | {:.0f} |\n", stage.at("name").get<std::string>(),
+                    stage.at("seconds").get<double>(), stage.at("peak_memory_MB").get<double>());
   }
   const Json& machine = run.at("machine");
   return text + fmt::format("\n{}, {} cores; {}.\n", machine.at("processor").get<std::string>(),
@@ -162,8 +167,10 @@ std::string report_text(const std::string& summary_json, const std::vector<std::
     }
     text += "\n## Structure\n\n" + structure_text(run);
     if (!run.at("curves").empty()) text += "\n## Response\n\n" + curves_text(run);
-    return text.append("\n## Plots\n\n").append(plots_text(plots)).append("\n## Cost\n\n").append(
-        cost_text(run));
+    return text.append("\n## Plots\n\n")
+        .append(plots_text(plots))
+        .append("\n## Cost\n\n")
+        .append(cost_text(run));
   } catch (const Json::exception& error) {
     throw SceneError(std::string("summary.json: ") + error.what());
   }

@@ -49,8 +49,8 @@ TEST(WriteMap, EveryPhaseCarriesAllArraysOnCellsAndPoints) {
   expect_instant(*patch->GetPointData(), map.vertices, 3);
   EXPECT_EQ(values(*patch->GetFieldData(), "frequency_Hz")(0, 0), 301.25);
   EXPECT_EQ(values(*patch->GetFieldData(), "phase_deg")(0, 0), 135.0);
-  const auto* names = vtkStringArray::SafeDownCast(
-      patch->GetFieldData()->GetAbstractArray("state_names"));
+  const auto* names =
+      vtkStringArray::SafeDownCast(patch->GetFieldData()->GetAbstractArray("state_names"));
   ASSERT_NE(names, nullptr);
   EXPECT_EQ(names->GetNumberOfValues(), 5);
 }

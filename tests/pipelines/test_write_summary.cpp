@@ -33,16 +33,20 @@ RunSummary small_run() {
 
 TEST(WriteSummary, HasTheKeysOfTheInterface) {
   const json run = json::parse(summary_json(small_run()));
-  for (const char* key : {"program", "version", "machine", "libraries", "scene", "exit_code",
-                          "stages", "mesh", "modes", "curves", "optimum", "effects",
-                          "error_budget"}) {
+  for (const char* key :
+       {"program", "version", "machine", "libraries", "scene", "exit_code", "stages", "mesh",
+        "modes", "curves", "optimum", "effects", "error_budget"}) {
     EXPECT_TRUE(run.contains(key)) << key;
   }
   EXPECT_EQ(run["program"], "microslip");
   EXPECT_EQ(run["exit_code"], 3);
-  EXPECT_EQ(run["stages"][0], (json{{"name", "mesh"}, {"seconds", 1.5}, {"peak_memory_MB", 120.0}}));
-  EXPECT_EQ(run["mesh"], (json{{"nodes", 10}, {"elements", 4}, {"degrees_of_freedom", 30},
-                               {"volume_m3", 2e-5}, {"mass_kg", 0.16}}));
+  EXPECT_EQ(run["stages"][0],
+            (json{{"name", "mesh"}, {"seconds", 1.5}, {"peak_memory_MB", 120.0}}));
+  EXPECT_EQ(run["mesh"], (json{{"nodes", 10},
+                               {"elements", 4},
+                               {"degrees_of_freedom", 30},
+                               {"volume_m3", 2e-5},
+                               {"mass_kg", 0.16}}));
   EXPECT_DOUBLE_EQ(run["modes"][0]["frequency_Hz"], 296.123456789012);
   EXPECT_TRUE(run["modes"][0]["residual"].is_null()) << "given modes have no eigenpair residual";
 }

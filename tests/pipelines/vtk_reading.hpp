@@ -26,8 +26,7 @@ auto read_vtk(const std::filesystem::path& file) {
   auto reader = vtkSmartPointer<Reader>::New();
   reader->SetFileName(file.c_str());
   reader->Update();
-  return vtkSmartPointer<std::remove_pointer_t<decltype(reader->GetOutput())>>(
-      reader->GetOutput());
+  return vtkSmartPointer<std::remove_pointer_t<decltype(reader->GetOutput())>>(reader->GetOutput());
 }
 
 inline auto read_vtp(const std::filesystem::path& file) {
