@@ -134,44 +134,48 @@ def deviation(rows, key):
     return None if None in result else result
 
 
+def draw_deviations(axes, rows, lines):
+    unknowns = [row["degrees_of_freedom"] for row in rows[:-1]]
+    for key, label, colour in lines:
+        values = deviation(rows, key)
+        if values:
+            axes.plot(unknowns, values, marker="o", markersize=4, color=colour, label=label)
+    axes.set_ylabel(f"difference to {rows[-1]['element_size']} [%]")
+
+
 def plot(rows, folder, title):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"svg.hashsalt": "microslip", "font.size": 9, "legend.fontsize": 8,
-                         "axes.spines.top": False, "axes.spines.right": False,
-                         "legend.frameon": False, "savefig.dpi": 160})
-    unknowns = [row["degrees_of_freedom"] for row in rows]
-    figure, grid = plt.subplots(2, 2, figsize=(7.6, 5.6), layout="constrained")
+    from plot_run import STYLE, log_scale, plt  # beside this script; needs no display
     names = curve_names(rows)
     colours = plt.cm.viridis([0.93 * i / max(len(names) - 1, 1) for i in range(len(names))])
-    panels = [(grid[0, 0], "natural frequencies", [(f"frequency_{n}_Hz", f"f{'₁₂₃'[n - 1]}", c)
-               for n, c in ((1, "#12355b"), (2, "#f4a259"), (3, "#b23a6f"))]),
-              (grid[0, 1], "peak frequency", [(f"{n}_peak_Hz", n, c) for n, c in zip(names, colours)]),
-              (grid[1, 0], "peak amplitude, best preload",
-               [(f"{n}_peak_m", n, c) for n, c in zip(names, colours)] +
-               [("optimum_preload_N", "best preload", "#c1121f")])]
-    for axes, name, lines in panels:
-        for key, label, colour in lines:
-            values = deviation(rows, key)
-            if values:
-                axes.loglog(unknowns[:-1], values, marker="o", markersize=4, color=colour, label=label)
-        axes.set_title(name, loc="left")
-        axes.set_ylabel(f"difference to {rows[-1]['element_size']} [%]")
-    cost = grid[1, 1]
-    cost.loglog(unknowns, [row["seconds"] for row in rows], marker="o", markersize=4,
-                color="#12355b", label="time [s]")
-    cost.loglog(unknowns, [row["peak_memory_MB"] for row in rows], marker="s", markersize=4,
-                color="#b23a6f", label="memory [MB]")
-    cost.set_title("cost", loc="left")
-    for axes in grid.flat:
-        axes.set_xlabel("unknowns")
-        axes.grid(True, which="major", color="0.92", linewidth=0.6)
-        if axes.lines:
-            axes.legend(ncols=2 if len(axes.lines) > 6 else 1)
-    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
-    figure.savefig(os.path.join(folder, "convergence.svg"), metadata={"Date": None})
-    figure.savefig(os.path.join(folder, "convergence.png"), metadata={"Software": None})
+    modes = [(f"frequency_{n}_Hz", f"f{'₁₂₃'[n - 1]}", colour)
+             for n, colour in ((1, "#12355b"), (2, "#f4a259"), (3, "#b23a6f"))]
+    best = [("optimum_preload_N", "best preload", "#c1121f")]
+    with plt.rc_context(STYLE):
+        figure, grid = plt.subplots(2, 2, figsize=(8.6, 5.4), layout="constrained", sharex=True)
+        draw_deviations(grid[0, 0], rows, modes)
+        draw_deviations(grid[0, 1], rows,
+                        [(n + "_peak_Hz", n, colour) for n, colour in zip(names, colours)])
+        draw_deviations(grid[1, 1], rows, best + [
+            (n + "_peak_m", n, colour) for n, colour in zip(names, colours)])
+        unknowns = [row["degrees_of_freedom"] for row in rows]
+        for key, label, style in (("seconds", "time [s]", "o"), ("peak_memory_MB", "memory [MB]", "s")):
+            grid[1, 0].plot(unknowns, [row[key] for row in rows], marker=style, markersize=4,
+                            color="0.2" if style == "o" else "0.6", label=label)
+        for axes, name in zip(grid.flat, ("natural frequencies", "peak frequency", "cost",
+                                          "peak amplitude, best preload")):
+            axes.set_title(name, loc="left")
+            axes.grid(True, which="major", color="0.92", linewidth=0.6)
+            if axes.lines:
+                log_scale(axes.yaxis)
+        log_scale(grid[1, 0].xaxis)
+        for axes in grid[1]:
+            axes.set_xlabel("unknowns")
+        for axes in grid[:, 0]:
+            axes.legend()
+        grid[1, 1].legend(loc="lower left", bbox_to_anchor=(1.0, 0.0))
+        figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+        figure.savefig(os.path.join(folder, "convergence.svg"), metadata={"Date": None})
+        figure.savefig(os.path.join(folder, "convergence.png"), metadata={"Software": None})
 
 
 def write_whole(path, text):
