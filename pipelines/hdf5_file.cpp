@@ -63,8 +63,8 @@ void write_dataset(hid_t file, const std::string& name, std::span<const hsize_t>
       H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr));
   const Properties links(H5Pcreate(H5P_LINK_CREATE));
   H5Pset_create_intermediate_group(links.get(), 1);
-  const Dataset dataset(H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT,
-                                   H5P_DEFAULT));
+  const Dataset dataset(
+      H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT));
   require(dataset.valid(), name);
   const bool empty = H5Sget_simple_extent_npoints(space.get()) == 0;
   require(empty || H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, name);
@@ -149,8 +149,9 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told as SceneError, not printed
   file_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) {
-    throw SceneError(file.string() + ": not an HDF5 file that can be read (missing, truncated or of "
-                                     "another kind)");
+    throw SceneError(file.string() +
+                     ": not an HDF5 file that can be read (missing, truncated or of "
+                     "another kind)");
   }
 }
 

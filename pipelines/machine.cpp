@@ -12,9 +12,9 @@
 #include <fstream>
 #include <string_view>
 
+#include <spdlog/version.h>
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
-#include <spdlog/version.h>
 
 namespace microslip::pipelines {
 namespace {

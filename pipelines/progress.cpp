@@ -38,8 +38,8 @@ std::string duration_text(double seconds) {
 
 std::string describe(const std::string& curve, const solver::ResponsePoint& point) {
   constexpr double percent = 100.0;
-  std::string text = fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency),
-                                 point.amplitude);
+  std::string text =
+      fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency), point.amplitude);
   const contact::CycleReport& share = point.report;
   if (share.stick_share + share.slip_share + share.separated_share > 0.0) {
     text += fmt::format("  stick {:.0f} % slip {:.0f} % open {:.0f} %", percent * share.stick_share,
@@ -73,8 +73,8 @@ void Progress::keep_in(const std::filesystem::path& folder) {
               "iterations,mark,seconds\n"
            << std::flush;
   if (!history_) {
-    throw ExhaustedError((folder / "history.csv").string() + ": cannot be written: " +
-                         std::system_category().message(errno));
+    throw ExhaustedError((folder / "history.csv").string() +
+                         ": cannot be written: " + std::system_category().message(errno));
   }
 }
 
@@ -94,8 +94,8 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   append_history(curve, point);
   const std::string text = describe(curve, point);
   if (verbosity_ == Verbosity::verbose) return print_line("  " + text);
-  constexpr std::chrono::milliseconds redraw_interval{100};   // for the eye
-  constexpr std::chrono::seconds plain_interval{10};  // enough to see that it lives
+  constexpr std::chrono::milliseconds redraw_interval{100};  // for the eye
+  constexpr std::chrono::seconds plain_interval{10};         // enough to see that it lives
   const Clock::time_point now = Clock::now();
   if (now - last_drawn_ < (terminal_ ? redraw_interval : plain_interval)) return;
   last_drawn_ = now;

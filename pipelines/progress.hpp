@@ -83,7 +83,7 @@ class Progress {
   std::vector<StageRecord> stages_;
   std::vector<std::string> warnings_;
   std::vector<std::pair<Level, std::string>> unlogged_;  ///< said before there was a log
-  std::shared_ptr<spdlog::logger> log_;  // shared: the library's own handle type
+  std::shared_ptr<spdlog::logger> log_;                  // shared: the library's own handle type
   std::ofstream history_;
 };
 

@@ -35,6 +35,7 @@ void write_pvd(const std::filesystem::path& file,
                const std::vector<std::pair<double, std::string>>& steps);
 
 /// Zero-padded step number, so that names sort as time does.
-[[nodiscard]] std::string step_name(const std::string& stem, int step, const std::string& extension);
+[[nodiscard]] std::string step_name(const std::string& stem, int step,
+                                    const std::string& extension);
 
 }  // namespace microslip::pipelines

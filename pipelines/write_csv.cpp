@@ -51,8 +51,8 @@ std::string curve_table(const solver::ResponseCurve& curve) {
       "frequency_Hz,amplitude_m,amplitude_1_m,mean_m,phase_deg,stable,stick_share,slip_share,"
       "separated_share,three_states_share,residual,energy_imbalance,dissipation_mismatch,mark\n";
   for (const solver::ResponsePoint& point : curve.points) {
-    append_row(table, {point.frequency / two_pi, point.amplitude, point.first_amplitude,
-                       point.mean, point.phase * degrees});
+    append_row(table, {point.frequency / two_pi, point.amplitude, point.first_amplitude, point.mean,
+                       point.phase * degrees});
     table += fmt::format(",{},", static_cast<int>(point.stability));
     append_row(table, {point.report.stick_share, point.report.slip_share,
                        point.report.separated_share, point.report.three_states_share,
@@ -93,9 +93,10 @@ void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) 
   std::string table = "mode,frequency_Hz,residual,damping_ratio,fit_error\n";
   const Eigen::Index n = modes.frequency.size();
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    table += fmt::format("{},{},{},{},{}\n", mode + 1, format_number(modes.frequency[mode] / two_pi),
-                         cell(modes.residual, mode, n), cell(modes.damping_ratio, mode, n),
-                         cell(modes.fit_error, mode, n));
+    table +=
+        fmt::format("{},{},{},{},{}\n", mode + 1, format_number(modes.frequency[mode] / two_pi),
+                    cell(modes.residual, mode, n), cell(modes.damping_ratio, mode, n),
+                    cell(modes.fit_error, mode, n));
   }
   write_whole(file, table);
 }

@@ -36,9 +36,8 @@ Json to_json(const Machine& machine) {
 }
 
 Json to_json(const StageRecord& stage) {
-  return {{"name", stage.name},
-          {"seconds", stage.seconds},
-          {"peak_memory_MB", stage.peak_memory_mb}};
+  return {
+      {"name", stage.name}, {"seconds", stage.seconds}, {"peak_memory_MB", stage.peak_memory_mb}};
 }
 
 Json to_json(const MeshSummary& mesh) {

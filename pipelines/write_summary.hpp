@@ -57,7 +57,7 @@ struct CurveSummary {
 
 struct EffectRecord {
   std::string name;
-  std::string setting;     ///< auto | on | off
+  std::string setting;  ///< auto | on | off
   bool simulated = false;
   std::string reason;
 };

@@ -157,8 +157,8 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
 }
 
 void write_motion(const std::filesystem::path& folder, const std::string& name,
-                  const mesh::Mesh& mesh, const fem::ModalBasis& basis,
-                  const contact::Harmonics& q, double frequency_hz, int n_phases) {
+                  const mesh::Mesh& mesh, const fem::ModalBasis& basis, const contact::Harmonics& q,
+                  double frequency_hz, int n_phases) {
   make_folder(folder);
   const Skin skin = make_skin(mesh);
   const Eigen::MatrixXd shapes = skin_shapes(skin, basis.shapes);

@@ -27,7 +27,7 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
 /// @param n_phases  frames per period, ≥ 1.
 /// @throws ExhaustedError  cannot be written.
 void write_motion(const std::filesystem::path& folder, const std::string& name,
-                  const mesh::Mesh& mesh, const fem::ModalBasis& basis,
-                  const contact::Harmonics& q, double frequency_hz, int n_phases = 24);
+                  const mesh::Mesh& mesh, const fem::ModalBasis& basis, const contact::Harmonics& q,
+                  double frequency_hz, int n_phases = 24);
 
 }  // namespace microslip::pipelines

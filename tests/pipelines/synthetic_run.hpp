@@ -38,7 +38,8 @@ class Folder {
 };
 
 inline contact::ModalShapes shapes_at(const Eigen::MatrixX3d& x) {
-  contact::ModalShapes shapes{Eigen::MatrixXd(x.rows(), n_modes), Eigen::MatrixXd(x.rows(), n_modes),
+  contact::ModalShapes shapes{Eigen::MatrixXd(x.rows(), n_modes),
+                              Eigen::MatrixXd(x.rows(), n_modes),
                               Eigen::MatrixXd(x.rows(), n_modes)};
   for (Eigen::Index mode = 0; mode < n_modes; ++mode) {
     const double k = static_cast<double>(mode + 1);
@@ -114,10 +115,11 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
       const double load = 0.6 + std::sin(phase + 250.0 * x(i, 0)) + 30.0 * x(i, 2);
       const double slide = std::cos(phase + 200.0 * x(i, 2));
       using contact::ContactState;
-      const ContactState moving = slide > 0 ? ContactState::positive_slip : ContactState::negative_slip;
-      const ContactState state = load <= 0.0                ? ContactState::separated
+      const ContactState moving =
+          slide > 0 ? ContactState::positive_slip : ContactState::negative_slip;
+      const ContactState state = load <= 0.0             ? ContactState::separated
                                  : std::abs(slide) > 0.6 ? moving
-                                                            : ContactState::stick;
+                                                         : ContactState::stick;
       map.state(i, j) = static_cast<std::uint8_t>(state);
       map.normal_traction(i, j) = 1e6 * std::max(0.0, load);
       map.friction_traction(i, j) = 3e5 * slide * std::max(0.0, load);
@@ -141,8 +143,8 @@ inline NamedMap named_map(const ReducedModel& m, const std::string& name, int n_
 inline solver::ResponsePoint point(double frequency_hz, double amplitude) {
   solver::ResponsePoint p;
   p.frequency = 2.0 * std::numbers::pi * frequency_hz;
-  p.q = contact::Harmonics(1, n_modes, Eigen::VectorXd::LinSpaced(3 * n_modes, 1.0, 6.0) / 3.0 *
-                                           amplitude);
+  p.q = contact::Harmonics(1, n_modes,
+                           Eigen::VectorXd::LinSpaced(3 * n_modes, 1.0, 6.0) / 3.0 * amplitude);
   p.amplitude = amplitude;
   p.first_amplitude = 0.99 * amplitude;
   p.mean = -0.01 * amplitude;

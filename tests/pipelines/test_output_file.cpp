@@ -24,8 +24,7 @@ std::string content_of(const std::filesystem::path& file) {
 }
 
 std::size_t n_files(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder), {}));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
 std::string message_of(const std::filesystem::path& file) {
@@ -77,8 +76,8 @@ TEST(OutputFile, MissingFolderIsNamed) {
 TEST(OutputFile, UnwritableFolderIsNamedAndStaysEmpty) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const synthetic::Folder folder("output_unwritable");
-  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read |
-                                                  std::filesystem::perms::owner_exec);
+  std::filesystem::permissions(
+      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   EXPECT_THROW(require_writable(folder.path()), ExhaustedError);
   EXPECT_NE(message_of(folder.path() / "a.txt").find("Permission denied"), std::string::npos);
   EXPECT_EQ(n_files(folder.path()), 0U);

@@ -44,9 +44,19 @@ solver::ResponseCurve three_points() {
 
 TEST(WriteCsv, CurveHasTheColumnsOfTheInterface) {
   const auto rows = rows_of(curve_table(three_points()));
-  const Row expected{"frequency_Hz", "amplitude_m", "amplitude_1_m", "mean_m", "phase_deg",
-                     "stable", "stick_share", "slip_share", "separated_share",
-                     "three_states_share", "residual", "energy_imbalance", "dissipation_mismatch",
+  const Row expected{"frequency_Hz",
+                     "amplitude_m",
+                     "amplitude_1_m",
+                     "mean_m",
+                     "phase_deg",
+                     "stable",
+                     "stick_share",
+                     "slip_share",
+                     "separated_share",
+                     "three_states_share",
+                     "residual",
+                     "energy_imbalance",
+                     "dissipation_mismatch",
                      "mark"};
   ASSERT_EQ(rows.size(), 4U);
   for (const Row& row : rows) EXPECT_EQ(row.size(), expected.size());

@@ -1,0 +1,21 @@
+/// @file
+/// A script as a child process with a time limit.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace microslip::pipelines {
+
+struct ChildResult {
+  bool succeeded = false;
+  std::string message;  ///< why not: the last line of its standard error, its signal, or the limit
+};
+
+/// Runs `command` (program, arguments) with nothing on standard input and waits for its end; ends it
+/// when the limit has passed. Its output is kept for the message, not shown.
+[[nodiscard]] ChildResult run_child(const std::vector<std::string>& command,
+                                    std::chrono::milliseconds limit);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,192 @@
+#include "pipelines/write_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/child_process.hpp"
+#include "pipelines/output_file.hpp"
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The interpreter the packages of the set-up belong to; another may come first on the PATH.
+constexpr const char* python = "/usr/bin/python3";
+/// Twenty curves with maps take about 15 s on one slow core.
+constexpr std::chrono::seconds plot_limit{180};
+
+/// Beside the source tree's build, beside an installed program, or where it was built.
+std::filesystem::path plot_script() {
+  std::error_code code;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
+  const std::array<std::filesystem::path, 3> candidates{
+      program / "../../share/scripts/plot_run.py",
+      program / "../share/microslip/scripts/plot_run.py",
+      std::filesystem::path(MICROSLIP_SCRIPTS) / "plot_run.py",
+  };
+  for (const auto& candidate : candidates) {
+    if (std::filesystem::exists(candidate, code)) return candidate.lexically_normal();
+  }
+  throw std::runtime_error("plot_run.py is not installed: looked in " +
+                           candidates.back().parent_path().string() + " and beside the program");
+}
+
+std::string make_plots(const std::filesystem::path& folder) {
+  try {
+    const ChildResult result =
+        run_child({python, plot_script().string(), folder.string()}, plot_limit);
+    return result.succeeded ? "" : "plots were not made: " + result.message;
+  } catch (const std::runtime_error& error) {
+    return std::string("plots were not made: ") + error.what();
+  }
+}
+
+std::string read_summary(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  if (!in) {
+    throw SceneError((folder / "summary.json").string() +
+                     ": cannot be read; is this the folder of a run?");
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> plot_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code code;  // no folder: no plots
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "plots", code)) {
+    if (entry.path().extension() == ".svg") names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string preload_text(const Json& curve) {
+  const Json& preload = curve.at("preload_N");
+  return preload.is_string() ? preload.get<std::string>()
+                             : fmt::format("{:g}", preload.get<double>());
+}
+
+std::string structure_text(const Json& run) {
+  std::string text;
+  if (const Json& mesh = run.at("mesh"); !mesh.is_null()) {
+    text +=
+        fmt::format("Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
+                    mesh.at("nodes").get<long>(), mesh.at("elements").get<long>(),
+                    mesh.at("degrees_of_freedom").get<long>(), mesh.at("volume_m3").get<double>(),
+                    mesh.at("mass_kg").get<double>());
+  }
+  text += "| mode | frequency [Hz] | damping ratio |\n|---:|---:|---:|\n";
+  int number = 0;
+  for (const Json& mode : run.at("modes")) {
+    text +=
+        fmt::format("| {} | {:.4f} | {:.4g} |\n", ++number, mode.at("frequency_Hz").get<double>(),
+                    mode.at("damping_ratio").get<double>());
+  }
+  return text;
+}
+
+std::string curve_row(const Json& curve) {
+  const Json& peak = curve.at("peak");
+  const std::string peak_text =
+      peak.is_null() ? "– | –"
+                     : fmt::format("{:.4f} | {:.5g}", peak.at("frequency_Hz").get<double>(),
+                                   peak.at("amplitude_m").get<double>());
+  std::string folds;
+  for (const Json& fold : curve.at("folds_Hz")) {
+    folds += fmt::format("{}{:.4f}", folds.empty() ? "" : ", ", fold.get<double>());
+  }
+  const std::string name = curve.at("name").get<std::string>();
+  const std::string state =
+      curve.at("complete").get<bool>()
+          ? "complete"
+          : fmt::format("**incomplete**: {}", curve.at("diagnosis").get<std::string>());
+  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n",
+                     preload_text(curve), peak_text, folds.empty() ? "–" : folds, state, name, name,
+                     curve.at("points").get<long>());
+}
+
+std::string curves_text(const Json& run) {
+  const bool modal = run.at("mesh").is_null();
+  std::string text = fmt::format(
+      "| {} | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n|---:|---:|---:|---|---|---|\n",
+      modal ? "preload scale" : "preload [N]");
+  for (const Json& curve : run.at("curves")) text += curve_row(curve);
+  if (const Json& optimum = run.at("optimum"); !optimum.is_null()) {
+    const bool found = optimum.at("found").get<bool>();
+    text += fmt::format("\n{}: {:.6g}{}, peak {:.5g} m at {:.4f} Hz.{}\n",
+                        found ? "Best preload" : "Best preload not found; lowest peak seen",
+                        optimum.at("preload_N").get<double>(), modal ? "" : " N",
+                        optimum.at("amplitude_m").get<double>(),
+                        optimum.at("frequency_Hz").get<double>(),
+                        found ? "" : fmt::format(" {}", optimum.at("message").get<std::string>()));
+  }
+  return text;
+}
+
+std::string cost_text(const Json& run) {
+  std::string text = "| stage | seconds | memory [MB] |\n|---|---:|---:|\n";
+  for (const Json& stage : run.at("stages")) {
+    text +=
+        fmt::format("| {} | {:.2f} | {:.0f} |\n", stage.at("name").get<std::string>(),
+                    stage.at("seconds").get<double>(), stage.at("peak_memory_MB").get<double>());
+  }
+  const Json& machine = run.at("machine");
+  return text + fmt::format("\n{}, {} cores; {}.\n", machine.at("processor").get<std::string>(),
+                            machine.at("cores").get<int>(), machine.at("blas").get<std::string>());
+}
+
+std::string plots_text(const std::vector<std::string>& plots) {
+  std::string text;
+  for (const std::string& plot : plots) {
+    const std::string stem = std::filesystem::path(plot).stem().string();
+    text += fmt::format("![{}](plots/{})\n\n", stem, plot);
+  }
+  return text.empty() ? "None.\n" : text;
+}
+
+}  // namespace
+
+std::string report_text(const std::string& summary_json, const std::vector<std::string>& plots) {
+  try {
+    const Json run = Json::parse(summary_json);
+    const std::string title = run.value("title", std::string());
+    std::string text = fmt::format("# {}\n\n", title.empty() ? "microslip run" : title);
+    if (const int code = run.at("exit_code").get<int>(); code != 0) {
+      text += fmt::format("**Exit code {}.** {}\n\n", code, run.value("message", std::string()));
+    }
+    for (const Json& warning : run.at("warnings")) {
+      text += fmt::format("- warning: {}\n", warning.get<std::string>());
+    }
+    text += "\n## Structure\n\n" + structure_text(run);
+    if (!run.at("curves").empty()) text += "\n## Response\n\n" + curves_text(run);
+    return text.append("\n## Plots\n\n")
+        .append(plots_text(plots))
+        .append("\n## Cost\n\n")
+        .append(cost_text(run));
+  } catch (const Json::exception& error) {
+    throw SceneError(std::string("summary.json: ") + error.what());
+  }
+}
+
+std::vector<std::string> write_report(const std::filesystem::path& folder) {
+  const std::string summary = read_summary(folder);
+  std::vector<std::string> warnings;
+  if (const std::string failure = make_plots(folder); !failure.empty()) warnings.push_back(failure);
+  write_whole(folder / "report.md", report_text(summary, plot_names(folder)));
+  return warnings;
+}
+
+void rebuild_report(const std::filesystem::path& folder) {
+  const std::vector<std::string> warnings = write_report(folder);
+  if (!warnings.empty()) throw std::runtime_error(warnings.front());
+}
+
+}  // namespace microslip::pipelines

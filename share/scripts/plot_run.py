@@ -1,0 +1,416 @@
+#!/usr/bin/python3
+"""Plots of a run folder: curve family, peak against preload, contact maps; SVG and PNG.
+
+    plot_run.py RUN_FOLDER
+
+Reads summary.json, curves/, peak_against_preload.csv and maps/*.h5; writes plots/. The same folder
+gives the same SVG files byte for byte. Needs no display.
+"""
+
+import csv
+import io
+import json
+import math
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+STYLE = {
+    "svg.hashsalt": "microslip",
+    "figure.dpi": 100,
+    "savefig.dpi": 160,
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "legend.fontsize": 8,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "lines.linewidth": 1.3,
+    "lines.solid_capstyle": "round",
+    "legend.frameon": False,
+}
+FREE, STUCK = "0.1", "0.55"
+ACCENT = "#c1121f"
+# (value in files, name, colour): distinct in hue and in lightness, for colour-blind eyes and grey print
+STATES = [
+    (0, "stick", "#12355b"),
+    (1, "positive slip", "#f4a259"),
+    (2, "negative slip", "#b23a6f"),
+    (3, "separated", "#e9ecef"),
+    (4, "slip in two directions", "#5b9279"),
+]
+
+
+def read_table(path):
+    """Columns of a CSV file by name: floats, with `mark` as text."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    names = rows[0].keys() if rows else []
+    return {name: [row[name] for row in rows] if name == "mark"
+            else np.array([float(row[name]) for row in rows]) for name in names}
+
+
+def save(figure, folder, name):
+    """Both formats, each whole or not at all."""
+    for extension, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
+        buffer = io.BytesIO()
+        figure.savefig(buffer, format=extension, metadata=metadata)
+        path = os.path.join(folder, f"{name}.{extension}")
+        with open(path + ".part", "wb") as file:
+            file.write(buffer.getvalue())
+        os.replace(path + ".part", path)
+    plt.close(figure)
+
+
+def length_unit(largest):
+    """Unit in which a length reads well: (name, size in metres)."""
+    for name, size in (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6)):
+        if largest >= size:
+            return name, size
+    return "nm", 1e-9
+
+
+def log_scale(axis):
+    """Logarithmic, with plain numbers at 1, 2, 5 where there is room and at powers of ten else."""
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
+    low, high = axis.get_data_interval()
+    few = low > 0 and math.log10(high / low) < 2.2
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def legend_below(figure, handles):
+    """One row under everything, in a strip of its own."""
+    inches = 0.28
+    strip = inches / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), ncols=len(handles),
+                  borderaxespad=0.4, columnspacing=1.6)
+
+
+class Run:
+    """A run folder as the plots need it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            self.summary = json.load(file)
+        self.modal = self.summary.get("mesh") is None
+        self.curves = []
+        for curve in self.summary["curves"]:
+            path = os.path.join(folder, "curves", curve["name"] + ".csv")
+            table = read_table(path) if os.path.exists(path) else {}
+            if table:
+                self.curves.append((curve, table))
+        largest = max((table["amplitude_m"].max() for _, table in self.curves), default=1.0)
+        self.unit, self.size = length_unit(largest)
+        loads = sorted({c["preload_N"] for c, _ in self.curves if is_number(c["preload_N"])})
+        self.colours = {load: plt.cm.viridis(0.0 if len(loads) == 1 else 0.93 * i / (len(loads) - 1))
+                        for i, load in enumerate(loads)}
+
+    def colour(self, load):
+        return self.colours[load] if is_number(load) else (FREE if load == "free" else STUCK)
+
+    def label(self, load):
+        if not is_number(load):
+            return load
+        if self.modal:
+            return f"× {load:g}"
+        return f"{plain(load)} N" if load >= 0 else f"gap ({plain(load)} N)"
+
+
+def is_number(value):
+    return isinstance(value, (int, float))
+
+
+def plain(value):
+    """20000000 as 2·10⁷, 50 as 50; a real minus sign."""
+    text = f"{value:.6g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
+    return text.replace("-", "−")
+
+
+def branches(table):
+    """Runs of intervals of one kind: (unstable, slice of points)."""
+    stable, mark = table["stable"], table["mark"]
+    unstable = []
+    for i in range(len(stable) - 1):
+        flags = [stable[k] for k in (i, i + 1) if mark[k] != "fold"]
+        unstable.append(0 in flags or not flags)
+    start = 0
+    for i in range(1, len(unstable) + 1):
+        if i == len(unstable) or unstable[i] != unstable[start]:
+            yield unstable[start], slice(start, i + 1)
+            start = i
+
+
+def draw_curve(axes, run, curve, table):
+    load = curve["preload_N"]
+    limit = not is_number(load)
+    colour = run.colour(load)
+    frequency = table["frequency_Hz"]
+    amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
+    for unstable, part in branches(table):
+        axes.plot(frequency[part], amplitude[part], color=colour, zorder=2 if limit else 3,
+                  linewidth=1.0 if limit else 1.4, linestyle=(0, (2.5, 1.6)) if unstable else "-")
+    marks = np.array(table["mark"])
+    for mark, style in (("peak", {"marker": "o", "s": 14}),
+                        ("fold", {"marker": "D", "s": 13, "facecolor": "white"})):
+        chosen = marks == mark
+        axes.scatter(frequency[chosen], amplitude[chosen], color=style.pop("facecolor", colour),
+                     edgecolor=colour, linewidth=0.8, zorder=4, **style)
+    if not curve["complete"]:
+        axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
+
+
+def plot_curves(run, folder):
+    if not run.curves:
+        return
+    figure, axes = plt.subplots(figsize=(7.2, 4.4), layout="constrained")
+    for curve, table in run.curves:
+        draw_curve(axes, run, curve, table)
+    log_scale(axes.yaxis)
+    axes.margins(x=0.01)
+    axes.set_xlabel("excitation frequency [Hz]")
+    axes.set_ylabel(f"response amplitude [{run.unit}]")
+    axes.set_title(run.summary.get("title", ""), loc="left")
+    axes.grid(True, which="major", color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    loads = [curve["preload_N"] for curve, _ in run.curves]
+    order = (["free"] if "free" in loads else []) + list(run.colours) + (
+        ["stuck"] if "stuck" in loads else [])
+    lines = [Line2D([], [], color=run.colour(load), label=run.label(load)) for load in order]
+    axes.legend(handles=lines, loc="upper left", bbox_to_anchor=(1.0, 1.02), alignment="left",
+                title="preload scale" if run.modal else "preload")
+    kinds = [Line2D([], [], color="0.3", label="stable"),
+             Line2D([], [], color="0.3", linestyle=(0, (2.5, 1.6)), label="unstable"),
+             Line2D([], [], color="0.3", marker="o", markersize=4, linestyle="", label="peak"),
+             Line2D([], [], color="0.3", marker="D", markersize=4, linestyle="",
+                    markerfacecolor="white", label="fold")]
+    if any(not curve["complete"] for curve, _ in run.curves):
+        kinds.append(Line2D([], [], color=ACCENT, marker="x", markersize=5, linestyle="",
+                            label="ends here (incomplete)"))
+    legend_below(figure, kinds)
+    save(figure, folder, "curves")
+
+
+def peaks_of(run):
+    """(preload, frequency, amplitude) of the curves that have a solved peak, and the limits by name."""
+    family, limits = [], {}
+    for curve, _ in run.curves:
+        peak = curve["peak"]
+        if peak is None:
+            continue
+        if is_number(curve["preload_N"]):
+            family.append((curve["preload_N"], peak["frequency_Hz"], peak["amplitude_m"]))
+        else:
+            limits[curve["preload_N"]] = (peak["frequency_Hz"], peak["amplitude_m"])
+    return sorted(family), limits
+
+
+def trace_of(run):
+    path = os.path.join(run.folder, "peak_against_preload.csv")
+    table = read_table(path) if os.path.exists(path) else {}
+    if not table:
+        return np.empty((0, 3))
+    return np.column_stack([table["preload_N"], table["frequency_Hz"], table["amplitude_m"]])
+
+
+def draw_peaks(column, run, family, trace, sign):
+    """One pair of axes: amplitude above, frequency below; sign −1 draws the gaps on a mirrored axis."""
+    chosen = [peak for peak in family if sign * peak[0] > 0]
+    for axes, index, scale in ((column[0], 2, run.size), (column[1], 1, 1.0)):
+        if sign > 0 and len(trace):
+            axes.plot(trace[:, 0], trace[:, index] / scale, color="0.35", linewidth=1.1, zorder=2)
+        for peak in chosen:
+            axes.scatter(sign * peak[0], peak[index] / scale, s=26, color=run.colour(peak[0]),
+                         edgecolor="white", linewidth=0.6, zorder=3)
+        log_scale(axes.xaxis)
+        axes.grid(True, which="major", color="0.92", linewidth=0.6)
+        axes.set_axisbelow(True)
+    log_scale(column[0].yaxis)
+    if sign < 0:
+        column[0].invert_xaxis()  # shared with the axes below
+
+
+def draw_limits(column, run, limits, named):
+    for name, (frequency, amplitude) in limits.items():
+        for axes, value in ((column[0], amplitude / run.size), (column[1], frequency)):
+            axes.axhline(value, color=FREE if name == "free" else STUCK, linewidth=0.9, zorder=1,
+                         linestyle="-" if name == "free" else (0, (6, 2)))
+            if named:
+                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"), va="center",
+                              xytext=(4, 0), textcoords="offset points", fontsize=8)
+
+
+def mark_optimum(column, run, optimum):
+    best = (optimum["preload_N"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
+    for axes, value in ((column[0], best[1]), (column[1], best[2])):
+        axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
+                     linewidth=0.6, zorder=5)
+        axes.axvline(best[0], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
+    unit = "× " if run.modal else ""
+    column[0].annotate(
+        f"best preload {unit}{best[0]:.4g}{'' if run.modal else ' N'}:\n"
+        f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", (best[0], best[1]), color=ACCENT,
+        xytext=(0.97, 0.95), textcoords="axes fraction", ha="right", va="top", fontsize=8)
+
+
+def plot_peaks(run, folder):
+    family, limits = peaks_of(run)
+    trace = trace_of(run)
+    optimum = run.summary.get("optimum")
+    positive = sum(peak[0] > 0 for peak in family)
+    gaps = sum(peak[0] < 0 for peak in family)
+    if positive + gaps + len(trace) < 2:
+        return
+    sides = ([-1] if gaps else []) + ([1] if positive or len(trace) else [])
+    ratios = [max(gaps, 2) if side < 0 else max(positive, 4) for side in sides]
+    figure, grid = plt.subplots(2, len(sides), figsize=(6.4, 4.8), layout="constrained",
+                                sharex="col", sharey="row", squeeze=False,
+                                gridspec_kw={"width_ratios": ratios, "height_ratios": [1.5, 1]})
+    for i, side in enumerate(sides):
+        column = grid[:, i]
+        draw_peaks(column, run, family, trace, side)
+        draw_limits(column, run, limits, named=i == len(sides) - 1)
+        name = "preload scale [–]" if run.modal else "preload [N]" if side > 0 else "gap: −preload [N]"
+        column[1].set_xlabel(name)
+    if optimum and optimum.get("found", True) and sides[-1] > 0:
+        mark_optimum(grid[:, -1], run, optimum)
+    grid[0, 0].set_ylabel(f"peak amplitude [{run.unit}]")
+    grid[1, 0].set_ylabel("peak frequency [Hz]")
+    figure.suptitle(run.summary.get("title", ""), x=0.01, ha="left", fontsize=9)
+    save(figure, folder, "peak_against_preload")
+
+
+class ContactMap:
+    """One maps/NAME.h5, lengths of the patch in millimetres."""
+
+    def __init__(self, path):
+        import h5py
+        with h5py.File(path, "r") as file:
+            self.frequency = file["frequency_Hz"][0]
+            self.phase = file["phase_deg"][:]
+            self.state = file["state"][:]
+            self.weights = file["weights"][:]
+            self.points = 1e3 * file["points"][:]
+            vertices, cells = 1e3 * file["vertices"][:], file["cells"][:]
+            self.cells = vertices[cells] if len(cells) else None
+            self.energy = file["dissipated_energy_J_per_m2"][:]
+            self.slip = 1e6 * file["slip_distance_m"][:]
+        corners = vertices if self.cells is not None else self.points
+        self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+
+    def shares(self, phase):
+        """Part of the area in stick, slip, separation."""
+        weights = self.weights / self.weights.sum()
+        state = self.state[:, phase]
+        return (weights[state == 0].sum(), weights[np.isin(state, (1, 2, 4))].sum(),
+                weights[state == 3].sum())
+
+    def draw(self, axes, colours=None, values=None, cmap=None):
+        """Cells in given colours, or coloured by values; lone points where there are no cells."""
+        if self.cells is None:
+            result = axes.scatter(self.points[:, 0], self.points[:, 1], s=22, marker="s",
+                                  c=colours if values is None else values, cmap=cmap,
+                                  edgecolor="0.6", linewidth=0.3)
+        else:
+            result = PolyCollection(self.cells, linewidth=0.25, cmap=cmap,
+                                    facecolors=colours, edgecolors="face")
+            if values is not None:
+                result.set_array(values)
+            axes.add_collection(result)
+        pad = 0.02 * max(np.max(self.high - self.low), 1e-3)
+        axes.set_xlim(self.low[0] - pad, self.high[0] + pad)
+        axes.set_ylim(self.low[1] - pad, self.high[1] + pad)
+        axes.set_aspect("equal")
+        return result
+
+
+def layout_of(contact):
+    """Figure size for two columns of states and one of sums over the period."""
+    width, height = np.maximum(contact.high - contact.low, 1e-3)
+    ratio = min(max(height / width, 0.18), 2.2)
+    panel = 2.1 if ratio > 1 else 2.6
+    return 3 * panel + 1.2, 2 * (panel * ratio + 0.55) + 0.8
+
+
+def plot_map(path, folder, title):
+    contact = ContactMap(path)
+    figure, grid = plt.subplots(2, 3, figsize=layout_of(contact), layout="constrained", sharex=True,
+                                sharey=True)
+    colour_of = {value: colour for value, _, colour in STATES}
+    for axes, angle in zip(grid[:, :2].flat, (0, 90, 180, 270)):
+        distance = np.abs((contact.phase - angle + 180) % 360 - 180)
+        phase = int(np.argmin(distance))
+        contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
+        stick, slip, apart = contact.shares(phase)
+        axes.set_title(f"{contact.phase[phase]:.0f}°", loc="left", fontweight="bold")
+        axes.set_title(f"{100 * stick:.0f} % stick · {100 * slip:.0f} % slip · {100 * apart:.0f} % open",
+                       loc="right", fontsize=7, color="0.35")
+    for axes, values, name in ((grid[0, 2], contact.energy, "dissipated energy [J/m² per period]"),
+                               (grid[1, 2], contact.slip, "slip distance [µm per period]")):
+        drawn = contact.draw(axes, values=values, cmap="cividis")
+        drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
+        bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
+        bar.outline.set_linewidth(0.5)
+        axes.set_title(name, loc="left")
+    for axes in grid.flat:
+        for spine in axes.spines.values():
+            spine.set_visible(False)
+        axes.tick_params(length=2)
+    for axes in grid[1]:
+        axes.set_xlabel("p [mm]")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("r [mm]")
+    figure.get_layout_engine().set(w_pad=0.1)
+    present = set(np.unique(contact.state)) | {0, 1, 2, 3}
+    handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+               for value, name, colour in STATES if value in present]
+    legend_below(figure, handles)
+    figure.suptitle(f"{title}, {contact.frequency:.6g} Hz", x=0.01, ha="left", fontsize=9)
+    save(figure, folder, "map_" + os.path.splitext(os.path.basename(path))[0])
+
+
+def plot_maps(run, folder):
+    for curve, _ in run.curves:
+        for name in curve.get("maps", []):
+            path = os.path.join(run.folder, "maps", name + ".h5")
+            if os.path.exists(path):
+                place = name[len(curve["name"]):].strip("_").replace("_", " ")
+                word = "preload scale" if run.modal else "preload"
+                plot_map(path, folder, f"{word} {run.label(curve['preload_N'])}, {place}")
+
+
+def main():
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if len(sys.argv) == 2 else 1
+    run = Run(sys.argv[1])
+    folder = os.path.join(sys.argv[1], "plots")
+    os.makedirs(folder, exist_ok=True)
+    with plt.rc_context(STYLE):
+        plot_curves(run, folder)
+        plot_peaks(run, folder)
+        plot_maps(run, folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

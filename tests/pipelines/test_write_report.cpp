@@ -1,0 +1,130 @@
+#include "pipelines/write_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "pipelines/child_process.hpp"
+#include "pipelines/output_file.hpp"
+#include "pipelines/scene_error.hpp"
+#include "pipelines/write_csv.hpp"
+#include "pipelines/write_map.hpp"
+#include "pipelines/write_summary.hpp"
+#include "synthetic_run.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A run folder with two curves, the limits and an optimum, and a map where asked.
+enum class Maps { none, one };
+void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
+  const ReducedModel model = synthetic::model();
+  RunSummary run;
+  run.title = "Synthetic";
+  run.mesh = MeshSummary{10, 4, 30, 2e-5, 0.16};
+  run.modes = summarise_modes(model.frequency, model.damping_ratio, {}, {});
+  std::vector<CurveResult> curves{synthetic::curve("free", 0.0, 296.0, 2e-4, 0.0),
+                                  synthetic::curve("preload_-50", -50.0, 299.0, 8e-5, -3.0),
+                                  synthetic::curve("preload_100", 100.0, 305.0, 5e-5, 8.0),
+                                  synthetic::curve("stuck", 0.0, 321.0, 1e-4, 0.0)};
+  curves.front().preload = LimitName::free;
+  curves.back().preload = LimitName::stuck;
+  if (maps == Maps::one) {
+    curves[2].maps.push_back(synthetic::named_map(model, "preload_100_peak"));
+    write_map(folder / "maps", model, curves[2].maps[0]);
+  }
+  solver::Optimum optimum;
+  optimum.trace = {{100.0, 1900.0, 5e-5}, {200.0, 1950.0, 4e-5}, {400.0, 1990.0, 6e-5}};
+  optimum.best = optimum.trace[1];
+  optimum.found = true;
+  run.optimum = optimum;
+  write_optimum_csv(folder / "peak_against_preload.csv", optimum);
+  for (const CurveResult& curve : curves) {
+    write_curve(folder, curve, synthetic::n_modes);
+    run.curves.push_back(summarise(curve));
+  }
+  write_summary(folder / "summary.json", run);
+}
+
+TEST(WriteReport, PlotsAreMadeInBothFormatsWithoutADisplay) {
+  const synthetic::Folder folder("report_plots");
+  write_run(folder.path(), Maps::one);
+  EXPECT_EQ(write_report(folder.path()), std::vector<std::string>{});
+  for (const char* stem : {"curves", "peak_against_preload", "map_preload_100_peak"}) {
+    const auto file = folder.path() / "plots" / stem;
+    EXPECT_EQ(content_of(file.string() + ".png").substr(1, 3), "PNG") << stem;
+    EXPECT_NE(content_of(file.string() + ".svg").find("</svg>"), std::string::npos) << stem;
+  }
+}
+
+TEST(WriteReport, SamePlotsByteForByteTheSecondTime) {
+  const synthetic::Folder folder("report_twice");
+  write_run(folder.path());
+  rebuild_report(folder.path());
+  const std::string first = content_of(folder.path() / "plots" / "curves.svg");
+  rebuild_report(folder.path());
+  EXPECT_EQ(content_of(folder.path() / "plots" / "curves.svg"), first);
+}
+
+TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
+  const synthetic::Folder folder("report_text");
+  write_run(folder.path());
+  const std::string report =
+      report_text(content_of(folder.path() / "summary.json"), {"curves.svg"});
+  EXPECT_NE(report.find("# Synthetic"), std::string::npos);
+  EXPECT_NE(report.find("| 100 | 305.0000 | 5e-05 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| free | 296.0000 | 0.0002 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("Best preload: 200 N"), std::string::npos) << report;
+  EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
+}
+
+TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {
+  const synthetic::Folder folder("report_damaged");
+  write_run(folder.path());
+  write_whole(folder.path() / "curves" / "free.csv", "frequency_Hz,amplitude_m\nx,y\n");
+  const auto warnings = write_report(folder.path());
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("plots were not made: ValueError"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.md"));
+  EXPECT_THROW(rebuild_report(folder.path()), std::runtime_error);
+}
+
+TEST(WriteReport, FolderWithoutARunIsNamed) {
+  const synthetic::Folder folder("report_none");
+  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+  write_whole(folder.path() / "summary.json", "{");
+  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+  write_whole(folder.path() / "summary.json", "{\"program\": 1}");
+  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+}
+
+TEST(ChildProcess, FailureIsTheLastLineOfItsOutput) {
+  const ChildResult result = run_child({"/bin/sh", "-c", "echo a; echo b >&2; exit 3"}, 10s);
+  EXPECT_FALSE(result.succeeded);
+  EXPECT_EQ(result.message, "b");
+}
+
+TEST(ChildProcess, LimitEndsIt) {
+  const auto begin = std::chrono::steady_clock::now();
+  const ChildResult result = run_child({"/bin/sleep", "30"}, 100ms);
+  EXPECT_FALSE(result.succeeded);
+  EXPECT_NE(result.message.find("longer than 0.1 s"), std::string::npos) << result.message;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+}
+
+TEST(ChildProcess, SignalAndMissingProgramAreNamed) {
+  EXPECT_NE(run_child({"/bin/sh", "-c", "kill -9 $$"}, 10s).message.find("signal 9"),
+            std::string::npos);
+  EXPECT_NE(run_child({"/no/such/program"}, 10s).message.find("No such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace microslip::pipelines
