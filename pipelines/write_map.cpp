@@ -76,7 +76,6 @@ void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map
 
 void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eigen::Index phase) {
   add_integers(data, "state", map.state.col(phase).cast<int>());
-  data.SetActiveScalars("state");
   add_array(data, "normal_traction_Pa", map.normal_traction.col(phase));
   add_array(data, "friction_traction_Pa", map.friction_traction.col(phase));
   add_array(data, "relative_displacement_m", map.relative_displacement.col(phase));
@@ -101,6 +100,7 @@ void write_series(const std::filesystem::path& folder, const ReducedModel& model
     frame->ShallowCopy(patch);
     add_instant(*frame->GetCellData(), map.points, step);
     add_cycle_totals(*frame->GetCellData(), map.points);
+    frame->GetCellData()->SetActiveScalars("state");  // what ParaView colours by on opening: crisp
     if (smooth || points_only) {
       const contact::ContactMap& nodal = points_only ? map.points : map.vertices;
       add_instant(*frame->GetPointData(), nodal, step);

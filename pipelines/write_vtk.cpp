@@ -150,6 +150,7 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
     add_array(*grid->GetPointData(), "mode_" + std::to_string(mode + 1),
               per_node(basis.shapes.col(mode)));
   }
+  grid->GetPointData()->SetActiveVectors("mode_1");  // what "Warp By Vector" takes first
   add_names(*grid->GetPointData(), mesh, "surface_", mesh.surface_names());
   add_names(*grid->GetPointData(), mesh, "set_", mesh.node_set_names());
   add_array(*grid->GetFieldData(), "frequency_Hz", basis.frequency / (2.0 * std::numbers::pi));
@@ -169,6 +170,7 @@ void write_motion(const std::filesystem::path& folder, const std::string& name,
     vtkNew<vtkPolyData> frame;
     frame->ShallowCopy(skin.surface);
     add_float_array(*frame->GetPointData(), "displacement_m", per_node(displacement));
+    frame->GetPointData()->SetActiveVectors("displacement_m");
     add_array(*frame->GetFieldData(), "frequency_Hz", Eigen::VectorXd::Constant(1, frequency_hz));
     const std::string frame_name = step_name(name, step, ".vtp");
     write_vtk_file(folder / frame_name, *frame);

@@ -47,6 +47,10 @@ TEST(WriteMap, EveryPhaseCarriesAllArraysOnCellsAndPoints) {
   ASSERT_EQ(patch->GetNumberOfPoints(), model.vertices.rows());
   expect_instant(*patch->GetCellData(), map.points, 3);
   expect_instant(*patch->GetPointData(), map.vertices, 3);
+  ASSERT_NE(patch->GetCellData()->GetScalars(), nullptr);
+  EXPECT_STREQ(patch->GetCellData()->GetScalars()->GetName(), "state");
+  EXPECT_EQ(patch->GetPointData()->GetScalars(), nullptr)
+      << "ParaView would colour by the points and blend the states";
   EXPECT_EQ(values(*patch->GetFieldData(), "frequency_Hz")(0, 0), 301.25);
   EXPECT_EQ(values(*patch->GetFieldData(), "phase_deg")(0, 0), 135.0);
   const auto* names =
