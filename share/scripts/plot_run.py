@@ -20,9 +20,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 STYLE = {
     "svg.hashsalt": "microslip",
@@ -351,39 +352,76 @@ def layout_of(contact):
     return 3 * panel + 1.2, 2 * (panel * ratio + 0.55) + 0.8
 
 
-def plot_map(path, folder, title):
-    contact = ContactMap(path)
+def state_legend(figure, contact):
+    present = set(np.unique(contact.state)) | {0, 1, 2, 3}
+    legend_below(figure, [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+                          for value, name, colour in STATES if value in present])
+
+
+def draw_states(axes, contact, angle):
+    """The patch at the phase nearest to an angle [deg]."""
+    colour_of = {value: colour for value, _, colour in STATES}
+    phase = int(np.argmin(np.abs((contact.phase - angle + 180) % 360 - 180)))
+    contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
+    stick, slip, apart = contact.shares(phase)
+    axes.set_title(f"{contact.phase[phase]:.0f}°", loc="left", fontweight="bold")
+    axes.set_title(f"{100 * stick:.0f} % stick · {100 * slip:.0f} % slip · {100 * apart:.0f} % open",
+                   loc="right", fontsize=7, color="0.35")
+
+
+def draw_sum(figure, axes, contact, values, name):
+    """A sum over the period on the patch, from zero."""
+    drawn = contact.draw(axes, values=values, cmap="cividis")
+    drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
+    bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
+    bar.outline.set_linewidth(0.5)
+    axes.set_title(name, loc="left")
+
+
+def plot_patch(contact):
+    """States at four phases and what the period sums up to, over the plane of the patch."""
     figure, grid = plt.subplots(2, 3, figsize=layout_of(contact), layout="constrained", sharex=True,
                                 sharey=True)
-    colour_of = {value: colour for value, _, colour in STATES}
     for axes, angle in zip(grid[:, :2].flat, (0, 90, 180, 270)):
-        distance = np.abs((contact.phase - angle + 180) % 360 - 180)
-        phase = int(np.argmin(distance))
-        contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
-        stick, slip, apart = contact.shares(phase)
-        axes.set_title(f"{contact.phase[phase]:.0f}°", loc="left", fontweight="bold")
-        axes.set_title(f"{100 * stick:.0f} % stick · {100 * slip:.0f} % slip · {100 * apart:.0f} % open",
-                       loc="right", fontsize=7, color="0.35")
-    for axes, values, name in ((grid[0, 2], contact.energy, "dissipated energy [J/m² per period]"),
-                               (grid[1, 2], contact.slip, "slip distance [µm per period]")):
-        drawn = contact.draw(axes, values=values, cmap="cividis")
-        drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
-        bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
-        bar.outline.set_linewidth(0.5)
-        axes.set_title(name, loc="left")
+        draw_states(axes, contact, angle)
+    draw_sum(figure, grid[0, 2], contact, contact.energy, "dissipated energy [J/m² per period]")
+    draw_sum(figure, grid[1, 2], contact, contact.slip, "slip distance [µm per period]")
     for axes in grid.flat:
-        for spine in axes.spines.values():
-            spine.set_visible(False)
+        axes.spines[:].set_visible(False)
         axes.tick_params(length=2)
     for axes in grid[1]:
         axes.set_xlabel("p [mm]")
     for axes in grid[:, 0]:
         axes.set_ylabel("r [mm]")
     figure.get_layout_engine().set(w_pad=0.1)
-    present = set(np.unique(contact.state)) | {0, 1, 2, 3}
-    handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
-               for value, name, colour in STATES if value in present]
-    legend_below(figure, handles)
+    return figure
+
+
+def plot_row(contact):
+    """Points in a row have no area to draw: their states over the period, one line per point."""
+    n = len(contact.points)
+    figure, (states, energy) = plt.subplots(
+        1, 2, figsize=(7.2, min(1.6 + 0.22 * n, 7.0)), layout="constrained", sharey=True,
+        gridspec_kw={"width_ratios": [3, 1]})
+    colours = [colour for _, _, colour in STATES]
+    edges = np.append(contact.phase, 360.0)
+    states.pcolormesh(edges, np.arange(n + 1) + 0.5, contact.state, vmin=-0.5, vmax=4.5,
+                      cmap=ListedColormap(colours))
+    states.hlines(np.arange(1, n) + 0.5, 0, 360, color="white", linewidth=min(1.5, 20 / n))
+    states.set_xticks(np.arange(0, 361, 90))
+    states.set_xlabel("phase [°]")
+    states.set_ylabel("contact point")
+    states.yaxis.set_major_locator(MaxNLocator(integer=True))
+    energy.barh(np.arange(1, n + 1), contact.energy, color="0.4", height=0.6)
+    energy.set_xlabel("dissipated energy\n[J/m² per period]")
+    return figure
+
+
+def plot_map(path, folder, title):
+    contact = ContactMap(path)
+    row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
+    figure = plot_row(contact) if row else plot_patch(contact)
+    state_legend(figure, contact)
     figure.suptitle(f"{title}, {contact.frequency:.6g} Hz", x=0.01, ha="left", fontsize=9)
     save(figure, folder, "map_" + os.path.splitext(os.path.basename(path))[0])
 
