@@ -77,7 +77,7 @@ double from_positive_to_negative(double positive_minus_negative) {
 // Walks from the first instant of contact to the last.
 class ContactWalk {
  public:
-  explicit ContactWalk(const SlipFunctions& w) : w_(w) {
+  ContactWalk(const SlipFunctions& w, CyclePhases& phases) : w_(w), phases_(phases) {
     const HalfAngle half = from_versines(w.above_open, w.below_closed);
     contact_ = 2.0 * half.angle;
     touch_down_ = w.largest_load - half.direction;
@@ -86,13 +86,12 @@ class ContactWalk {
     to_negative_ = angle(w.end_of_negative - touch_down_);
   }
 
-  CyclePhases walk() {
+  void walk() {
     begin();
     for (int i = 0; i < 2 && time_ < contact_; ++i) {  // two reversals take a whole period
       reverse();
     }
     phases_.add({PhaseKind::separated, lift_off_, two_pi - contact_, 0.0});
-    return phases_;
   }
 
  private:
@@ -158,7 +157,7 @@ class ContactWalk {
   }
 
   const SlipFunctions& w_;
-  CyclePhases phases_;
+  CyclePhases& phases_;
   PhaseKind last_ = PhaseKind::separated;
   Direction touch_down_;      // θ_2
   Direction lift_off_;        // θ_1
@@ -167,6 +166,18 @@ class ContactWalk {
   double to_negative_ = 0.0;  // θ_N − θ_2
   double time_ = 0.0;         // since θ_2
 };
+
+void add_stick_slip(CyclePhases& phases, const SlipFunctions& w) {
+  const double ahead = from_positive_to_negative(angle(w.end_of_positive - w.end_of_negative));
+  const Reversal to_negative = after_positive(w, ahead);
+  const Reversal to_positive = after_negative(w, two_pi - ahead);
+  phases.add({PhaseKind::stick_after_positive, w.end_of_positive, to_negative.stick, 0.0});
+  phases.add(
+      {PhaseKind::negative_slip, to_negative.slip_begin, to_negative.slip, to_negative.slip});
+  phases.add({PhaseKind::stick_after_negative, w.end_of_negative, to_positive.stick, 0.0});
+  phases.add(
+      {PhaseKind::positive_slip, to_positive.slip_begin, to_positive.slip, to_positive.slip});
+}
 
 }  // namespace
 
@@ -180,20 +191,14 @@ CycleRegime cycle_regime(const SlipFunctions& w) {
   return w.excess <= 0.0 ? CycleRegime::full_stick : CycleRegime::stick_slip;
 }
 
-CyclePhases stick_slip_phases(const SlipFunctions& w) {
-  const double ahead = from_positive_to_negative(angle(w.end_of_positive - w.end_of_negative));
-  const Reversal to_negative = after_positive(w, ahead);
-  const Reversal to_positive = after_negative(w, two_pi - ahead);
+CyclePhases cycle_phases(const SlipFunctions& w, CycleRegime regime) {
   CyclePhases phases;
-  phases.add({PhaseKind::stick_after_positive, w.end_of_positive, to_negative.stick, 0.0});
-  phases.add(
-      {PhaseKind::negative_slip, to_negative.slip_begin, to_negative.slip, to_negative.slip});
-  phases.add({PhaseKind::stick_after_negative, w.end_of_negative, to_positive.stick, 0.0});
-  phases.add(
-      {PhaseKind::positive_slip, to_positive.slip_begin, to_positive.slip, to_positive.slip});
+  if (regime == CycleRegime::stick_slip) {
+    add_stick_slip(phases, w);
+  } else if (regime == CycleRegime::separation) {
+    ContactWalk(w, phases).walk();
+  }
   return phases;
 }
-
-CyclePhases separation_phases(const SlipFunctions& w) { return ContactWalk(w).walk(); }
 
 }  // namespace microslip::contact

@@ -49,10 +49,8 @@ struct CyclePhases {
 /// Regime by the order of theory section 4.1.
 [[nodiscard]] CycleRegime cycle_regime(const SlipFunctions& w);
 
-/// Never separated, with slip: S P S N in some order, beginning with the stick after θ_P.
-[[nodiscard]] CyclePhases stick_slip_phases(const SlipFunctions& w);
-
-/// One contact interval per period, beginning at its first instant, separation last.
-[[nodiscard]] CyclePhases separation_phases(const SlipFunctions& w);
+/// Stick–slip: S P S N, beginning with the stick phase after θ_P. Separation: from the first instant of
+/// contact, the separated phase last. None for a point that is stuck or open throughout.
+[[nodiscard]] CyclePhases cycle_phases(const SlipFunctions& w, CycleRegime regime);
 
 }  // namespace microslip::contact
