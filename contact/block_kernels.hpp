@@ -1,6 +1,7 @@
 /// @file
 /// Dense products over one block of contact points, the inner loops of PatchForce. Arrays are
-/// [row][point] with `block_points` points per row; missing points of a last block are zero.
+/// [row][point] with `block_points` points per row, of which the first n_points, a multiple of
+/// `lane_points`, are read; points that are missing up to there are zero.
 ///
 ///   project            u_r = Σ_m φ_m q_rm                       motion of the points, harmonic r
 ///   add_force          G_rm += Σ_points φ_m f_r                  modal force
@@ -16,21 +17,24 @@
 namespace microslip::contact {
 
 inline constexpr std::size_t block_points = 64;
+inline constexpr std::size_t lane_points = 8;
 
 struct BlockKernels {
   /// phi [n_modes][block], q [3][n_modes] → motion [3][block].
-  void (*project)(std::size_t n_modes, const double* phi, const double* q, double* motion);
+  void (*project)(std::size_t n_modes, std::size_t n_points, const double* phi, const double* q,
+                  double* motion);
   /// phi [n_modes][block], force [3][block] → sum [3][n_modes].
-  void (*add_force)(std::size_t n_modes, const double* phi, const double* force, double* sum);
+  void (*add_force)(std::size_t n_modes, std::size_t n_points, const double* phi,
+                    const double* force, double* sum);
   /// phi, psi [n_modes][block], a [9][block] → sum [n_modes][n_modes][9].
-  void (*add_products_9)(std::size_t n_modes, const double* phi, const double* psi, const double* a,
-                         double* sum);
+  void (*add_products_9)(std::size_t n_modes, std::size_t n_points, const double* phi,
+                         const double* psi, const double* a, double* sum);
   /// phi [n_modes][block], a [7][block] → sum [n_modes][n_modes][7], j ≤ i.
-  void (*add_symmetric_products_7)(std::size_t n_modes, const double* phi, const double* a,
-                                   double* sum);
+  void (*add_symmetric_products_7)(std::size_t n_modes, std::size_t n_points, const double* phi,
+                                   const double* a, double* sum);
   /// phi [n_modes][block], a [6][block] → sum [n_modes][n_modes][6], j ≤ i.
-  void (*add_symmetric_products_6)(std::size_t n_modes, const double* phi, const double* a,
-                                   double* sum);
+  void (*add_symmetric_products_6)(std::size_t n_modes, std::size_t n_points, const double* phi,
+                                   const double* a, double* sum);
 };
 
 /// The fastest kernels this machine can run.
