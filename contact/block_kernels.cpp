@@ -129,16 +129,22 @@ MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
 
 }  // namespace
 
-const BlockKernels& block_kernels() {
+std::vector<const BlockKernels*> runnable_block_kernels() {
+  std::vector<const BlockKernels*> runnable{&PlainKernels::all};
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
-    return Avx512Kernels::all;
-  }
   if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    return Avx2Kernels::all;
+    runnable.push_back(&Avx2Kernels::all);
+  }
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
+    runnable.push_back(&Avx512Kernels::all);
   }
 #endif
-  return PlainKernels::all;
+  return runnable;
+}
+
+const BlockKernels& block_kernels() {
+  static const BlockKernels& fastest = *runnable_block_kernels().back();
+  return fastest;
 }
 
 }  // namespace microslip::contact

@@ -8,11 +8,12 @@
 ///   add_products       C_eij += Σ_points φ_i ψ_j a_e             modal Jacobian, entry e
 ///   add_symmetric_products    the same for ψ = φ, only j ≤ i
 ///
-/// Compiled for the plain instruction set and for AVX2 and AVX-512 with FMA; the machine decides at run time.
-/// The order of summation is fixed on a machine: equal input gives equal bits.
+/// Compiled for the plain instruction set and for AVX2 and AVX-512 with FMA; the machine decides at
+/// run time. The order of summation is fixed on a machine: equal input gives equal bits.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace microslip::contact {
 
@@ -39,5 +40,7 @@ struct BlockKernels {
 
 /// The fastest kernels this machine can run.
 [[nodiscard]] const BlockKernels& block_kernels();
+/// All kernels this machine can run, the plain ones first, the fastest last.
+[[nodiscard]] std::vector<const BlockKernels*> runnable_block_kernels();
 
 }  // namespace microslip::contact
