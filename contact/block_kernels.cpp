@@ -19,10 +19,10 @@ MICROSLIP_INLINE const typename Lanes<W>::Vector& at(const double* row, std::siz
 }
 
 template <int W>
-MICROSLIP_INLINE void project(std::size_t n_modes, const double* phi, const double* q,
-                              double* motion) {
+MICROSLIP_INLINE void project(std::size_t n_modes, std::size_t n_points, const double* phi,
+                              const double* q, double* motion) {
   using Vector = typename Lanes<W>::Vector;
-  for (std::size_t point = 0; point < block_points; point += W) {
+  for (std::size_t point = 0; point < n_points; point += W) {
     Vector sum[3] = {};
     for (std::size_t mode = 0; mode < n_modes; ++mode) {
       const Vector& shape = at<W>(phi + mode * block_points, point);
@@ -46,12 +46,12 @@ MICROSLIP_INLINE double total(const typename Lanes<W>::Vector& x) {
 }
 
 template <int W>
-MICROSLIP_INLINE void add_force(std::size_t n_modes, const double* phi, const double* force,
-                                double* sum) {
+MICROSLIP_INLINE void add_force(std::size_t n_modes, std::size_t n_points, const double* phi,
+                                const double* force, double* sum) {
   using Vector = typename Lanes<W>::Vector;
   for (std::size_t mode = 0; mode < n_modes; ++mode) {
     Vector s[3] = {};
-    for (std::size_t point = 0; point < block_points; point += W) {
+    for (std::size_t point = 0; point < n_points; point += W) {
       const Vector& shape = at<W>(phi + mode * block_points, point);
       for (std::size_t r = 0; r < 3; ++r) {
         s[r] += shape * at<W>(force + r * block_points, point);
@@ -65,10 +65,11 @@ MICROSLIP_INLINE void add_force(std::size_t n_modes, const double* phi, const do
 
 // One pair of modes: E sums share the product of the two shapes and stay in registers.
 template <int W, std::size_t E>
-MICROSLIP_INLINE void add_pair(const double* phi, const double* psi, const double* a, double* sum) {
+MICROSLIP_INLINE void add_pair(std::size_t n_points, const double* phi, const double* psi,
+                               const double* a, double* sum) {
   using Vector = typename Lanes<W>::Vector;
   Vector s[E] = {};
-  for (std::size_t point = 0; point < block_points; point += W) {
+  for (std::size_t point = 0; point < n_points; point += W) {
     const Vector product = at<W>(phi, point) * at<W>(psi, point);
 #pragma GCC unroll 16
     for (std::size_t e = 0; e < E; ++e) {
@@ -82,12 +83,12 @@ MICROSLIP_INLINE void add_pair(const double* phi, const double* psi, const doubl
 }
 
 template <int W, std::size_t E>
-MICROSLIP_INLINE void add_products(std::size_t n_modes, const double* phi, const double* psi,
-                                   const double* a, double* sum, bool half) {
+MICROSLIP_INLINE void add_products(std::size_t n_modes, std::size_t n_points, const double* phi,
+                                   const double* psi, const double* a, double* sum, bool half) {
   for (std::size_t i = 0; i < n_modes; ++i) {
     const std::size_t n_j = half ? i + 1 : n_modes;
     for (std::size_t j = 0; j < n_j; ++j) {
-      add_pair<W, E>(phi + i * block_points, psi + j * block_points, a,
+      add_pair<W, E>(n_points, phi + i * block_points, psi + j * block_points, a,
                      sum + (i * n_modes + j) * E);
     }
   }
@@ -95,27 +96,29 @@ MICROSLIP_INLINE void add_products(std::size_t n_modes, const double* phi, const
 
 // One set of kernels per instruction set; the bodies above take on the target of the function they
 // are inlined into.
-#define MICROSLIP_KERNELS(name, width, attribute)                                                \
-  struct name {                                                                                  \
-    attribute static void motion(std::size_t n, const double* phi, const double* q, double* u) { \
-      project<width>(n, phi, q, u);                                                              \
-    }                                                                                            \
-    attribute static void force(std::size_t n, const double* phi, const double* f, double* g) {  \
-      add_force<width>(n, phi, f, g);                                                            \
-    }                                                                                            \
-    attribute static void products_9(std::size_t n, const double* phi, const double* psi,        \
-                                     const double* a, double* c) {                               \
-      add_products<width, 9>(n, phi, psi, a, c, false);                                          \
-    }                                                                                            \
-    attribute static void products_7(std::size_t n, const double* phi, const double* a,          \
-                                     double* c) {                                                \
-      add_products<width, 7>(n, phi, phi, a, c, true);                                           \
-    }                                                                                            \
-    attribute static void products_6(std::size_t n, const double* phi, const double* a,          \
-                                     double* c) {                                                \
-      add_products<width, 6>(n, phi, phi, a, c, true);                                           \
-    }                                                                                            \
-    static constexpr BlockKernels all{motion, force, products_9, products_7, products_6};        \
+#define MICROSLIP_KERNELS(name, width, attribute)                                                  \
+  struct name {                                                                                    \
+    attribute static void motion(std::size_t n, std::size_t k, const double* phi, const double* q, \
+                                 double* u) {                                                      \
+      project<width>(n, k, phi, q, u);                                                             \
+    }                                                                                              \
+    attribute static void force(std::size_t n, std::size_t k, const double* phi, const double* f,  \
+                                double* g) {                                                       \
+      add_force<width>(n, k, phi, f, g);                                                           \
+    }                                                                                              \
+    attribute static void products_9(std::size_t n, std::size_t k, const double* phi,              \
+                                     const double* psi, const double* a, double* c) {              \
+      add_products<width, 9>(n, k, phi, psi, a, c, false);                                         \
+    }                                                                                              \
+    attribute static void products_7(std::size_t n, std::size_t k, const double* phi,              \
+                                     const double* a, double* c) {                                 \
+      add_products<width, 7>(n, k, phi, phi, a, c, true);                                          \
+    }                                                                                              \
+    attribute static void products_6(std::size_t n, std::size_t k, const double* phi,              \
+                                     const double* a, double* c) {                                 \
+      add_products<width, 6>(n, k, phi, phi, a, c, true);                                          \
+    }                                                                                              \
+    static constexpr BlockKernels all{motion, force, products_9, products_7, products_6};          \
   };
 
 MICROSLIP_KERNELS(PlainKernels, 2, )
@@ -126,16 +129,22 @@ MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
 
 }  // namespace
 
-const BlockKernels& block_kernels() {
+std::vector<const BlockKernels*> runnable_block_kernels() {
+  std::vector<const BlockKernels*> runnable{&PlainKernels::all};
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
-    return Avx512Kernels::all;
-  }
   if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    return Avx2Kernels::all;
+    runnable.push_back(&Avx2Kernels::all);
+  }
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
+    runnable.push_back(&Avx512Kernels::all);
   }
 #endif
-  return PlainKernels::all;
+  return runnable;
+}
+
+const BlockKernels& block_kernels() {
+  static const BlockKernels& fastest = *runnable_block_kernels().back();
+  return fastest;
 }
 
 }  // namespace microslip::contact

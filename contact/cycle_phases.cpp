@@ -45,38 +45,39 @@ struct Reversal {
   Direction slip_begin;  // where that slip phase begins
 };
 
-// `from` is the extremum at which slip ended, `to` the extremum of the other slip function,
-// y = from − to in [−π, π].
-Reversal reversal(const Direction& from, const Direction& to, double y, double one_minus_cos,
+// `from` is the extremum at which slip ended, `to` the extremum of the other slip function, `ahead`
+// the angle between them in [0, 2π]. Slip takes the last part of it; it begins at once where its
+// level is behind already by rounding.
+Reversal reversal(const Direction& from, const Direction& to, double ahead, double one_minus_cos,
                   double one_plus_cos) {
   const HalfAngle slip = from_versines(one_minus_cos, one_plus_cos);
-  if (y >= 0.0) {
-    return {two_pi - slip.angle - y, slip.angle, to - slip.direction};
+  if (slip.angle >= ahead) {
+    return {0.0, ahead, from};
   }
-  if (slip.angle + y >= 0.0) {
-    return {0.0, -y, from};
-  }
-  return {-slip.angle - y, slip.angle, to - slip.direction};
+  return {ahead - slip.angle, slip.angle, to - slip.direction};
 }
 
-Reversal after_positive(const SlipFunctions& w, double positive_minus_negative) {
-  return reversal(w.end_of_positive, w.end_of_negative, positive_minus_negative, w.excess,
+Reversal after_positive(const SlipFunctions& w, double ahead) {
+  return reversal(w.end_of_positive, w.end_of_negative, ahead, w.excess,
                   2.0 * w.limit + w.difference);
 }
 
-Reversal after_negative(const SlipFunctions& w, double positive_minus_negative) {
-  return reversal(w.end_of_negative, w.end_of_positive, -positive_minus_negative, w.excess,
+Reversal after_negative(const SlipFunctions& w, double ahead) {
+  return reversal(w.end_of_negative, w.end_of_positive, ahead, w.excess,
                   2.0 * w.limit - w.difference);
 }
 
-double wrapped(double x) {
-  return x > std::numbers::pi ? x - two_pi : (x < -std::numbers::pi ? x + two_pi : x);
+// From θ_P forward to θ_N, in (0, 2π], given θ_P − θ_N in [−2π, 2π]. The way back is the rest of
+// the period, so that both ways together are one period even where θ_P = θ_N.
+double from_positive_to_negative(double positive_minus_negative) {
+  const double ahead = -positive_minus_negative;
+  return ahead > 0.0 ? ahead : ahead + two_pi;
 }
 
 // Walks from the first instant of contact to the last.
 class ContactWalk {
  public:
-  explicit ContactWalk(const SlipFunctions& w) : w_(w) {
+  ContactWalk(const SlipFunctions& w, CyclePhases& phases) : w_(w), phases_(phases) {
     const HalfAngle half = from_versines(w.above_open, w.below_closed);
     contact_ = 2.0 * half.angle;
     touch_down_ = w.largest_load - half.direction;
@@ -85,13 +86,12 @@ class ContactWalk {
     to_negative_ = angle(w.end_of_negative - touch_down_);
   }
 
-  CyclePhases walk() {
+  void walk() {
     begin();
     for (int i = 0; i < 2 && time_ < contact_; ++i) {  // two reversals take a whole period
       reverse();
     }
     phases_.add({PhaseKind::separated, lift_off_, two_pi - contact_, 0.0});
-    return phases_;
   }
 
  private:
@@ -144,20 +144,20 @@ class ContactWalk {
   }
 
   void reverse() {
-    const double y = wrapped(to_positive_ - to_negative_);
+    const double ahead = from_positive_to_negative(to_positive_ - to_negative_);
     if (last_ == PhaseKind::positive_slip) {
-      const Reversal next = after_positive(w_, y);
+      const Reversal next = after_positive(w_, ahead);
       add(PhaseKind::stick_after_positive, w_.end_of_positive, next.stick, 0.0);
       slip(PhaseKind::negative_slip, next.slip_begin, next.slip);
     } else {
-      const Reversal next = after_negative(w_, y);
+      const Reversal next = after_negative(w_, two_pi - ahead);
       add(PhaseKind::stick_after_negative, w_.end_of_negative, next.stick, 0.0);
       slip(PhaseKind::positive_slip, next.slip_begin, next.slip);
     }
   }
 
   const SlipFunctions& w_;
-  CyclePhases phases_;
+  CyclePhases& phases_;
   PhaseKind last_ = PhaseKind::separated;
   Direction touch_down_;      // θ_2
   Direction lift_off_;        // θ_1
@@ -166,6 +166,18 @@ class ContactWalk {
   double to_negative_ = 0.0;  // θ_N − θ_2
   double time_ = 0.0;         // since θ_2
 };
+
+void add_stick_slip(CyclePhases& phases, const SlipFunctions& w) {
+  const double ahead = from_positive_to_negative(angle(w.end_of_positive - w.end_of_negative));
+  const Reversal to_negative = after_positive(w, ahead);
+  const Reversal to_positive = after_negative(w, two_pi - ahead);
+  phases.add({PhaseKind::stick_after_positive, w.end_of_positive, to_negative.stick, 0.0});
+  phases.add(
+      {PhaseKind::negative_slip, to_negative.slip_begin, to_negative.slip, to_negative.slip});
+  phases.add({PhaseKind::stick_after_negative, w.end_of_negative, to_positive.stick, 0.0});
+  phases.add(
+      {PhaseKind::positive_slip, to_positive.slip_begin, to_positive.slip, to_positive.slip});
+}
 
 }  // namespace
 
@@ -179,20 +191,14 @@ CycleRegime cycle_regime(const SlipFunctions& w) {
   return w.excess <= 0.0 ? CycleRegime::full_stick : CycleRegime::stick_slip;
 }
 
-CyclePhases stick_slip_phases(const SlipFunctions& w) {
-  const double y = angle(w.end_of_positive - w.end_of_negative);
-  const Reversal to_negative = after_positive(w, y);
-  const Reversal to_positive = after_negative(w, y);
+CyclePhases cycle_phases(const SlipFunctions& w, CycleRegime regime) {
   CyclePhases phases;
-  phases.add({PhaseKind::stick_after_positive, w.end_of_positive, to_negative.stick, 0.0});
-  phases.add(
-      {PhaseKind::negative_slip, to_negative.slip_begin, to_negative.slip, to_negative.slip});
-  phases.add({PhaseKind::stick_after_negative, w.end_of_negative, to_positive.stick, 0.0});
-  phases.add(
-      {PhaseKind::positive_slip, to_positive.slip_begin, to_positive.slip, to_positive.slip});
+  if (regime == CycleRegime::stick_slip) {
+    add_stick_slip(phases, w);
+  } else if (regime == CycleRegime::separation) {
+    ContactWalk(w, phases).walk();
+  }
   return phases;
 }
-
-CyclePhases separation_phases(const SlipFunctions& w) { return ContactWalk(w).walk(); }
 
 }  // namespace microslip::contact

@@ -103,20 +103,21 @@ struct ModalSums {
   std::vector<double> by_vv;
 };
 
-void add_block(ModalSums& sums, std::size_t n_modes, const double* phi_u, const double* phi_v,
-               const BlockForces& forces) {
+void add_block(ModalSums& sums, std::size_t n_modes, std::size_t n_points, const double* phi_u,
+               const double* phi_v, const BlockForces& forces) {
   const BlockKernels& kernels = block_kernels();
   // The normal force counts even where nothing touches: a preload that is gone.
-  kernels.add_force(n_modes, phi_v, forces.normal[0].data(), sums.force.data());
+  kernels.add_force(n_modes, n_points, phi_v, forces.normal[0].data(), sums.force.data());
   if (!forces.any_contact) {
     return;
   }
-  kernels.add_force(n_modes, phi_u, forces.friction[0].data(), sums.force.data());
-  kernels.add_symmetric_products_7(n_modes, phi_u, forces.friction_by_u[0].data(),
+  kernels.add_force(n_modes, n_points, phi_u, forces.friction[0].data(), sums.force.data());
+  kernels.add_symmetric_products_7(n_modes, n_points, phi_u, forces.friction_by_u[0].data(),
                                    sums.by_uu.data());
-  kernels.add_symmetric_products_6(n_modes, phi_v, forces.normal_by_v[0].data(), sums.by_vv.data());
+  kernels.add_symmetric_products_6(n_modes, n_points, phi_v, forces.normal_by_v[0].data(),
+                                   sums.by_vv.data());
   if (forces.any_coupling) {
-    kernels.add_products_9(n_modes, phi_u, phi_v, forces.friction_by_v[0].data(),
+    kernels.add_products_9(n_modes, n_points, phi_u, phi_v, forces.friction_by_v[0].data(),
                            sums.by_uv.data());
   }
 }
@@ -173,14 +174,15 @@ ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) 
   const BlockKernels& kernels = block_kernels();
   ModalSums sums(n);
   for (std::size_t first = 0; first < n_points; first += block_points) {
+    const std::size_t last = std::min(first + block_points, n_points);
+    const std::size_t n_lanes = (last - first + lane_points - 1) / lane_points * lane_points;
     const double* phi_u = &blocks_[2 * n * first];
     const double* phi_v = phi_u + n * block_points;
     Rows<3> u;
     Rows<3> v;
-    kernels.project(n, phi_u, q.rows().data(), u[0].data());
-    kernels.project(n, phi_v, q.rows().data(), v[0].data());
+    kernels.project(n, n_lanes, phi_u, q.rows().data(), u[0].data());
+    kernels.project(n, n_lanes, phi_v, q.rows().data(), v[0].data());
     BlockForces forces{};
-    const std::size_t last = std::min(first + block_points, n_points);
     for (std::size_t point = first; point < last; ++point) {
       const std::size_t i = point - first;
       const PointParameters& parameters = patch_.points()[point];
@@ -188,7 +190,7 @@ ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) 
                  std::max(parameters.preload, 0.0),
                  cycle_force(parameters, {u[0][i], u[1][i], u[2][i], v[0][i], v[1][i], v[2][i]}));
     }
-    add_block(sums, n, phi_u, phi_v, forces);
+    add_block(sums, n, n_lanes, phi_u, phi_v, forces);
   }
   return unpacked(sums, n);
 }

@@ -103,7 +103,7 @@ void projection_only(benchmark::State& state) {
   std::vector<double> motion(3 * block_points);
   for (auto _ : state) {
     for (int direction = 0; direction < 2; ++direction) {
-      block_kernels().project(n_modes, phi.data(), q.data(), motion.data());
+      block_kernels().project(n_modes, block_points, phi.data(), q.data(), motion.data());
       benchmark::ClobberMemory();
     }
   }
@@ -117,9 +117,12 @@ void jacobian_only(benchmark::State& state) {
   const std::vector<double> entries(9 * block_points, 1e-3);
   std::vector<double> sum(9 * n_modes * n_modes);
   for (auto _ : state) {
-    block_kernels().add_products_9(n_modes, phi.data(), psi.data(), entries.data(), sum.data());
-    block_kernels().add_symmetric_products_7(n_modes, phi.data(), entries.data(), sum.data());
-    block_kernels().add_symmetric_products_6(n_modes, psi.data(), entries.data(), sum.data());
+    block_kernels().add_products_9(n_modes, block_points, phi.data(), psi.data(), entries.data(),
+                                   sum.data());
+    block_kernels().add_symmetric_products_7(n_modes, block_points, phi.data(), entries.data(),
+                                             sum.data());
+    block_kernels().add_symmetric_products_6(n_modes, block_points, psi.data(), entries.data(),
+                                             sum.data());
     benchmark::ClobberMemory();
   }
   count_points(state, block_points);

@@ -65,7 +65,7 @@ class CycleAgainstReference : public testing::TestWithParam<Stratum> {};
 
 TEST_P(CycleAgainstReference, ForceCoefficientsAndEnergyAgree) {
   Random random(20260101);
-  const int n_cases = GetParam().name == "generic" ? 24000 : 4000;
+  const int n_cases = GetParam().name == "generic" ? 20000 : 4000;
   for (int i = 0; i < n_cases; ++i) {
     const CycleCase c = GetParam().draw(random);
     const FrictionCycle ours = friction_cycle(c.point, c.motion);

@@ -218,6 +218,37 @@ CycleCase strong_friction(Random& random) {
   return c;
 }
 
+CycleCase grazing_in_phase(Random& random) {
+  CycleCase c = sine_in_phase(random);
+  const double off = uniform(random, 0.0, 1.0) < 0.5 ? 0.0 : decades(random, -17.0, -8.0);
+  set_mean_load(c, sign(random) * load_amplitude(c) * (1.0 + sign(random) * off));
+  return c;
+}
+
+// Small exact numbers: every coincidence of limits occurs, without rounding of the input.
+CycleCase lattice(Random& random) {
+  const auto pick = [&](const std::vector<double>& values) {
+    return values[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
+  };
+  const std::vector<double> parts{0.0, 0.5, -0.5, 1.0, -1.0, 2.0, -2.0};
+  CycleCase c;
+  c.point = {pick({0.0, 1.0, 1.0, 2.0}), pick({0.0, 1.0, 1.0, 2.0}), pick({0.0, 0.5, 1.0, 2.0}),
+             pick({-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0})};
+  c.motion = {pick(parts), pick(parts), pick(parts), pick({0.0, 0.0, 0.5, -1.0}),
+              pick(parts), pick(parts)};
+  return c;
+}
+
+CycleCase beside_lattice(Random& random) {
+  CycleCase c = lattice(random);
+  const double size = decades(random, -17.0, -8.0);
+  for (double* x :
+       {&c.motion.u_sin, &c.motion.u_cos, &c.motion.v_sin, &c.motion.v_cos, &c.point.preload}) {
+    *x += uniform(random, -1.0, 1.0) * size;
+  }
+  return c;
+}
+
 }  // namespace
 
 double friction_scale(const CycleCase& c) {
@@ -236,6 +267,9 @@ const std::vector<Stratum>& strata() {
       {"wide", wide},
       {"near_full_stick", near_full_stick},
       {"grazing", grazing},
+      {"grazing_in_phase", grazing_in_phase},
+      {"lattice", lattice},
+      {"beside_lattice", beside_lattice},
       {"in_phase", in_phase},
       {"sine_in_phase", sine_in_phase},
       {"vanishing_slip_function", vanishing_slip_function},

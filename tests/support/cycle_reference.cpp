@@ -72,8 +72,8 @@ class March {
   March(const contact::PointParameters& point, const contact::PointMotion& m)
       : k_u_(point.tangential_stiffness),
         mu_(point.friction_coefficient),
-        spring_{k_u_ * static_cast<Real>(m.u_mean), k_u_ * static_cast<Real>(m.u_sin),
-                k_u_ * static_cast<Real>(m.u_cos)} {
+        rest_(-k_u_ * static_cast<Real>(m.u_mean)),
+        spring_{0.0L, k_u_ * static_cast<Real>(m.u_sin), k_u_ * static_cast<Real>(m.u_cos)} {
     const Real k_v = point.normal_stiffness;
     load_ = {std::fma(k_v, static_cast<Real>(m.v_mean), static_cast<Real>(point.preload)),
              k_v * m.v_sin, k_v * m.v_cos};
@@ -110,7 +110,7 @@ class March {
       return;
     }
     state_ = 'S';
-    slider_ = std::clamp(Real(0.0L), spring_.at(0.0L) - limit, spring_.at(0.0L) + limit);
+    slider_ = std::clamp(rest_, spring_.at(0.0L) - limit, spring_.at(0.0L) + limit);
   }
 
   [[nodiscard]] std::vector<Guard> guards() const {
@@ -261,11 +261,12 @@ class March {
 
   Real k_u_;
   Real mu_;
-  Wave spring_;  // k_u u
+  Real rest_;    // virgin slider, s = 0
+  Wave spring_;  // k_u (u − u₀)
   Wave load_;    // n₀ + k_v v
   Real tolerance_ = 0.0L;
   Real load_tolerance_ = 0.0L;
-  Real slider_ = 0.0L;  // k_u s
+  Real slider_ = 0.0L;  // k_u (s − u₀)
   Real time_ = 0.0L;
   char state_ = 'S';
   bool recording_ = false;

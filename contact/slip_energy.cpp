@@ -1,0 +1,68 @@
+#include "contact/slip_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microslip::contact {
+namespace {
+
+// x − sin x cos x without cancellation for small x: (2x)³/12 − (2x)⁵/240 + …
+double x_minus_sin_cos(double x) {
+  const double y = 2.0 * x;
+  if (y > 0.5) {
+    return 0.5 * (y - std::sin(y));
+  }
+  const double z = y * y;
+  return y * z / 12.0 *
+         (1.0 -
+          z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0 * (1.0 - z / 156.0)))));
+}
+
+struct SlipPhase {
+  double size;      // L
+  double mean;      // n₀
+  double in_phase;  // k_v v at the extremum
+  double rate;      // k_v v̇ there
+
+  // ∫ n L sin x dx from 0 to x
+  double work(double x) const {
+    const double half = std::sin(0.5 * x);
+    const double sine = std::sin(x);
+    return size * (mean * 2.0 * half * half + 0.5 * in_phase * sine * sine -
+                   0.5 * rate * x_minus_sin_cos(x));
+  }
+};
+
+SlipPhase slip_towards(bool positive, const PointParameters& point, const PointMotion& m,
+                       const SlipFunctions& w) {
+  const Direction& e = positive ? w.end_of_positive : w.end_of_negative;
+  const double k_v = point.normal_stiffness;
+  return {.size = positive ? w.positive : w.negative,
+          .mean = w.mean_load,
+          .in_phase = k_v * (m.v_sin * e.sin + m.v_cos * e.cos),
+          .rate = k_v * (m.v_sin * e.cos - m.v_cos * e.sin)};
+}
+
+}  // namespace
+
+SlipEnergy slip_energy(const PointParameters& point, const PointMotion& motion,
+                       const SlipFunctions& w, const CyclePhases& phases) {
+  const double k_u = point.tangential_stiffness;
+  SlipEnergy energy;
+  for (int i = 0; i < phases.n_phases; ++i) {
+    const CyclePhase& phase = phases.phase[static_cast<std::size_t>(i)];
+    const bool positive = phase.kind == PhaseKind::positive_slip;
+    if (!positive && phase.kind != PhaseKind::negative_slip) {
+      continue;
+    }
+    const SlipPhase slip = slip_towards(positive, point, motion, w);
+    const double first = phase.to_extremum;
+    const double last = std::max(first - phase.length, 0.0);
+    energy.normal_slip += std::max((slip.work(first) - slip.work(last)) / k_u, 0.0);
+    energy.distance +=
+        2.0 * slip.size * std::sin(0.5 * (first + last)) * std::sin(0.5 * (first - last)) / k_u;
+  }
+  return energy;
+}
+
+}  // namespace microslip::contact

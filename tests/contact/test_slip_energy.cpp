@@ -1,0 +1,56 @@
+#include "contact/slip_energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace microslip::contact {
+namespace {
+
+SlipEnergy energy(const PointParameters& point, const PointMotion& motion) {
+  const SlipFunctions w = slip_functions(point, motion);
+  return slip_energy(point, motion, w, cycle_phases(w, cycle_regime(w)));
+}
+
+// Constant load: two phases of 2 (a − q/k_u) each. With a − q = 2⁻⁴⁰ nearly all digits of a formula
+// that subtracts are gone; here all are kept.
+TEST(SlipEnergy, ShortPhasesKeepTheirDigits) {
+  const double off = std::exp2(-40);
+  const SlipEnergy e = energy({1.0, 0.0, 0.5, 2.0 * (1.0 - off)}, {.u_sin = 1.0});
+  EXPECT_NEAR(e.distance / (4.0 * off), 1.0, 1e-14);  // a dozen roundings
+  EXPECT_NEAR(e.normal_slip / (4.0 * off * 2.0 * (1.0 - off)), 1.0, 1e-14);
+}
+
+// The whole slip of one phase under a load that grows with it, by Simpson's rule on the slip rate.
+TEST(SlipEnergy, IsTheIntegralOfLoadTimesSlipRate) {
+  const PointParameters point{2.0, 1.5, 0.4, 1.0};
+  const PointMotion m{.u_sin = 1.4, .u_cos = 0.3, .v_sin = -0.4, .v_cos = 0.9};
+  const SlipFunctions w = slip_functions(point, m);
+  const CyclePhases phases = cycle_phases(w, cycle_regime(w));
+  double work = 0.0;
+  for (int i = 0; i < phases.n_phases; ++i) {
+    const CyclePhase& phase = phases.phase[static_cast<std::size_t>(i)];
+    const double sign = phase.kind == PhaseKind::positive_slip
+                            ? 1.0
+                            : (phase.kind == PhaseKind::negative_slip ? -1.0 : 0.0);
+    const auto rate = [&](double t) {
+      const double u = m.u_sin * std::cos(t) - m.u_cos * std::sin(t);
+      const double v = m.v_sin * std::cos(t) - m.v_cos * std::sin(t);
+      const double n = 1.0 + 1.5 * (m.v_sin * std::sin(t) + m.v_cos * std::cos(t));
+      return n * std::abs(u - sign * 0.4 * 1.5 / 2.0 * v);
+    };
+    constexpr int n = 400;
+    const double begin = std::atan2(phase.begin.sin, phase.begin.cos);
+    const double h = phase.length / n;
+    for (int k = 0; sign != 0.0 && k < n; ++k) {
+      const double t = begin + k * h;
+      work += h / 6.0 * (rate(t) + 4.0 * rate(t + 0.5 * h) + rate(t + h));
+    }
+  }
+  // Simpson with 400 steps of at most 1/100: h⁴/2880 times fourth derivatives of order ten.
+  EXPECT_NEAR(slip_energy(point, m, w, phases).normal_slip, work, 1e-10);
+  EXPECT_GT(work, 0.1);
+}
+
+}  // namespace
+}  // namespace microslip::contact
