@@ -34,4 +34,10 @@ class ExhaustedError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Ctrl-C or a termination signal; what was complete is kept.
+class InterruptedError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace microslip::pipelines

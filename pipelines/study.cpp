@@ -40,11 +40,18 @@ ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
   return model;
 }
 
+void require_response(const SceneDescription& scene) {
+  if (!scene.response) {
+    throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
+  }
+}
+
 }  // namespace
 
 int run_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
   return record.run([&] {
+    require_response(scene);
     const ReducedModel model = reduce(scene, record);
     require_held(model);
     record.stage("curves");
@@ -56,14 +63,16 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
       record.keep_optimum(best_preload(model, scene));
     }
     record.stage("report");
-    record.keep_summary();
-    record.keep_report(write_report(record.folder()));
+    record.keep_summary();  // the report reads it
+    for (const std::string& warning : write_report(record.folder())) {
+      record.progress().warning(warning);
+    }
   });
 }
 
 int modes_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
-  return record.run([&] { reduce(scene, record); });
+  return record.run([&] { static_cast<void>(reduce(scene, record)); });
 }
 
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {

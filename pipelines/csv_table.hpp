@@ -1,0 +1,53 @@
+/// @file
+/// Tables of numbers as users give them: a header with names, then rows of numbers.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microslip::pipelines {
+
+class CsvTable {
+ public:
+  /// @param name  how messages call the table, e.g. the file.
+  /// @throws SceneError  "name:line: …": no header, a name twice, a row of another length, a cell that
+  ///         is not a finite number (the column `id` may hold any text).
+  static CsvTable parse(std::string_view text, const std::string& name);
+  /// @throws SceneError  the file is missing or over 1 GB; otherwise as parse().
+  static CsvTable read(const std::filesystem::path& file);
+
+  /// Rows that come from elsewhere. @param values  row by row, n × columns, finite.
+  static CsvTable from_rows(std::string name, std::vector<std::string> columns,
+                            std::vector<double> values);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::size_t n_rows() const { return lines_.size(); }
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view column) const;
+  /// @throws SceneError  no such column; the message lists the columns there are.
+  [[nodiscard]] std::size_t require(std::string_view column) const;
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const {
+    return values_[row * columns_.size() + column];
+  }
+  /// Text of the column `id`; empty without one.
+  [[nodiscard]] const std::string& id(std::size_t row) const { return ids_[row]; }
+  /// "name:line: column: " of a cell, for messages.
+  [[nodiscard]] std::string place(std::size_t row, std::size_t column) const;
+
+ private:
+  std::string name_;
+  std::vector<std::string> columns_;
+  std::vector<double> values_;
+  std::vector<std::string> ids_;
+  std::vector<std::size_t> lines_;  // of each row in the file
+};
+
+/// Content of a text file without a byte-order mark.
+/// @throws SceneError  missing, unreadable, or larger than `limit` bytes.
+[[nodiscard]] std::string read_text(const std::filesystem::path& file, std::uintmax_t limit);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,453 @@
+#include "pipelines/scene_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "pipelines/csv_table.hpp"
+#include "pipelines/modal_scene.hpp"
+#include "pipelines/scene_error.hpp"
+#include "pipelines/scene_overrides.hpp"
+#include "pipelines/section_reader.hpp"
+#include "pipelines/units.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
+constexpr std::array<std::string_view, 3> kinds{"blade", "mesh", "modal"};
+
+/// The scene while it is read: what was given, and the completed scene that grows beside it.
+struct Reading {
+  toml::table given;
+  toml::table complete;
+  std::string file;
+  std::filesystem::path folder;
+
+  [[nodiscard]] const toml::table* table(std::string_view name) const {
+    const toml::node* node = given.get(name);
+    if (node == nullptr) return nullptr;
+    if (const toml::table* found = node->as_table()) return found;
+    throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
+                                 node->is_array() && name == "contact"
+                                     ? "several contact patches are not available in this version"
+                                     : fmt::format("expected a section [{}]", name)));
+  }
+
+  SectionReader section(std::string_view name, std::string_view spec) {
+    const auto [position, added] = complete.insert_or_assign(name, toml::table{});
+    return {table(name), section_spec(spec), std::string(name), file,
+            *position->second.as_table()};
+  }
+};
+
+toml::table parse_text(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw SceneError(fmt::format("{}:{}:{}: {}", name, error.source().begin.line,
+                                 error.source().begin.column, error.description()));
+  }
+}
+
+void check_sections(const Reading& reading, std::string_view kind) {
+  std::vector<std::string_view> known{"title"};
+  for (const std::string_view name : sections_of_kind(kind)) known.push_back(name);
+  for (const auto& [key, node] : reading.given) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    const std::string near = nearest_name(key.str(), known);
+    throw SceneError(fmt::format(
+        "{}: {}: unknown in a scene of kind \"{}\"; {}", place_of(&node, reading.file), key.str(),
+        kind,
+        near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                     : fmt::format("did you mean \"{}\"?", near)));
+  }
+}
+
+std::string kind_of(const Reading& reading) {
+  const toml::table* model = reading.table("model");
+  const toml::node* kind = model != nullptr ? model->get("kind") : nullptr;
+  if (kind == nullptr) {
+    throw SceneError(fmt::format("{}: model.kind: is missing; expected one of: {}", reading.file,
+                                 fmt::join(kinds, ", ")));
+  }
+  const auto value = kind->value<std::string>();
+  if (!value || std::find(kinds.begin(), kinds.end(), *value) == kinds.end()) {
+    throw SceneError(fmt::format("{}: model.kind: {} is not available; expected one of: {}",
+                                 place_of(kind, reading.file),
+                                 value ? "\"" + *value + "\"" : "this", fmt::join(kinds, ", ")));
+  }
+  return *value;
+}
+
+BladeModel read_blade(const SectionReader& s) {
+  static_cast<void>(s.integer("order"));
+  BladeModel model;
+  model.element_size = s.number("element_size");
+  mesh::BladeGeometry& g = model.geometry;
+  g.root_width = s.number("root_width");
+  g.root_height = s.number("root_height");
+  g.root_length = s.number("root_length");
+  g.platform_width = s.number("platform_width");
+  g.platform_height = s.number("platform_height");
+  g.platform_length = s.number("platform_length");
+  g.span = s.number("span");
+  g.root_chord = s.number("root_chord");
+  g.tip_chord = s.number("tip_chord");
+  g.root_thickness = s.number("root_thickness");
+  g.tip_thickness = s.number("tip_thickness");
+  g.root_stagger = s.number("root_stagger");
+  g.tip_stagger = s.number("tip_stagger");
+  g.camber = s.number("camber");
+  g.lean = s.number("lean");
+  return model;
+}
+
+MeshFileModel read_mesh_file(const SectionReader& s, const std::filesystem::path& folder) {
+  static_cast<void>(s.integer("order"));
+  MeshFileModel model;
+  const std::filesystem::path file = s.text("file");
+  model.file = file.is_absolute() ? file : folder / file;
+  if (file.extension() != ".msh") {
+    s.fail("file", fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version",
+                               file.string()),
+           s.node("file"));
+  }
+  const toml::node& unit = *s.node("length_unit");
+  if (const auto name = unit.value<std::string>(); name && unit.is_string()) {
+    try {
+      model.length_unit = to_si("1 " + *name, "m");
+    } catch (const UnitError& error) {
+      s.fail("length_unit", error.what(), &unit);
+    }
+  } else {
+    model.length_unit = s.number_in(unit, "length_unit");
+  }
+  if (!(model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", &unit);
+  return model;
+}
+
+fem::Material read_material(const SectionReader& s) {
+  return {s.number("youngs_modulus"), s.number("poissons_ratio"), s.number("density")};
+}
+
+std::vector<std::string> read_names(const SectionReader& s, std::string_view key) {
+  const toml::node& node = *s.node(key);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) s.fail(key, "expected a list of names", &node);
+  std::vector<std::string> names;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_string()) s.fail(key, "expected names in quotes", &entry);
+    names.push_back(*entry.value<std::string>());
+  }
+  return names;
+}
+
+double damping_in(const SectionReader& s, const toml::node& node) {
+  const double value = s.number_in(node, "damping_ratio");
+  if (value < 0.0) s.fail("damping_ratio", fmt::format("{:g} is negative", value), &node);
+  return value;
+}
+
+ModesDescription read_modes(const SectionReader& s) {
+  ModesDescription modes;
+  modes.count = s.integer("count");
+  const toml::node& damping = *s.node("damping_ratio");
+  if (const toml::table* table = damping.as_table()) {
+    RayleighDamping rayleigh;
+    for (const auto& [key, value] : *table) {
+      const bool alpha = key.str() == "alpha";
+      if (!alpha && key.str() != "beta") {
+        s.fail("damping_ratio", fmt::format("unknown key \"{}\"; known: alpha, beta", key.str()),
+               &value);
+      }
+      (alpha ? rayleigh.alpha : rayleigh.beta) = damping_in(s, value);
+    }
+    modes.damping = rayleigh;
+  } else if (const toml::array* list = damping.as_array()) {
+    std::vector<double> ratios;
+    for (const toml::node& entry : *list) ratios.push_back(damping_in(s, entry));
+    if (static_cast<int>(ratios.size()) != modes.count) {
+      s.fail("damping_ratio",
+             fmt::format("{} values for {} modes; give one, or one each", ratios.size(), modes.count),
+             &damping);
+    }
+    modes.damping = ratios;
+  } else {
+    modes.damping = std::vector<double>{damping_in(s, damping)};
+  }
+  constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
+  modes.residual =
+      s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::stiffness;
+  return modes;
+}
+
+std::optional<double> read_stiffness(const SectionReader& s, std::string_view key) {
+  const toml::node& node = *s.node(key);
+  if (node.is_string() && *node.value<std::string>() == "rigid") return std::nullopt;
+  return s.number_in(node, key);
+}
+
+ContactDescription read_contact(const SectionReader& s) {
+  ContactDescription contact;
+  if (const toml::node* surface = s.node("surface"); surface->is_array()) {
+    s.fail("surface", "two facing bodies are not available in this version; name one surface",
+           surface);
+  }
+  contact.surface = s.text("surface");
+  contact.slip_direction = s.direction("slip_direction");
+  contact.friction_coefficient = s.number("friction_coefficient");
+  contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
+  contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
+  contact.wear_coefficient = s.number("wear_coefficient");
+  contact.n_points = s.integer("points");
+  const toml::node& fit = *s.node("fit");
+  if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
+    if (*word != "auto" && *word != "none") {
+      s.fail("fit", "expected a degree, \"auto\" or \"none\"", &fit);
+    }
+    contact.fit = *word == "auto" ? ContactDescription::Fit::automatic
+                                  : ContactDescription::Fit::none;
+  } else {
+    const auto degree = fit.value<std::int64_t>();
+    if (!fit.is_integer() || *degree < 0 || *degree > 30) {
+      s.fail("fit", "expected a degree from 0 to 30, \"auto\" or \"none\"", &fit);
+    }
+    contact.fit = ContactDescription::Fit::degree;
+    contact.fit_degree = static_cast<int>(*degree);
+  }
+  return contact;
+}
+
+std::vector<ForceDescription> read_forces(const SectionReader& s) {
+  const toml::node& node = *s.node("forces");
+  const toml::array* list = node.as_array();
+  if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
+  std::vector<ForceDescription> forces;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
+    toml::table complete;
+    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces", s.file(),
+                              complete);
+    ForceDescription description;
+    description.at = force.text("at");
+    description.direction = force.direction("direction");
+    description.amplitude = force.number("amplitude");
+    // UDUNITS takes a bare number as it is: degrees.
+    description.phase_deg = force.number("phase");
+    forces.push_back(description);
+  }
+  return forces;
+}
+
+OutputDescription read_output(const SectionReader& s) {
+  const toml::node& node = *s.node("output");
+  if (!node.is_table()) s.fail("output", "expected { at = …, direction = [x, y, z] }", &node);
+  toml::table complete;
+  const SectionReader output(node.as_table(), section_spec("output"), "response.output", s.file(),
+                             complete);
+  return {output.text("at"), output.direction("direction")};
+}
+
+double frequency_in(const SectionReader& s, const toml::node& node) {
+  const double value = s.number_in(node, "frequency");
+  if (!(value > 0.0)) {
+    s.fail("frequency", fmt::format("{:g} Hz: frequencies must be above 0", value), &node);
+  }
+  return value;
+}
+
+void read_range(const SectionReader& s, ResponseDescription& response) {
+  const toml::node& node = *s.node("frequency");
+  const toml::array* list = node.as_array();
+  if (list == nullptr) {
+    response.frequency_begin_hz = response.frequency_end_hz = frequency_in(s, node);
+    return;
+  }
+  if (list->size() != 1 && list->size() != 2) {
+    s.fail("frequency", "expected [from, to], or one value", &node);
+  }
+  response.frequency_begin_hz = frequency_in(s, *list->get(0));
+  response.frequency_end_hz = frequency_in(s, *list->get(list->size() - 1));
+}
+
+void read_maps(const SectionReader& s, ResponseDescription& response) {
+  const toml::node& node = *s.node("maps");
+  const toml::array* list = node.as_array();
+  if (list == nullptr) s.fail("maps", "expected a list of \"peak\", \"folds\" or frequencies", &node);
+  for (const toml::node& entry : *list) {
+    const auto word = entry.is_string() ? entry.value<std::string>() : std::nullopt;
+    if (word && (*word == "peak" || *word == "folds")) {
+      response.maps.emplace_back(*word == "peak" ? MapName::peak : MapName::folds);
+      continue;
+    }
+    const double frequency = s.number_in(entry, "maps");  // in Hz; checked below for its unit
+    if (!(frequency > 0.0)) s.fail("maps", "frequencies must be above 0", &entry);
+    response.maps.emplace_back(frequency);
+  }
+  response.map_phases = s.integer("map_phases");
+}
+
+void read_method(const SectionReader& s, ResponseDescription& response) {
+  constexpr std::array<std::string_view, 1> methods{"harmonic_balance"};
+  static_cast<void>(s.word("method", methods));
+  const toml::node& harmonics = *s.node("harmonics");
+  if (!harmonics.is_integer() || *harmonics.value<std::int64_t>() != 1) {
+    s.fail("harmonics", "mean and first harmonic only in this version: expected 1", &harmonics);
+  }
+  response.harmonics = 1;
+}
+
+PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
+  if (entry.is_string()) {
+    const std::string word = *entry.value<std::string>();
+    if (word == "free") return LimitName::free;
+    if (word == "stuck") return LimitName::stuck;
+  }
+  return s.number_in(entry, "preload");
+}
+
+ResponseDescription read_response(const SectionReader& s) {
+  ResponseDescription response;
+  response.output = read_output(s);
+  read_range(s, response);
+  read_method(s, response);
+  const toml::node& preload = *s.node("preload");
+  if (const toml::array* list = preload.as_array()) {
+    if (list->empty()) s.fail("preload", "the list is empty", &preload);
+    for (const toml::node& entry : *list) response.preload.push_back(preload_in(s, entry));
+  } else {
+    response.preload.push_back(preload_in(s, preload));
+  }
+  if (s.given("optimum")) {
+    constexpr std::array<std::string_view, 1> parameters{"preload"};
+    static_cast<void>(s.word("optimum", parameters));
+    response.optimum_preload = true;
+  }
+  if (s.given("optimum_range")) {
+    const toml::node& node = *s.node("optimum_range");
+    const toml::array* list = node.as_array();
+    if (list == nullptr || list->size() != 2) s.fail("optimum_range", "expected [low, high]", &node);
+    const std::array<double, 2> range{s.number_in(*list->get(0), "optimum_range"),
+                                      s.number_in(*list->get(1), "optimum_range")};
+    if (!(range[0] > 0.0 && range[0] < range[1])) {
+      s.fail("optimum_range", "expected 0 < low < high", &node);
+    }
+    response.optimum_range = range;
+  }
+  read_maps(s, response);
+  return response;
+}
+
+ResponseDescription read_modal_response(const SectionReader& s) {
+  ResponseDescription response;
+  read_range(s, response);
+  read_method(s, response);
+  const toml::node& scale = *s.node("preload_scale");
+  const auto add = [&](const toml::node& entry) {
+    response.preload_scale.push_back(s.number_in(entry, "preload_scale"));
+  };
+  response.preload_scale.clear();
+  if (const toml::array* list = scale.as_array()) {
+    if (list->empty()) s.fail("preload_scale", "the list is empty", &scale);
+    for (const toml::node& entry : *list) add(entry);
+  } else {
+    add(scale);
+  }
+  const toml::node& limits = *s.node("limits");
+  if (!limits.is_boolean()) s.fail("limits", "expected true or false", &limits);
+  response.limits = *limits.value<bool>();
+  read_maps(s, response);
+  return response;
+}
+
+/// Effects this version simulates wherever the scene has them, and those it does not have yet.
+std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s) {
+  constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
+  constexpr std::array<std::string_view, 4> later{"second_direction", "higher_harmonics",
+                                                  "roughness", "rate_dependence"};
+  std::vector<std::pair<std::string, std::string>> effects;
+  for (const KeySpec& key : section_spec("effects").keys) {
+    const std::string setting = s.word(key.name, settings);
+    const bool comes_later = std::find(later.begin(), later.end(), key.name) != later.end();
+    if (comes_later && setting == "on") {
+      s.fail(key.name, "is not available in this version", s.node(key.name));
+    }
+    if (!comes_later && setting == "off") {
+      s.fail(key.name, "cannot be switched off in this version; expected auto or on",
+             s.node(key.name));
+    }
+    effects.emplace_back(key.name, setting);
+  }
+  return effects;
+}
+
+void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  if (kind == "blade") {
+    scene.model = read_blade(reading.section("model", "model.blade"));
+  } else {
+    scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
+  }
+  scene.material = read_material(reading.section("material", "material"));
+  scene.clamped = read_names(reading.section("supports", "supports"), "clamped");
+  scene.modes = read_modes(reading.section("modes", "modes"));
+  if (reading.given.contains("contact")) {
+    scene.contact = read_contact(reading.section("contact", "contact"));
+  }
+  scene.forces = read_forces(reading.section("excitation", "excitation"));
+  if (reading.given.contains("response")) {
+    scene.response = read_response(reading.section("response", "response"));
+  }
+}
+
+void read_modal_scene(Reading& reading, SceneDescription& scene) {
+  static_cast<void>(reading.section("model", "model.modal"));
+  scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
+  if (reading.given.contains("response")) {
+    scene.response = read_modal_response(reading.section("response", "response.modal"));
+  }
+}
+
+}  // namespace
+
+SceneDescription parse_scene(const std::string& text, const std::string& name,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::string>& overrides) {
+  Reading reading{parse_text(text, name), {}, name, folder};
+  for (const std::string& assignment : overrides) apply_override(reading.given, assignment);
+  const std::string kind = kind_of(reading);
+  check_sections(reading, kind);
+  SceneDescription scene;
+  scene.file = name;
+  if (const toml::node* title = reading.given.get("title")) {
+    if (!title->is_string()) {
+      throw SceneError(place_of(title, name) + ": title: expected a text in quotes");
+    }
+    scene.title = *title->value<std::string>();
+  }
+  reading.complete.insert_or_assign("title", scene.title);
+  if (kind == "modal") {
+    read_modal_scene(reading, scene);
+  } else {
+    read_meshed(reading, kind, scene);
+  }
+  scene.effects = read_effects(reading.section("effects", "effects"));
+  std::ostringstream complete;
+  complete << reading.complete << '\n';
+  scene.complete_toml = complete.str();
+  return scene;
+}
+
+SceneDescription read_scene(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  return parse_scene(read_text(file, largest_scene), file.string(), folder, overrides);
+}
+
+}  // namespace microslip::pipelines

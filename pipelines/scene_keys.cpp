@@ -1,0 +1,230 @@
+#include "pipelines/scene_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace microslip::pipelines {
+namespace {
+
+using enum KeyType;
+
+constexpr KeySpec length_key(std::string_view name, std::string_view preset,
+                             std::string_view meaning) {
+  return {name, number, "m", preset, 0.0, 10.0, true, meaning};
+}
+
+constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal"};
+constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
+
+constexpr std::array blade_keys{
+    kind_key,
+    length_key("element_size", "\"4 mm\"", "target edge length of the mesh"),
+    order_key,
+    length_key("root_width", "\"6.6 mm\"", "root block along x (circumferential)"),
+    length_key("root_height", "\"25 mm\"", "root block along y (radial); its foot lies in y = 0"),
+    length_key("root_length", "\"50 mm\"", "root block along z (axial)"),
+    length_key("platform_width", "\"60 mm\"", "platform along x; its right side face is the contact"),
+    length_key("platform_height", "\"10 mm\"", "platform along y"),
+    length_key("platform_length", "\"60 mm\"", "platform along z"),
+    length_key("span", "\"115 mm\"", "aerofoil above the platform"),
+    length_key("root_chord", "\"44 mm\"", "chord at the platform"),
+    length_key("tip_chord", "\"34 mm\"", "chord at the tip"),
+    length_key("root_thickness", "\"5 mm\"", "largest thickness of the section at the platform"),
+    length_key("tip_thickness", "\"3 mm\"", "largest thickness of the section at the tip"),
+    KeySpec{"root_stagger", number, "rad", "0.1", -1.5, 1.5, false,
+            "angle of the chord to z about y at the platform"},
+    KeySpec{"tip_stagger", number, "rad", "0.6", -1.5, 1.5, false, "the same at the tip"},
+    KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false, "height of the camber line over the chord"},
+    KeySpec{"lean", number, "m", "\"-3.5 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
+};
+
+constexpr std::array mesh_keys{
+    kind_key,
+    KeySpec{"file", text, "", "", 0, 0, false, "gmsh mesh (.msh 2.2 or 4.1), relative to the scene"},
+    KeySpec{"length_unit", other, "m", "\"m\"", 0, 0, false, "unit of the file's coordinates: \"mm\", or metres per unit"},
+    order_key,
+};
+
+constexpr std::array modal_model_keys{kind_key};
+
+constexpr std::array material_keys{
+    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"poissons_ratio", number, "1", "", -1.0, 0.4999, true, "ν"},
+    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+};
+
+constexpr std::array support_keys{
+    KeySpec{"clamped", other, "", "[]", 0, 0, false, "names of surfaces, or sets of edges or nodes, that are held"},
+};
+
+constexpr std::array mode_keys{
+    KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes"},
+    KeySpec{"damping_ratio", other, "1", "0.002", 0, 0, false,
+            "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"},
+    KeySpec{"residual", text, "", "\"stiffness\"", 0, 0, false,
+            "omitted modes on the contact: stiffness | none"},
+};
+
+constexpr std::array contact_keys{
+    KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
+    KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
+    KeySpec{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"},
+    KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
+            "local stiffness per area, or \"rigid\": the residual stiffness alone"},
+    KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
+    KeySpec{"fit", other, "", "\"auto\"", 0, 0, false,
+            "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
+    KeySpec{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
+            "Archard: depth per (pressure × slip distance)"},
+    KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
+};
+
+constexpr std::array excitation_keys{
+    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic forces F sin(θ + phase)"},
+};
+
+constexpr std::array force_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "in all, spread evenly over the nodes"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr std::array output_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface (mean over its nodes)"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
+};
+
+constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
+                                "from, to (either order): a curve; a single value: the solution there"};
+constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false, "harmonic_balance"};
+constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 1, false, "highest harmonic"};
+constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
+                           "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
+constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};
+
+constexpr std::array response_keys{
+    KeySpec{"output", other, "", "", 0, 0, false, "{ at = …, direction = […] }: the displacement that is told"},
+    frequency_key,
+    method_key,
+    harmonics_key,
+    KeySpec{"preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
+            "total normal force, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""},
+    KeySpec{"optimum", text, "", "", 0, 0, false, "\"preload\": solve for the best one", true},
+    KeySpec{"optimum_range", other, "N", "", 0, 0, false,
+            "[low, high] of the search; else the smallest and largest positive preload", true},
+    maps_key,
+    phases_key,
+};
+
+constexpr std::array modal_response_keys{
+    frequency_key, method_key, harmonics_key,
+    KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
+    KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
+    maps_key, phases_key,
+};
+
+constexpr std::array modal_keys{
+    KeySpec{"frequency", other, "Hz", "", 0, 0, false, "natural frequencies, one per mode", true},
+    KeySpec{"angular_frequency", other, "rad/s", "", 0, 0, false, "the same in rad/s, instead", true},
+    KeySpec{"damping_ratio", other, "1", "", 0, 0, false, "one per mode, or one number"},
+    KeySpec{"force_sine", other, "N/kg^0.5", "", 0, 0, false, "modal force amplitudes of sin θ"},
+    KeySpec{"force_cosine", other, "N/kg^0.5", "0", 0, 0, false, "of cos θ"},
+    KeySpec{"force_static", other, "N/kg^0.5", "0", 0, 0, false, "static modal force"},
+    KeySpec{"output", other, "1/kg^0.5", "", 0, 0, false, "y = Σ output_m q_m"},
+    KeySpec{"points", other, "", "[]", 0, 0, false, "contact points: a CSV file, or a list of tables"},
+};
+
+constexpr std::array effect_keys{
+    KeySpec{"normal_motion", text, "", "\"auto\"", 0, 0, false, "load variation by normal motion"},
+    KeySpec{"separation", text, "", "\"auto\"", 0, 0, false, "one-sided contact"},
+    KeySpec{"mean_coupling", text, "", "\"auto\"", 0, 0, false, "mean motion changes the load"},
+    KeySpec{"second_direction", text, "", "\"auto\"", 0, 0, false, "friction along r as well"},
+    KeySpec{"higher_harmonics", text, "", "\"auto\"", 0, 0, false, "harmonics above the first"},
+    KeySpec{"roughness", text, "", "\"auto\"", 0, 0, false, "rough surfaces"},
+    KeySpec{"rate_dependence", text, "", "\"auto\"", 0, 0, false, "friction coefficient by slip speed"},
+    KeySpec{"residual", text, "", "\"auto\"", 0, 0, false, "residual flexibility of omitted modes"},
+    KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
+};
+
+constexpr std::array<SectionSpec, 14> sections{{
+    {"model.blade", blade_keys},
+    {"model.mesh", mesh_keys},
+    {"model.modal", modal_model_keys},
+    {"material", material_keys},
+    {"supports", support_keys},
+    {"modes", mode_keys},
+    {"contact", contact_keys},
+    {"excitation", excitation_keys},
+    {"force", force_keys},
+    {"output", output_keys},
+    {"response", response_keys},
+    {"response.modal", modal_response_keys},
+    {"modal", modal_keys},
+    {"effects", effect_keys},
+}};
+
+constexpr std::array<std::string_view, 8> mesh_sections{
+    "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
+constexpr std::array<std::string_view, 4> modal_sections{"model", "modal", "response", "effects"};
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+SectionSpec section_spec(std::string_view name) {
+  for (const SectionSpec& section : sections) {
+    if (section.name == name) return section;
+  }
+  throw std::logic_error("no scene section " + std::string(name));
+}
+
+std::span<const std::string_view> sections_of_kind(std::string_view kind) {
+  if (kind == "modal") return modal_sections;
+  return mesh_sections;
+}
+
+std::string nearest_name(std::string_view name, std::span<const std::string_view> known) {
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(3, name.size() / 2) + 1;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+std::string range_text(const KeySpec& key) {
+  const bool from = key.low > -unbounded;
+  const bool to = key.high < unbounded;
+  if (from && to) {
+    return key.above_low ? fmt::format("above {:g}, at most {:g}", key.low, key.high)
+                         : fmt::format("{:g} to {:g}", key.low, key.high);
+  }
+  if (from) return fmt::format("{} {:g}", key.above_low ? "above" : "at least", key.low);
+  if (to) return fmt::format("at most {:g}", key.high);
+  return "any number";
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,56 @@
+/// @file
+/// Every key of a scene file, once: name, unit, default, range, meaning. Reading, checking, the
+/// templates of `init` and the completed scene all come from this table.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace microslip::pipelines {
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+enum class KeyType {
+  number,     ///< a number, or a string with a unit
+  integer,
+  text,
+  direction,  ///< three numbers
+  other,      ///< lists, tables, alternatives: read by code of their own
+};
+
+struct KeySpec {
+  std::string_view name;
+  KeyType type = KeyType::number;
+  std::string_view unit = "1";
+  std::string_view preset;  ///< default as it would be written; empty: the key must be given
+  double low = -unbounded;  ///< range of a number: low ≤ value ≤ high,
+  double high = unbounded;
+  bool above_low = false;   ///< … or low < value
+  std::string_view meaning;
+  bool optional = false;    ///< may be absent without a default
+};
+
+struct SectionSpec {
+  std::string_view name;  ///< as written in [ ]
+  std::span<const KeySpec> keys;
+};
+
+/// Keys of a section. `name` "model.blade", "model.mesh", "model.modal" are the three kinds of [model];
+/// "force" and "output" the inline tables of that name.
+/// @throws std::logic_error  no such section: a mistake of the program.
+[[nodiscard]] SectionSpec section_spec(std::string_view name);
+
+/// Sections a scene of a kind may have, in the order of a template.
+[[nodiscard]] std::span<const std::string_view> sections_of_kind(std::string_view kind);
+
+/// The name among `known` that is nearest to `name` by edits; empty when none is near.
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       std::span<const std::string_view> known);
+
+/// "0.004 or above", "between -1 and 0.5", …: how messages and templates tell a range.
+[[nodiscard]] std::string range_text(const KeySpec& key);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,102 @@
+#include "pipelines/scene_overrides.hpp"
+
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+struct Step {
+  std::string key;
+  std::optional<std::size_t> index;  // of a list entry
+};
+
+[[noreturn]] void refuse(const std::string& assignment, const std::string& why) {
+  throw SceneError(fmt::format("--set {}: {}", assignment, why));
+}
+
+std::vector<Step> steps_of(const std::string& path, const std::string& assignment) {
+  std::vector<Step> steps;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    Step step{path.substr(begin, end - begin), std::nullopt};
+    begin = end + 1;
+    if (const auto bracket = step.key.find('['); bracket != std::string::npos) {
+      std::size_t index = 0;
+      const char* last = step.key.data() + step.key.size();
+      const auto [stop, error] = std::from_chars(step.key.data() + bracket + 1, last, index);
+      if (error != std::errc() || stop + 1 != last || *stop != ']') {
+        refuse(assignment, "expected an index like forces[0]");
+      }
+      step.index = index;
+      step.key.resize(bracket);
+    }
+    if (step.key.empty()) refuse(assignment, "a key is empty");
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+toml::table value_of(const std::string& text, const std::string& assignment) {
+  const std::string source = "--set " + assignment;
+  try {
+    return toml::parse("x = " + text, source);
+  } catch (const toml::parse_error&) {  // not TOML: 2.5 mm, stuck, … is meant as a text
+    toml::table table;
+    table.insert_or_assign("x", text);
+    return table;
+  }
+}
+
+void assign(toml::table& table, const std::string& key, const toml::node& value) {
+  value.visit([&](const auto& content) { table.insert_or_assign(key, content); });
+}
+
+/// The table one step down, made when it is not there.
+toml::table& descend(toml::table& table, const Step& step, const std::string& assignment) {
+  if (!table.contains(step.key)) table.insert_or_assign(step.key, toml::table{});
+  toml::node* node = table.get(step.key);
+  if (step.index) {
+    toml::array* list = node->as_array();
+    if (list == nullptr || *step.index >= list->size()) {
+      refuse(assignment, fmt::format("{} has no entry {}", step.key, *step.index));
+    }
+    node = list->get(*step.index);
+  }
+  toml::table* below = node->as_table();
+  if (below == nullptr) refuse(assignment, fmt::format("{} is not a table", step.key));
+  return *below;
+}
+
+}  // namespace
+
+void apply_override(toml::table& scene, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    refuse(assignment, "expected key.path=value");
+  }
+  const auto steps = steps_of(assignment.substr(0, equals), assignment);
+  const toml::table value = value_of(assignment.substr(equals + 1), assignment);
+  toml::table* table = &scene;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) table = &descend(*table, steps[i], assignment);
+  const Step& last = steps.back();
+  if (!last.index) {
+    assign(*table, last.key, *value.get("x"));
+    return;
+  }
+  toml::node* node = table->get(last.key);
+  toml::array* list = node != nullptr ? node->as_array() : nullptr;
+  if (list == nullptr || *last.index >= list->size()) {
+    refuse(assignment, fmt::format("{} has no entry {}", last.key, *last.index));
+  }
+  value.get("x")->visit([&](const auto& content) {
+    list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*last.index), content);
+  });
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,27 @@
+/// @file
+/// Quantities as users write them: a number (SI) or a number with a unit ("210 GPa", "0.2 %").
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace microslip::pipelines {
+
+/// What is wrong with a quantity, without its place.
+class UnitError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Value of `text` in `unit`.
+/// @param text  number, blanks, unit in UDUNITS notation; without a unit the number is taken as it is.
+/// @param unit  SI unit expected, "1" for a pure number.
+/// @throws UnitError  not a number, an unknown unit, or one of another dimension.
+/// @note to_si("210 GPa", "Pa") is 2.1e11; to_si("0.2 %", "1") is 0.002.
+[[nodiscard]] double to_si(std::string_view text, const std::string& unit);
+
+/// The whole text as a finite or infinite number, in any locale. @throws UnitError  it is none.
+[[nodiscard]] double parse_number(std::string_view text);
+
+}  // namespace microslip::pipelines
