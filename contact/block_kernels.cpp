@@ -3,6 +3,9 @@
 namespace microslip::contact {
 namespace {
 
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument,
+// so sums are plain arrays.
+
 // W doubles side by side; aligned as the arrays are, to one double only.
 template <int W>
 struct Lanes {
@@ -94,6 +97,9 @@ MICROSLIP_INLINE void add_products(std::size_t n_modes, std::size_t n_points, co
   }
 }
 
+// NOLINTEND(modernize-avoid-c-arrays)
+
+// NOLINTBEGIN(bugprone-macro-parentheses): an attribute cannot stand in parentheses.
 // One set of kernels per instruction set; the bodies above take on the target of the function they
 // are inlined into.
 #define MICROSLIP_KERNELS(name, width, attribute)                                                  \
@@ -120,6 +126,8 @@ MICROSLIP_INLINE void add_products(std::size_t n_modes, std::size_t n_points, co
     }                                                                                              \
     static constexpr BlockKernels all{motion, force, products_9, products_7, products_6};          \
   };
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 MICROSLIP_KERNELS(PlainKernels, 2, )
 #if defined(__x86_64__)

@@ -58,13 +58,11 @@ Reversal reversal(const Direction& from, const Direction& to, double ahead, doub
 }
 
 Reversal after_positive(const SlipFunctions& w, double ahead) {
-  return reversal(w.end_of_positive, w.end_of_negative, ahead, w.excess,
-                  2.0 * w.limit + w.difference);
+  return reversal(w.end_of_positive, w.end_of_negative, ahead, w.excess, w.rest_negative);
 }
 
 Reversal after_negative(const SlipFunctions& w, double ahead) {
-  return reversal(w.end_of_negative, w.end_of_positive, ahead, w.excess,
-                  2.0 * w.limit - w.difference);
+  return reversal(w.end_of_negative, w.end_of_positive, ahead, w.excess, w.rest_positive);
 }
 
 // From θ_P forward to θ_N, in (0, 2π], given θ_P − θ_N in [−2π, 2π]. The way back is the rest of

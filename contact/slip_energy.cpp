@@ -25,7 +25,7 @@ struct SlipPhase {
   double rate;      // k_v v̇ there
 
   // ∫ n L sin x dx from 0 to x
-  double work(double x) const {
+  [[nodiscard]] double work(double x) const {
     const double half = std::sin(0.5 * x);
     const double sine = std::sin(x);
     return size * (mean * 2.0 * half * half + 0.5 * in_phase * sine * sine -

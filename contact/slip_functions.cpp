@@ -36,8 +36,10 @@ bool near_a_limit(const SlipFunctions& w) {
   const double size = w.positive + w.negative;
   const double slip = share * size;
   const double load = share * w.load_amplitude;
+  const double rest = share * (2.0 * std::abs(w.limit) + std::abs(w.difference));
   return std::abs(w.excess) < slip || w.positive < slip || w.negative < slip ||
-         std::abs(w.above_open) < load || std::abs(w.below_closed) < load;
+         std::abs(w.above_open) < load || std::abs(w.below_closed) < load ||
+         std::abs(w.rest_positive) < rest || std::abs(w.rest_negative) < rest;
 }
 
 SlipFunctions refined(const PointParameters& point, const PointMotion& motion) {
@@ -64,8 +66,11 @@ SlipFunctions refined(const PointParameters& point, const PointMotion& motion) {
   w.limit = static_cast<double>(mu * n0);
   w.positive = static_cast<double>(L1);
   w.negative = static_cast<double>(L2);
-  w.difference = sum > 0 ? static_cast<double>(4 * (as * bs + ac * bc) / sum) : 0.0;
+  const Quad difference = sum > 0 ? 4 * (as * bs + ac * bc) / sum : 0;
+  w.difference = static_cast<double>(difference);
   w.excess = static_cast<double>(sum - 2 * mu * n0);
+  w.rest_positive = static_cast<double>(2 * mu * n0 - difference);
+  w.rest_negative = static_cast<double>(2 * mu * n0 + difference);
   w.end_of_positive =
       direction(static_cast<double>(as - bs), static_cast<double>(ac - bc), w.positive);
   w.end_of_negative =
@@ -99,6 +104,8 @@ SlipFunctions slip_functions(const PointParameters& point, const PointMotion& mo
   // Quotients before products: |b| ≤ sum / 2, so nothing underflows that matters.
   w.difference = sum > 0.0 ? 4.0 * (as * (bs / sum) + ac * (bc / sum)) : 0.0;
   w.excess = sum - 2.0 * w.limit;
+  w.rest_positive = 2.0 * w.limit - w.difference;
+  w.rest_negative = 2.0 * w.limit + w.difference;
   if (near_a_limit(w)) {
     return refined(point, motion);
   }

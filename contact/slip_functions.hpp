@@ -33,6 +33,8 @@ struct SlipFunctions {
   double negative = 0.0;        ///< L₂ ≥ 0
   double difference = 0.0;      ///< L₂ − L₁
   double excess = 0.0;          ///< L₁ + L₂ − 2q; ≤ 0 (and never separated): full stick
+  double rest_positive = 0.0;   ///< 2q − ΔL: what the excess lacks of 2 L₁
+  double rest_negative = 0.0;   ///< 2q + ΔL: what the excess lacks of 2 L₂
   Direction end_of_positive;    ///< θ_P
   Direction end_of_negative;    ///< θ_N
   Direction largest_load;       ///< δ
