@@ -13,8 +13,6 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,14 +48,22 @@ inline Eigen::MatrixXd values(vtkFieldData& data, const std::string& name) {
   return result;
 }
 
+/// Value of an XML attribute in a line; empty when it is not there.
+inline std::string attribute(const std::string& line, const std::string& name) {
+  const std::string key = name + "=\"";
+  const std::size_t begin = line.find(key);
+  if (begin == std::string::npos) return "";
+  const std::size_t value = begin + key.size();
+  return line.substr(value, line.find('"', value) - value);
+}
+
 /// (time, file) of every entry of a .pvd.
 inline std::vector<std::pair<double, std::string>> pvd_steps(const std::filesystem::path& file) {
   std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::regex entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
   std::vector<std::pair<double, std::string>> steps;
-  for (std::sregex_iterator match(text.begin(), text.end(), entry), end; match != end; ++match) {
-    steps.emplace_back(std::stod((*match)[1]), (*match)[2]);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("<DataSet ") == std::string::npos) continue;
+    steps.emplace_back(std::stod(attribute(line, "timestep")), attribute(line, "file"));
   }
   return steps;
 }
