@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "fem/fe_system.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
 #include "mesh/mesh.hpp"
@@ -34,7 +35,11 @@ class Structure {
  public:
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
-  Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped);
+  /// @param rule     quadrature of the stiffness.
+  /// @param springs  added to K; nullptr: none.
+  Structure(const mesh::Mesh& mesh, const Material& material,
+            const std::vector<std::string>& clamped,
+            StiffnessRule rule = StiffnessRule::accurate, const SurfaceSprings* springs = nullptr);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;
@@ -52,6 +57,8 @@ class Structure {
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
                                                          const Eigen::Matrix3d& frame);
+  /// (K − ω²M)⁻¹ F without damping. @param frequency  ω [rad/s], off every resonance.
+  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency, const Eigen::MatrixXd& forces);
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:
