@@ -18,28 +18,17 @@
 namespace microslip::fem {
 
 struct ModalOptions {
-  Eigen::Index n_modes = 10;         ///< 1 … n_dofs; rigid-body modes count
-  /// Of each pair, checked; or the rounding of the product Kφ itself, 16 ε ‖diag(K) φ‖ / ‖Kφ‖, where
-  /// that is larger (slender bodies on fine meshes).
-  double residual_tolerance = 1e-8;
-};
-
-/// Springs to ground on a surface: K += Σ_c w_c Σ_d k_cd (N_c e_d)(N_c e_d)ᵀ over points c and the
-/// three axes e_d.
-struct SurfaceSprings {
-  Eigen::SparseMatrix<double> interpolation;  ///< N, n_points × surface nodes
-  Eigen::VectorXd weights;                    ///< w [m²], n_points
-  Eigen::Matrix3d frame;                      ///< axes e_d in its rows, orthonormal
-  Eigen::MatrixX3d stiffness;                 ///< k per area along each axis [N/m³], n_points × 3, ≥ 0
+  Eigen::Index n_modes = 10;         ///< ≥ 1; rigid-body modes count
+  double residual_tolerance = 1e-8;  ///< of each pair, checked
 };
 
 /// Where the time went [s].
 struct ModalTimings {
   double assembly = 0.0;
-  double ordering = 0.0;       ///< symbolic factorisation of K
-  double factorisation = 0.0;  ///< numeric
-  double eigensolve = 0.0;
-  double inertia = 0.0;        ///< ordering and factorisation of the check of the count
+  double factorisation = 0.0;  ///< numerical, of K (or of K shifted, if K is singular)
+  double ordering = 0.0;       ///< analysis before it
+  double eigensolve = 0.0;     ///< Krylov–Schur and refinement
+  double inertia = 0.0;        ///< the count: ordering and factorisation of its own
 };
 
 /// Owns K, M and one factorisation; answers modes and static questions about one structure.
@@ -57,26 +46,32 @@ class Structure {
 
   [[nodiscard]] Eigen::Index n_dofs() const;  ///< free degrees of freedom
   [[nodiscard]] double mass() const;          ///< [kg]
-  /// Adds springs to K; what was factorised before is forgotten. Points must interpolate within one
-  /// face each. @throws std::invalid_argument  sizes that do not match, a negative stiffness.
-  void add_surface_springs(const mesh::Surface& surface, const SurfaceSprings& springs);
-  /// The lowest modes, rigid-body modes first. The largest component of each is positive.
-  /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode ("eigen-missed-
-  ///         mode: …"), or zero frequencies beyond six rigid-body modes ("mechanism: …"); with
-  ///         numbers. std::invalid_argument  n_modes out of range.
+  /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero modes
+  ///         than a free body has or a mechanism inside it; with numbers.
   [[nodiscard]] ModalBasis solve_modes(const ModalOptions& options);
   /// Displacement under loads: columns of F (3 n_nodes × m) [N] → u (3 n_nodes × m) [m].
   /// @throws EigenError  rigid-body modes: K is singular.
   [[nodiscard]] Eigen::MatrixXd solve_static(const Eigen::MatrixXd& forces);
-  /// Undamped vibration under loads F cos ωt away from resonance: (K − ω²M) u = F, columns as above.
-  /// @param frequency  ω [rad/s].
-  [[nodiscard]] Eigen::MatrixXd solve_harmonic(const Eigen::MatrixXd& forces, double frequency);
-  /// Three static solves for a uniform unit traction on the surface along each row of `frame`, less
-  /// what the modes of the basis take (theory section 14). Without supports the static solution is
-  /// that of inertia relief: rigid-body acceleration removed, no rigid-body displacement.
+  /// Three static solves for a uniform unit traction on the surface along each row of `frame`, minus
+  /// what the modes of `basis` carry (theory section 14). With rigid-body modes: inertia relief.
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
                                                          const Eigen::Matrix3d& frame);
+  /// Adds springs between a surface and the ground, e.g. a contact that sticks everywhere:
+  ///   K += Σ_c w_c Σ_d k_cd (N_c e_d)ᵀ(N_c e_d),   e_d row d of the frame.
+  /// Call before modes or solutions are asked for, or ask for them again: factorisations are dropped.
+  /// @param to_points  interpolates nodal values to the points, n_points × surface.nodes.size().
+  /// @param weights    area of each point [m²], n_points.
+  /// @param frame      rows p, q, r.
+  /// @param stiffness  along p, q, r at each point [N/m³], n_points × 3, ≥ 0.
+  /// @throws std::invalid_argument  sizes differ; the message names them.
+  void add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+                           const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
+                           const Eigen::MatrixX3d& stiffness);
+  /// Undamped harmonic response (K − ω²M) u = F: columns of F (3 n_nodes × m) [N] → u [m]. Each call
+  /// factorises anew.
+  /// @throws EigenError  ω is a natural frequency to rounding.
+  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const;
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:

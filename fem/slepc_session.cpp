@@ -4,6 +4,7 @@
 #include <optional>
 #include <type_traits>
 
+#include <petscpkg_version.h>
 #include <slepcsys.h>
 
 #include "fem/blas_library.hpp"
@@ -87,11 +88,14 @@ std::string petsc_versions() {
   check(PetscGetVersionNumber(&major, &minor, &patch, nullptr));
   std::string text = "PETSc " + dotted(major, minor, patch);
   check(SlepcGetVersionNumber(&major, &minor, &patch, nullptr));
-  text += ", SLEPc " + dotted(major, minor, patch) + ", MUMPS " PETSC_PKG_MUMPS_VERSION_TEXT;
+  text += ", SLEPc " + dotted(major, minor, patch);
+  text += ", MUMPS " + dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                              PETSC_PKG_MUMPS_VERSION_SUBMINOR);
   char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
   int length = 0;
   check(MPI_Get_library_version(mpi, &length));
-  return text + ", " + std::string(mpi, static_cast<std::size_t>(length)).substr(0, std::string(mpi).find(','));
+  const std::string name(mpi, static_cast<std::size_t>(length));
+  return text + ", " + name.substr(0, name.find(','));
 }
 
 }  // namespace microslip::fem

@@ -1,5 +1,5 @@
 /// @file
-/// Nodal forces of a traction on a surface.
+/// Consistent nodal loads of a traction on a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +8,14 @@
 
 namespace microslip::fem {
 
-/// a_i = ∫ N_i dA of each node of the surface [m²], in the order of surface.nodes; the sum is the area.
-/// Nodal areas of curved or second-order faces may be zero or negative at corners.
+/// Share ∫ N_i dA of each mesh node in the area of a surface [m²], size nodes.rows(), 0 off the
+/// surface. A uniform traction τ loads node i with τ times its share.
+/// @param nodes  all mesh nodes [m].
+/// @note May be zero or negative at the corners of quadratic faces; the sum is the area.
 [[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface);
 
-/// Forces of a unit uniform traction along each row of `frame` [N per Pa], 3 n_nodes × 3.
-[[nodiscard]] Eigen::MatrixXd traction_loads(const Eigen::MatrixX3d& nodes,
-                                             const mesh::Surface& surface,
-                                             const Eigen::Matrix3d& frame);
+/// Load vectors of a unit traction along each row of `frame`: 3 nodes.rows() × 3 [N per Pa].
+[[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                                 const Eigen::Matrix3d& frame);
 
 }  // namespace microslip::fem
