@@ -1,0 +1,101 @@
+#include "fem/slepc_session.hpp"
+
+#include <cstdlib>
+#include <optional>
+#include <type_traits>
+
+#include <petscpkg_version.h>
+#include <slepcsys.h>
+
+#include "fem/blas_library.hpp"
+#include "fem/petsc_error.hpp"
+
+namespace microslip::fem {
+
+static_assert(std::is_same_v<PetscScalar, double>, "PETSc must be built with real double scalars");
+
+namespace {
+
+// PETSc reads PETSC_OPTIONS and ~/.petscrc while it starts; a stray option there must not change
+// results, so both are kept from it.
+class QuietOptions {
+ public:
+  QuietOptions() {
+    if (const char* value = std::getenv(name)) before_ = value;
+    setenv(name, "-skip_petscrc -no_signal_handler", 1);
+  }
+  ~QuietOptions() {
+    if (before_) {
+      setenv(name, before_->c_str(), 1);
+    } else {
+      unsetenv(name);
+    }
+  }
+  QuietOptions(const QuietOptions&) = delete;
+  QuietOptions& operator=(const QuietOptions&) = delete;
+  QuietOptions(QuietOptions&&) = delete;
+  QuietOptions& operator=(QuietOptions&&) = delete;
+
+ private:
+  static constexpr const char* name = "PETSC_OPTIONS";
+  std::optional<std::string> before_;
+};
+
+int ranks_on_this_machine() {
+  MPI_Comm here = MPI_COMM_NULL;
+  int n = 1;
+  check(MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
+  check(MPI_Comm_size(here, &n));
+  check(MPI_Comm_free(&here));
+  return n;
+}
+
+}  // namespace
+
+SlepcSession::SlepcSession() {
+  {
+    const QuietOptions quiet;
+    check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
+  }
+  install_error_handler();
+  set_blas_threads(ranks_on_this_machine());
+}
+
+SlepcSession::~SlepcSession() {
+  PetscPopErrorHandler();
+  SlepcFinalize();
+}
+
+int SlepcSession::rank() const {
+  int value = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &value));
+  return value;
+}
+
+int SlepcSession::n_ranks() const {
+  int value = 0;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &value));
+  return value;
+}
+
+std::string petsc_versions() {
+  const auto dotted = [](int a, int b, int c) {
+    return std::to_string(a) + '.' + std::to_string(b) + '.' + std::to_string(c);
+  };
+  PetscInt major = 0;
+  PetscInt minor = 0;
+  PetscInt patch = 0;
+  check(PetscGetVersionNumber(&major, &minor, &patch, nullptr));
+  std::string text = "PETSc " + dotted(major, minor, patch);
+  check(SlepcGetVersionNumber(&major, &minor, &patch, nullptr));
+  text += ", SLEPc " + dotted(major, minor, patch);
+  text += ", MUMPS " + dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                              PETSC_PKG_MUMPS_VERSION_SUBMINOR);
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  check(MPI_Get_library_version(mpi, &length));
+  const std::string name(mpi, static_cast<std::size_t>(length));
+  return text + ", " + name.substr(0, name.find(','));
+}
+
+}  // namespace microslip::fem
