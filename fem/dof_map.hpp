@@ -1,12 +1,15 @@
 /// @file
-/// Which nodes move: clamped nodes are left out of the matrices, the others are numbered 0 … n_free − 1
-/// in mesh order, three unknowns (x, y, z) each.
+/// Which mesh nodes move, in which order the solver keeps them, and which rank owns them.
+///
+/// Supports hold all three components of a node, so a node either has three degrees of freedom or
+/// none, and matrices keep blocks of three. The free nodes are ordered along a space-filling curve
+/// (Morton, Z order): neighbours in space are near in memory, and a contiguous piece of the order is
+/// a compact piece of the body, which serves as the share of one MPI rank.
 #pragma once
 
 #include <vector>
 
 #include <Eigen/Core>
-#include <petscsys.h>
 
 #include "mesh/mesh.hpp"
 
@@ -14,28 +17,36 @@ namespace microslip::fem {
 
 class DofMap {
  public:
-  /// @param clamped  names of surfaces or node sets.
-  /// @throws mesh::MeshError        an unknown name.
-  /// @throws std::invalid_argument  nothing is left to move.
-  DofMap(const mesh::Mesh& mesh, const std::vector<std::string>& clamped);
+  /// @param clamped  names of surfaces or node sets that are held.
+  /// @throws mesh::MeshError  unknown name; std::invalid_argument  no node is left free.
+  DofMap(const mesh::Mesh& mesh, const std::vector<std::string>& clamped, int rank, int n_ranks);
 
-  [[nodiscard]] PetscInt n_free_nodes() const { return n_free_; }
-  /// Number of a node among the free ones; −1: clamped (PETSc skips negative indices).
-  [[nodiscard]] PetscInt free_node(Eigen::Index node) const {
-    return number_[static_cast<std::size_t>(node)];
+  /// Solver index of a mesh node, −1 if it is held.
+  [[nodiscard]] Eigen::Index solver_node(Eigen::Index mesh_node) const {
+    return solver_node_[static_cast<std::size_t>(mesh_node)];
   }
-  [[nodiscard]] Eigen::Index n_nodes() const { return static_cast<Eigen::Index>(number_.size()); }
-  /// The clamped nodes do not lie on one line: no rigid-body motion is left.
-  [[nodiscard]] bool holds_rigid_motion() const { return holds_; }
+  /// Mesh node of a solver index.
+  [[nodiscard]] Eigen::Index mesh_node(Eigen::Index solver_node) const {
+    return mesh_node_[static_cast<std::size_t>(solver_node)];
+  }
+  [[nodiscard]] Eigen::Index n_mesh_nodes() const { return std::ssize(solver_node_); }
+  [[nodiscard]] Eigen::Index n_free_nodes() const { return std::ssize(mesh_node_); }
+  /// Solver nodes [first, last) belong to this rank.
+  [[nodiscard]] Eigen::Index first() const { return first_; }
+  [[nodiscard]] Eigen::Index last() const { return last_; }
+  [[nodiscard]] Eigen::Index n_local_dofs() const { return 3 * (last_ - first_); }
 
-  /// Values at free nodes (3 n_free) ↔ at all nodes (3 n_nodes), 0 where clamped.
-  [[nodiscard]] Eigen::VectorXd expand(const Eigen::Ref<const Eigen::VectorXd>& free) const;
-  [[nodiscard]] Eigen::VectorXd restrict(const Eigen::Ref<const Eigen::VectorXd>& all) const;
+  /// Rows of this rank, in solver order, of columns given per mesh node (3 n_mesh_nodes × m).
+  [[nodiscard]] Eigen::MatrixXd to_local(const Eigen::MatrixXd& on_mesh) const;
+  /// Complete columns per mesh node on every rank, 0 where held. Collective.
+  [[nodiscard]] Eigen::MatrixXd to_mesh(const Eigen::MatrixXd& local) const;
 
  private:
-  std::vector<PetscInt> number_;
-  PetscInt n_free_ = 0;
-  bool holds_ = false;
+  std::vector<Eigen::Index> solver_node_;
+  std::vector<Eigen::Index> mesh_node_;
+  Eigen::Index first_ = 0;
+  Eigen::Index last_ = 0;
+  int n_ranks_ = 1;
 };
 
 }  // namespace microslip::fem

@@ -1,5 +1,8 @@
 /// @file
-/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) on a factorisation of our own.
+/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) on a given factorisation.
+///
+/// Source: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601–614; Hernandez, Roman & Vidal, ACM Trans.
+/// Math. Softw. 31 (2005) 351–362.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +12,26 @@
 
 namespace microslip::fem {
 
-/// Converged pairs in ascending order, at least as many as asked for when the solver found them.
 struct EigenPairs {
-  Eigen::VectorXd values;    ///< λ [rad²/s²]
-  Eigen::MatrixXd vectors;   ///< φᵀMφ = 1, 3 n_free × n, complete on every rank
-  Eigen::VectorXd residual;  ///< ‖Kφ − λMφ‖ / max(‖Kφ‖, |σ|‖Mφ‖)
+  Eigen::VectorXd values;   ///< λ = ω² [rad²/s²], ascending
+  Eigen::MatrixXd vectors;  ///< φ, rows of this rank × n, ΦᵀMΦ = I
 };
 
-/// @param inverse  of K − shift · M.
-/// @param n_pairs  number asked for, ≥ 1.
-/// @param n_basis  size of the Krylov basis; 0: chosen.
-[[nodiscard]] EigenPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse,
-                                      double shift, Eigen::Index n_pairs, Eigen::Index n_basis = 0);
+/// @param inverse    factorisation of K − shift M.
+/// @param shift      [rad²/s²], below every wanted eigenvalue.
+/// @param n_wanted   pairs wanted; more are returned when more converged, fewer when the rest of the
+///                   space is smaller.
+/// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
+/// @throws EigenError  fewer converged: both numbers and the tolerance.
+[[nodiscard]] EigenPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
+                                      Eigen::Index n_wanted, const Eigen::MatrixXd& deflation);
+
+/// One step of subspace iteration and Rayleigh–Ritz over all columns: orders pairs that were found
+/// in several runs, and turns what is left of foreign modes far down.
+[[nodiscard]] EigenPairs refine(const FeSystem& system, const Factorisation& inverse,
+                                const Eigen::MatrixXd& vectors);
+
+/// ‖Kφ − λMφ‖ / ‖Kφ‖ of each pair.
+[[nodiscard]] Eigen::VectorXd relative_residuals(const FeSystem& system, const EigenPairs& pairs);
 
 }  // namespace microslip::fem

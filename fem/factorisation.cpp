@@ -1,103 +1,76 @@
 #include "fem/factorisation.hpp"
 
 #include <chrono>
-#include <new>
 #include <string>
 
-#include "fem/petsc_check.hpp"
+#include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check_factor(Mat factor, double shift) {
-  MatFactorError error = MAT_FACTOR_NOERROR;
-  check(MatFactorGetError(factor, &error));
-  if (error == MAT_FACTOR_NOERROR) return;
-  if (error == MAT_FACTOR_OUTMEMORY) throw std::bad_alloc();
-  throw EigenError("the factorisation of K - " + std::to_string(shift) +
-                   " M broke down: the matrix is singular or not positive definite (MatFactorError " +
-                   std::to_string(static_cast<int>(error)) + ")");
+PetscInt info(Mat factor, PetscInt which) {
+  PetscInt value = 0;
+  check(MatMumpsGetInfog(factor, which, &value));
+  return value;
 }
 
-/// A dense copy of the rows of this rank.
-MatHandle distributed(Mat like, const Eigen::MatrixXd& full) {
-  PetscInt begin = 0;
-  PetscInt end = 0;
-  check(MatGetOwnershipRange(like, &begin, &end));
-  MatHandle matrix;
-  check(MatCreateDense(PETSC_COMM_WORLD, end - begin, PETSC_DECIDE,
-                       static_cast<PetscInt>(full.rows()), static_cast<PetscInt>(full.cols()),
-                       nullptr, matrix.out()));
-  PetscScalar* values = nullptr;
-  PetscInt stride = 0;
-  check(MatDenseGetLDA(matrix.get(), &stride));
-  check(MatDenseGetArray(matrix.get(), &values));
-  for (Eigen::Index j = 0; j < full.cols(); ++j) {
-    Eigen::Map<Eigen::VectorXd>(values + j * stride, end - begin) =
-        full.col(j).segment(begin, end - begin);
+// MUMPS users' guide 5.5, section 8: −8, −9, −11 … workspace guessed too small; −13 allocation failed.
+bool workspace_too_small(PetscInt code) { return code == -8 || code == -9 || code == -17 || code == -20; }
+
+[[noreturn]] void fail(Mat factor, const char* stage) {
+  const PetscInt code = info(factor, 1);
+  const std::string text = std::string("MUMPS failed in ") + stage + ", INFOG(1) = " + std::to_string(code) +
+                           ", INFOG(2) = " + std::to_string(info(factor, 2));
+  if (code == -13 || code == -19 || workspace_too_small(code)) {
+    throw MemoryError("out of memory: " + text + "; about " + std::to_string(info(factor, 17)) +
+                      " MB are needed. Use a coarser mesh or a machine with more memory.");
   }
-  check(MatDenseRestoreArray(matrix.get(), &values));
-  check(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
-  return matrix;
+  throw PetscError(text);
 }
 
 }  // namespace
 
-Factorisation::Factorisation(const FeSystem& system, double shift, Kind kind) {
-  Mat source = system.stiffness.get();
-  if (shift != 0.0) {
-    check(MatDuplicate(system.stiffness.get(), MAT_COPY_VALUES, matrix_.out()));
-    check(MatAXPY(matrix_.get(), -shift, system.mass.get(), SAME_NONZERO_PATTERN));
-    check(MatSetOption(matrix_.get(), MAT_SYMMETRIC, PETSC_TRUE));
-    source = matrix_.get();
+Factorisation::Factorisation(Mat matrix, FactorKind kind) {
+  const bool definite = kind == FactorKind::positive_definite;
+  check(MatSetOption(matrix, MAT_SPD, definite ? PETSC_TRUE : PETSC_FALSE));
+  check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
+  check(MatMumpsSetIcntl(factor_.get(), 13, 1));  // no ScaLAPACK root: it would hide pivot signs
+  check(MatMumpsSetIcntl(factor_.get(), 24, definite ? 0 : 1));
+  check(MatMumpsSetIcntl(factor_.get(), 31, kind == FactorKind::inertia_only ? 1 : 0));
+  MatFactorInfo options;
+  check(MatFactorInfoInitialize(&options));
+  const auto start = std::chrono::steady_clock::now();
+  check(MatCholeskyFactorSymbolic(factor_.get(), matrix, nullptr, &options));
+  if (info(factor_.get(), 1) < 0) fail(factor_.get(), "ordering");
+  ordering_seconds_ = seconds_since(start);
+  for (const PetscInt extra_percent : {30, 100, 300}) {
+    check(MatMumpsSetIcntl(factor_.get(), 14, extra_percent));
+    check(MatCholeskyFactorNumeric(factor_.get(), matrix, &options));
+    if (!workspace_too_small(info(factor_.get(), 1))) break;
   }
-  const PetscBool positive =
-      kind == Kind::positive_definite ? PETSC_TRUE : PETSC_FALSE;
-  check(MatSetOption(source, MAT_SPD, positive));
-  check(MatSetOption(source, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatGetFactor(source, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
-  check(MatMumpsSetIcntl(factor_.get(), 14, 40));  // room for pivoting [%]
-  MatFactorInfo info;
-  check(MatFactorInfoInitialize(&info));
-  auto begin = Clock::now();
-  check(MatCholeskyFactorSymbolic(factor_.get(), source, nullptr, &info));
-  ordering_seconds_ = seconds_since(begin);
-  begin = Clock::now();
-  check(MatCholeskyFactorNumeric(factor_.get(), source, &info));
-  factor_seconds_ = seconds_since(begin);
-  check_factor(factor_.get(), shift);
+  if (info(factor_.get(), 1) < 0) fail(factor_.get(), "factorisation");
+  factor_seconds_ = seconds_since(start) - ordering_seconds_;
 }
 
-void Factorisation::solve(Vec b, Vec x) const { check(MatSolve(factor_.get(), b, x)); }
-
-Eigen::MatrixXd Factorisation::solve(const Eigen::MatrixXd& right) const {
-  const MatHandle b = distributed(factor_.get(), right);
-  MatHandle x;
-  check(MatDuplicate(b.get(), MAT_DO_NOT_COPY_VALUES, x.out()));
-  check(MatMatSolve(factor_.get(), b.get(), x.get()));
-  Eigen::MatrixXd solution(right.rows(), right.cols());
-  for (PetscInt j = 0; j < static_cast<PetscInt>(right.cols()); ++j) {
-    Vec column = nullptr;
-    check(MatDenseGetColumnVecRead(x.get(), j, &column));
-    solution.col(j) = gather(column);
-    check(MatDenseRestoreColumnVecRead(x.get(), j, &column));
-  }
+Eigen::MatrixXd Factorisation::solve(const Eigen::MatrixXd& rhs) const {
+  Eigen::MatrixXd solution(rhs.rows(), rhs.cols());
+  Eigen::MatrixXd load = rhs;  // PETSc wants it writable
+  const auto n_local = static_cast<PetscInt>(rhs.rows());
+  const auto n_columns = static_cast<PetscInt>(rhs.cols());
+  MatHandle B;
+  MatHandle X;
+  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, load.data(), B.out()));
+  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, solution.data(), X.out()));
+  check(MatMatSolve(factor_.get(), B.get(), X.get()));
   return solution;
 }
 
-PetscInt Factorisation::n_below_shift() const {
-  PetscInt negative = 0;
-  PetscInt zero = 0;
-  PetscInt positive = 0;
-  check(MatGetInertia(factor_.get(), &negative, &zero, &positive));
-  return negative;
+Inertia Factorisation::inertia() const {
+  return {.negative = info(factor_.get(), 12), .zero = info(factor_.get(), 28)};
 }
 
 }  // namespace microslip::fem

@@ -1,39 +1,43 @@
 /// @file
-/// Direct factorisation of K − σM by MUMPS: one for the eigensolver and all static solves, another for
-/// counting eigenvalues.
+/// Sparse direct factorisation of a symmetric PETSc matrix by MUMPS.
 #pragma once
 
-#include <Eigen/Core>
-#include <petscmat.h>
+#include <cstdint>
 
-#include "fem/fe_system.hpp"
+#include <Eigen/Core>
+
+#include "fem/handle.hpp"
 
 namespace microslip::fem {
 
+enum class FactorKind : std::uint8_t {
+  positive_definite,  ///< LDLᵀ without pivoting: fastest
+  indefinite,         ///< LDLᵀ with pivoting; counts the signs of the pivots
+  inertia_only,       ///< the same, but the factors are not kept: no solves
+};
+
+/// Number of negative and vanishing eigenvalues (Sylvester's law of inertia).
+struct Inertia {
+  Eigen::Index negative = 0;
+  Eigen::Index zero = 0;
+};
+
 class Factorisation {
  public:
-  enum class Kind {
-    positive_definite,  ///< Cholesky
-    indefinite,         ///< LDLᵀ: has an inertia
-  };
+  /// Orders and factorises. The matrix may change afterwards without effect.
+  /// @throws MemoryError  it does not fit; PetscError  another failure of MUMPS, with its code.
+  Factorisation(Mat matrix, FactorKind kind);
 
-  /// K − shift · M.
-  /// @throws EigenError      the factorisation broke down (matrix singular, or not positive).
-  /// @throws std::bad_alloc  out of memory.
-  Factorisation(const FeSystem& system, double shift, Kind kind);
-
-  /// x = (K − σM)⁻¹ b.
-  void solve(Vec b, Vec x) const;
-  /// Several right-hand sides at a time. @param right  3 n_free × m, complete on every rank.
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  /// Negative pivots: eigenvalues of Kφ = λMφ below the shift. Kind::indefinite only.
-  [[nodiscard]] PetscInt n_below_shift() const;
-
+  /// Solves A X = B for all columns in one go. @param rhs  rows of this rank × m.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
+  /// The factored matrix of PETSc, for its own solvers.
+  [[nodiscard]] Mat get() const { return factor_.get(); }
+  /// Of any but a `positive_definite` factorisation.
+  [[nodiscard]] Inertia inertia() const;
   [[nodiscard]] double ordering_seconds() const { return ordering_seconds_; }
   [[nodiscard]] double factor_seconds() const { return factor_seconds_; }
 
  private:
-  MatHandle matrix_;
   MatHandle factor_;
   double ordering_seconds_ = 0.0;
   double factor_seconds_ = 0.0;

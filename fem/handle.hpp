@@ -1,16 +1,17 @@
 /// @file
-/// One owner for each PETSc or SLEPc object: moved, never copied, destroyed once.
+/// Owner of one PETSc or SLEPc object: move-only, destroyed exactly once.
 #pragma once
 
 #include <utility>
 
-#include <petscsys.h>
+#include <slepceps.h>
 
 namespace microslip::fem {
 
-/// @tparam Type     a PETSc handle: Mat, Vec, EPS, …
-/// @tparam Destroy  its XxxDestroy.
-template <typename Type, PetscErrorCode (*Destroy)(Type*)>
+/// @tparam Object   Mat, Vec, EPS, …: a pointer type of PETSc.
+/// @tparam destroy  its destroyer, which takes the address and nulls it.
+/// @note Must die before the SlepcSession does.
+template <typename Object, PetscErrorCode (*destroy)(Object*)>
 class Handle {
  public:
   Handle() = default;
@@ -26,20 +27,27 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
 
-  [[nodiscard]] Type get() const { return object_; }
-  /// For XxxCreate(…, handle.out()): what was held before is destroyed.
-  [[nodiscard]] Type* out() {
+  [[nodiscard]] Object get() const { return object_; }
+  explicit operator bool() const { return object_ != nullptr; }
+  /// Address for a creating call; what was held before is destroyed.
+  [[nodiscard]] Object* out() {
     reset();
     return &object_;
   }
 
  private:
-  void reset() {
-    if (object_ != nullptr) Destroy(&object_);  // in a destructor there is nobody to tell
+  /// A destroyer fails only on a corrupted object; there is nobody to tell in a destructor.
+  void reset() noexcept {
+    if (object_ != nullptr) static_cast<void>(destroy(&object_));
     object_ = nullptr;
   }
-
-  Type object_ = nullptr;
+  Object object_ = nullptr;
 };
+
+using MatHandle = Handle<Mat, &MatDestroy>;
+using VecHandle = Handle<Vec, &VecDestroy>;
+using EpsHandle = Handle<EPS, &EPSDestroy>;
+using IndexSetHandle = Handle<IS, &ISDestroy>;
+using ScatterHandle = Handle<VecScatter, &VecScatterDestroy>;
 
 }  // namespace microslip::fem

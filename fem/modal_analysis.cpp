@@ -3,246 +3,270 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <sstream>
+#include <stdexcept>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include <Eigen/Eigenvalues>
 
-#include "fem/eigensolver.hpp"
-#include "fem/factorisation.hpp"
-#include "fem/petsc_check.hpp"
+#include "fem/columns.hpp"
+#include "fem/mode_search.hpp"
+#include "fem/petsc_error.hpp"
+#include "fem/rigid_modes.hpp"
 #include "fem/surface_load.hpp"
+#include "fem/surface_springs.hpp"
 
 namespace microslip::fem {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// ω² this far below the next one is no elastic mode: frequencies of one body do not differ by 1000.
+constexpr double zero_ratio = 1e-6;
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+Eigen::Index count_zero(const Eigen::VectorXd& values) {
+  Eigen::Index n = 0;
+  for (Eigen::Index i = 0; i + 1 < values.size(); ++i) {
+    if (values[i] < zero_ratio * values[i + 1]) n = i + 1;
+  }
+  return n;
 }
 
-// Shares of E/(ρD²), D the diagonal of the bounding box. A body 1000 times longer than thick has its
-// first elastic λ at 1e-6 of it; rounding leaves rigid-body motions some 1e-12 above zero.
-constexpr double rigid_share = 1e-8;
-constexpr double shift_share = 1e-4;
-constexpr double cluster_gap = 1e-6;  // relative: eigenvalues nearer than this count as one cluster
-
-[[noreturn]] void refuse(const std::string& diagnosis, const std::string& text) {
-  throw EigenError(diagnosis + ": " + text);
-}
-
-/// One sign for a mode on every machine: its largest component is positive.
-void fix_sign(Eigen::Ref<Eigen::VectorXd> shape) {
-  Eigen::Index largest = 0;
-  shape.cwiseAbs().maxCoeff(&largest);
-  if (shape[largest] < 0.0) shape = -shape;
-}
-
-double elastic_scale(const mesh::Mesh& mesh, const Material& material) {
-  const double diagonal = (mesh.upper() - mesh.lower()).squaredNorm();
-  return material.youngs_modulus / (material.density * diagonal);
-}
-
-/// Pairs with which to judge the count: how many lie below a shift placed in a gap.
-struct Gap {
-  double shift = 0.0;
-  Eigen::Index n_below = 0;
-};
-
-/// The first gap at or after the last mode asked for that is wide enough to tell both sides apart.
-Gap find_gap(const Eigen::VectorXd& values, Eigen::Index n_modes, double scale) {
-  const double floor = rigid_share * scale;
-  for (Eigen::Index i = n_modes - 1; i + 1 < values.size(); ++i) {
-    const double width = values[i + 1] - values[i];
-    if (width > cluster_gap * std::max(std::abs(values[i + 1]), floor)) {
-      return {values[i] + 0.5 * width, i + 1};
+// A mode has no sign of its own: the first of its largest components is made positive.
+void fix_signs(Eigen::MatrixXd& shapes) {
+  constexpr double tie = 1.0 - 1e-6;  // components equal by symmetry differ by rounding
+  for (auto shape : shapes.colwise()) {
+    const double largest = shape.cwiseAbs().maxCoeff();
+    for (const double value : shape) {
+      if (std::abs(value) < tie * largest) continue;
+      if (value < 0.0) shape = -shape;
+      break;
     }
   }
-  return {};
+}
+
+double infinity_norm(Mat matrix) {
+  PetscReal norm = 0.0;
+  check(MatNorm(matrix, NORM_INFINITY, &norm));
+  return norm;
+}
+
+void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
+  if (forces.rows() == 3 * n_nodes) return;
+  throw std::invalid_argument("forces have " + std::to_string(forces.rows()) + " rows, 3 per mesh node are " +
+                              std::to_string(3 * n_nodes));
 }
 
 }  // namespace
 
 struct Structure::Implementation {
-  DofMap dofs;
-  FeSystem system;
-  double shift;          // of the factorisation: 0 when the supports hold the body
-  double elastic_scale;  // E/(ρD²) [1/s²]
   Eigen::MatrixX3d nodes;
-  std::optional<Factorisation> inverse;
+  FeSystem system;
+  Eigen::MatrixXd rigid;                 // M-orthonormal, rows of this rank
+  double shift = 0.0;                    // of `factor`
+  std::optional<Factorisation> factor;   // of K − shift M
   ModalTimings timings;
-  double mass = 0.0;
 
-  const Factorisation& factorised() {
-    if (!inverse) {
-      inverse.emplace(system, shift, Factorisation::Kind::positive_definite);
-      timings.ordering += inverse->ordering_seconds();
-      timings.factorisation += inverse->factor_seconds();
-    }
-    return *inverse;
-  }
-
-  EigenPairs pairs(Eigen::Index n_modes, Eigen::Index n_basis) {
-    const Factorisation& factors = factorised();
-    const auto begin = Clock::now();
-    // One pair more than asked for, to place the shift of the count between it and the last one.
-    EigenPairs found = lowest_pairs(system, factors, shift,
-                                    std::min<Eigen::Index>(n_modes + 1, 3 * dofs.n_free_nodes()),
-                                    n_basis);
-    timings.eigensolve += seconds_since(begin);
-    return found;
-  }
-
-  Eigen::Index count_below(double value) {
-    const auto begin = Clock::now();
-    const Factorisation factors(system, value, Factorisation::Kind::indefinite);
-    timings.inertia += seconds_since(begin);
-    return factors.n_below_shift();
-  }
+  void factorise();
+  void factorise_shifted();
+  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
+  [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& kept) const;
+  void drop_held_rigid_modes();
+  [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
+  void check_residuals(const ModalBasis& basis, double tolerance) const;
 };
 
-Structure::Structure(const mesh::Mesh& mesh, const Material& material,
-                     const std::vector<std::string>& clamped, StiffnessRule rule,
-                     const SurfaceSprings* springs) {
-  check_material(material);
-  const auto begin = Clock::now();
-  DofMap dofs(mesh, clamped);
-  FeSystem system = assemble(mesh, dofs, material, rule, springs);
-  const double scale = elastic_scale(mesh, material);
-  const double shift = dofs.holds_rigid_motion() ? 0.0 : -shift_share * scale;
+void Structure::Implementation::factorise() {
+  if (factor) return;
+  if (rigid.cols() > 0) return factorise_shifted();
+  shift = 0.0;
+  factor.emplace(system.stiffness.get(), FactorKind::positive_definite);
+  timings.ordering = factor->ordering_seconds();
+  timings.factorisation = factor->factor_seconds();
+}
+
+// Below zero by a tenth of the first elastic eigenvalue: far enough for an accurate factorisation,
+// near enough to tell the elastic modes apart.
+void Structure::Implementation::factorise_shifted() {
+  shift = -0.1 * elastic_scale(nodes, system, rigid.cols());
+  factor.emplace(shifted_stiffness(system, shift).get(), FactorKind::positive_definite);
+  timings.ordering = factor->ordering_seconds();
+  timings.factorisation = factor->factor_seconds();
+}
+
+CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
+  CountedPairs found = find_elastic_modes(system, *factor, shift, n_elastic, rigid);
+  timings.eigensolve += found.search_seconds;
+  timings.inertia += found.inertia_seconds;
+  return found;
+}
+
+ModalBasis Structure::Implementation::basis_from(const CountedPairs& found, Eigen::Index n_modes) const {
+  const Eigen::Index n_rigid = std::min(rigid.cols(), n_modes);
+  const Eigen::Index n_elastic = n_modes - n_rigid;
+  const EigenPairs elastic{found.pairs.values.head(n_elastic), found.pairs.vectors.leftCols(n_elastic)};
+  Eigen::MatrixXd local(system.dofs.n_local_dofs(), n_modes);
+  local << rigid.leftCols(n_rigid), elastic.vectors;
+  ModalBasis basis;
+  basis.frequency = Eigen::VectorXd::Zero(n_modes);
+  basis.frequency.tail(n_elastic) = elastic.values.cwiseSqrt();
+  basis.residual = Eigen::VectorXd::Zero(n_modes);
+  if (n_rigid > 0) {
+    const Eigen::MatrixXd R = rigid.leftCols(n_rigid);
+    basis.residual.head(n_rigid) = column_norms(multiply(system.stiffness.get(), R))
+                                       .cwiseQuotient(infinity_norm(system.stiffness.get()) * column_norms(R));
+  }
+  if (n_elastic > 0) basis.residual.tail(n_elastic) = relative_residuals(system, elastic);
+  basis.shapes = system.dofs.to_mesh(local);
+  fix_signs(basis.shapes);
+  basis.n_rigid_body = n_rigid;
+  basis.inertia_count = found.n_counted;
+  return basis;
+}
+
+// Rounding of φ alone leaves ε‖K‖‖φ‖ in Kφ; on fine meshes that is more than the tolerance asks.
+void Structure::Implementation::check_residuals(const ModalBasis& basis, double tolerance) const {
+  const double stiffness_norm = infinity_norm(system.stiffness.get());
+  for (Eigen::Index k = 0; k < basis.frequency.size(); ++k) {
+    const double omega = basis.frequency[k];
+    double allowed = tolerance;
+    if (omega > 0.0) {
+      // ‖Kφ‖ ≥ ω² / ‖φ‖, since φᵀKφ = ω².
+      allowed += std::numeric_limits<double>::epsilon() * stiffness_norm * basis.shapes.col(k).squaredNorm() /
+                 (omega * omega);
+    }
+    if (!(basis.residual[k] <= allowed)) {
+      throw EigenError("eigen-inaccurate: mode " + std::to_string(k + 1) + " has residual " +
+                       std::to_string(basis.residual[k]) + ", allowed is " + std::to_string(allowed));
+    }
+  }
+}
+
+// u with Ku = f − MRRᵀf, u ⟂ M [R kept], for loads f. For a held body simply K⁻¹f without what the kept
+// modes carry. With rigid-body modes the factor is that of K − shift M, and the residual correction
+// contracts by |shift|/(λ + |shift|) per step, λ the first eigenvalue that is not kept.
+Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& loads,
+                                                         const Eigen::MatrixXd& kept) const {
+  constexpr int max_steps = 500;
+  constexpr double tolerance = 1e-13;  // of the load: what a direct solution reaches
+  const Mat K = system.stiffness.get();
+  const Mat M = system.mass_matrix.get();
+  Eigen::MatrixXd known(kept.rows(), kept.cols() + rigid.cols());
+  known << kept, rigid;
+  const Eigen::MatrixXd M_known = multiply(M, known);
+  const auto without_known = [&](const Eigen::MatrixXd& u) -> Eigen::MatrixXd {
+    return u - known * inner_products(M_known, u);
+  };
+  const auto load_without_known = [&](const Eigen::MatrixXd& f) -> Eigen::MatrixXd {
+    return f - M_known * inner_products(known, f);
+  };
+  const Eigen::MatrixXd target = load_without_known(loads);
+  Eigen::MatrixXd u = without_known(factor->solve(target));
+  if (shift == 0.0) return u;
+  const double scale = column_norms(loads).maxCoeff();
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < max_steps; ++step) {
+    const Eigen::MatrixXd rest = target - load_without_known(multiply(K, u));
+    const double size = column_norms(rest).maxCoeff();
+    if (size <= tolerance * scale || size > 0.9 * before) break;  // at the floor rounding sets
+    before = size;
+    u += without_known(factor->solve(rest));
+  }
+  return u;
+}
+
+// Springs to ground hold rigid-body modes that were free: keep those they do not strain.
+void Structure::Implementation::drop_held_rigid_modes() {
+  if (rigid.cols() == 0) return;
+  const Eigen::MatrixXd energy = inner_products(rigid, multiply(system.stiffness.get(), rigid));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energy + energy.transpose()));
+  const double scale = elastic_scale(nodes, system, rigid.cols());
+  const auto n_free = static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-9 * scale).count());
+  rigid = (rigid * eigen.eigenvectors().leftCols(n_free)).eval();
+}
+
+Structure::Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
+                     Tet10Stiffness rule) {
+  const auto start = std::chrono::steady_clock::now();
+  FeSystem system = assemble(mesh, material, clamped, rule);
+  Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   self_ = std::make_unique<Implementation>(
-      Implementation{std::move(dofs), std::move(system), shift, scale, mesh.nodes(), {}, {}, 0.0});
-  self_->timings.assembly = seconds_since(begin);
-  self_->mass = material.density * mesh.volume();
+      Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
+  self_->timings.assembly = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Structure::~Structure() = default;
 Structure::Structure(Structure&&) noexcept = default;
 Structure& Structure::operator=(Structure&&) noexcept = default;
 
-Eigen::Index Structure::n_dofs() const { return 3 * self_->dofs.n_free_nodes(); }
-double Structure::mass() const { return self_->mass; }
+Eigen::Index Structure::n_dofs() const { return 3 * self_->system.dofs.n_free_nodes(); }
+double Structure::mass() const { return self_->system.mass; }
 const ModalTimings& Structure::timings() const { return self_->timings; }
 
-namespace {
-
-void check_found(const EigenPairs& pairs, const ModalOptions& options) {
-  if (pairs.values.size() < options.n_modes) {
-    refuse("eigen-missed-mode", std::to_string(options.n_modes) + " modes requested, " +
-                                    std::to_string(pairs.values.size()) + " converged");
-  }
-  const double worst = pairs.residual.head(options.n_modes).maxCoeff();
-  if (!(worst <= options.residual_tolerance)) {
-    std::ostringstream text;
-    text << "a pair has the residual " << worst << ", above " << options.residual_tolerance;
-    refuse("eigen-inaccurate", text.str());
-  }
-}
-
-Eigen::Index count_rigid(const EigenPairs& pairs, double scale) {
-  const Eigen::Index n = (pairs.values.array().abs() < rigid_share * scale).count();
-  if (n > 6) {
-    refuse("mechanism", std::to_string(n) +
-                            " modes without stiffness, six are rigid-body motions: parts of the mesh "
-                            "hang together by less than a face");
-  }
-  return n;
-}
-
-}  // namespace
-
 ModalBasis Structure::solve_modes(const ModalOptions& options) {
+  Implementation& self = *self_;
   if (options.n_modes < 1 || options.n_modes > n_dofs()) {
-    throw std::invalid_argument("modes: count = " + std::to_string(options.n_modes) +
-                                "; must be 1 to " + std::to_string(n_dofs()) +
-                                ", the free degrees of freedom");
+    throw std::invalid_argument("n_modes = " + std::to_string(options.n_modes) + " is not between 1 and the " +
+                                std::to_string(n_dofs()) + " degrees of freedom");
   }
-  ModalBasis basis;
-  EigenPairs pairs;
-  const double scale = self_->elastic_scale;
-  // A missed mode shows in the count; a larger Krylov basis finds it.
-  for (Eigen::Index n_basis = 0, attempt = 0;; ++attempt) {
-    pairs = self_->pairs(options.n_modes, n_basis);
-    check_found(pairs, options);
-    const Gap gap = find_gap(pairs.values, options.n_modes, scale);
-    if (gap.n_below == 0) {
-      if (pairs.values.size() == n_dofs()) {
-        basis.inertia_count = n_dofs();
-        break;
-      }
-      // The modes after the last one asked for form a cluster: more pairs tell where it ends.
-      if (attempt == 3) refuse("eigen-missed-mode", "no gap above the last mode to count at");
-      n_basis = 4 * (options.n_modes + 8) * (attempt + 1);
-      continue;
-    }
-    basis.inertia_count = self_->count_below(gap.shift);
-    if (basis.inertia_count == gap.n_below) break;
-    if (attempt == 1) {
-      refuse("eigen-missed-mode", std::to_string(basis.inertia_count) +
-                                      " eigenvalues lie below the shift by inertia, " +
-                                      std::to_string(gap.n_below) + " were found");
-    }
-    n_basis = 4 * (options.n_modes + 8);
+  const Eigen::Index n_rigid = self.rigid.cols();
+  if (n_rigid > 6) {
+    throw EigenError("rigid-body: " + std::to_string(n_rigid) +
+                     " zero modes, a free body has six: the mesh has loose parts");
   }
-  basis.n_rigid_body = std::min(count_rigid(pairs, scale), options.n_modes);
-  basis.frequency = pairs.values.head(options.n_modes).cwiseMax(0.0).cwiseSqrt();
-  basis.frequency.head(basis.n_rigid_body).setZero();
-  basis.residual = pairs.residual.head(options.n_modes);
-  basis.shapes.resize(3 * self_->dofs.n_nodes(), options.n_modes);
-  for (Eigen::Index i = 0; i < options.n_modes; ++i) {
-    fix_sign(pairs.vectors.col(i));
-    basis.shapes.col(i) = self_->dofs.expand(pairs.vectors.col(i));
+  self.factorise();
+  CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
+  if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
+    throw EigenError("rigid-body: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
+                     " of them a mechanism (parts that share only an edge, a corner or too few supports)");
   }
+  ModalBasis basis = self.basis_from(found, options.n_modes);
+  self.check_residuals(basis, options.residual_tolerance);
   return basis;
 }
 
 Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {
-  if (self_->shift != 0.0) {
-    refuse("rigid-body", "a static load on a structure that nothing holds has no answer");
+  Implementation& self = *self_;
+  check_rows(forces, self.nodes.rows());
+  if (self.rigid.cols() > 0) {
+    throw EigenError("rigid-body: " + std::to_string(self.rigid.cols()) +
+                     " rigid-body modes are free, the stiffness matrix is singular: no static solution");
   }
-  Eigen::MatrixXd right(n_dofs(), forces.cols());
-  for (Eigen::Index j = 0; j < forces.cols(); ++j) {
-    right.col(j) = self_->dofs.restrict(forces.col(j));
-  }
-  const Eigen::MatrixXd free = self_->factorised().solve(right);
-  Eigen::MatrixXd all(forces.rows(), forces.cols());
-  for (Eigen::Index j = 0; j < forces.cols(); ++j) all.col(j) = self_->dofs.expand(free.col(j));
-  return all;
+  self.factorise();
+  return self.system.dofs.to_mesh(self.factor->solve(self.system.dofs.to_local(forces)));
 }
 
-Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixXd& forces) {
-  const Factorisation inverse(self_->system, frequency * frequency,
-                              Factorisation::Kind::indefinite);
-  Eigen::MatrixXd right(n_dofs(), forces.cols());
-  for (Eigen::Index j = 0; j < forces.cols(); ++j) {
-    right.col(j) = self_->dofs.restrict(forces.col(j));
-  }
-  const Eigen::MatrixXd free = inverse.solve(right);
-  Eigen::MatrixXd all(forces.rows(), forces.cols());
-  for (Eigen::Index j = 0; j < forces.cols(); ++j) all.col(j) = self_->dofs.expand(free.col(j));
-  return all;
-}
-
-ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis,
-                                                    const mesh::Surface& surface,
+ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, const mesh::Surface& surface,
                                                     const Eigen::Matrix3d& frame) {
-  const Eigen::MatrixXd loads = uniform_tractions(self_->nodes, surface, frame);
-  Eigen::MatrixXd motion = solve_static(loads);
-  // K⁻¹t − Σ φ (φ·t)/ω²: what the kept modes do not carry.
-  const Eigen::MatrixXd carried =
-      basis.frequency.cwiseAbs2().cwiseInverse().asDiagonal() * (basis.shapes.transpose() * loads);
-  motion -= basis.shapes * carried;
-  ResidualFlexibility result;
-  result.row_sums.resize(static_cast<Eigen::Index>(surface.nodes.size()), 3);
-  for (Eigen::Index i = 0; i < result.row_sums.rows(); ++i) {
+  Implementation& self = *self_;
+  self.factorise();
+  const Eigen::Index n_elastic = basis.frequency.size() - basis.n_rigid_body;
+  const Eigen::MatrixXd kept = self.system.dofs.to_local(basis.shapes.rightCols(n_elastic));
+  const Eigen::MatrixXd loads = self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
+  const Eigen::MatrixXd u = self.system.dofs.to_mesh(self.solve_elastic(loads, kept));
+  ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(surface.nodes), 3)};
+  for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
     const Eigen::Index node = surface.nodes[static_cast<std::size_t>(i)];
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      result.row_sums(i, axis) = frame.row(axis).dot(motion.col(axis).segment<3>(3 * node));
-    }
+    result.row_sums.row(i) = frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
   }
   return result;
+}
+
+void Structure::add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+                                    const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
+                                    const Eigen::MatrixX3d& stiffness) {
+  add_springs(self_->system, surface, to_points, weights, frame, stiffness);
+  self_->factor.reset();
+  self_->drop_held_rigid_modes();
+}
+
+Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const {
+  check_rows(forces, self_->nodes.rows());
+  const FeSystem& system = self_->system;
+  const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(), FactorKind::indefinite);
+  if (dynamic.inertia().zero > 0) {
+    throw EigenError("resonance: omega = " + std::to_string(frequency) + " rad/s is a natural frequency");
+  }
+  return system.dofs.to_mesh(dynamic.solve(system.dofs.to_local(forces)));
 }
 
 }  // namespace microslip::fem

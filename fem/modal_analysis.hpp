@@ -8,8 +8,9 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
-#include "fem/fe_system.hpp"
+#include "fem/element_matrices.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
 #include "mesh/mesh.hpp"
@@ -24,10 +25,10 @@ struct ModalOptions {
 /// Where the time went [s].
 struct ModalTimings {
   double assembly = 0.0;
-  double factorisation = 0.0;  ///< ordering included where the library does not separate it
-  double ordering = 0.0;
-  double eigensolve = 0.0;
-  double inertia = 0.0;
+  double factorisation = 0.0;  ///< numerical, of K (or of K shifted, if K is singular)
+  double ordering = 0.0;       ///< analysis before it
+  double eigensolve = 0.0;     ///< Krylov–Schur and refinement
+  double inertia = 0.0;        ///< the count: ordering and factorisation of its own
 };
 
 /// Owns K, M and one factorisation; answers modes and static questions about one structure.
@@ -35,11 +36,8 @@ class Structure {
  public:
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
-  /// @param rule     quadrature of the stiffness.
-  /// @param springs  added to K; nullptr: none.
-  Structure(const mesh::Mesh& mesh, const Material& material,
-            const std::vector<std::string>& clamped,
-            StiffnessRule rule = StiffnessRule::accurate, const SurfaceSprings* springs = nullptr);
+  Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
+            Tet10Stiffness rule = Tet10Stiffness::accurate);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;
@@ -48,17 +46,32 @@ class Structure {
 
   [[nodiscard]] Eigen::Index n_dofs() const;  ///< free degrees of freedom
   [[nodiscard]] double mass() const;          ///< [kg]
-  /// @throws EigenError  fewer modes than asked, a pair not accurate, or a missed mode; with numbers.
+  /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero modes
+  ///         than a free body has or a mechanism inside it; with numbers.
   [[nodiscard]] ModalBasis solve_modes(const ModalOptions& options);
   /// Displacement under loads: columns of F (3 n_nodes × m) [N] → u (3 n_nodes × m) [m].
   /// @throws EigenError  rigid-body modes: K is singular.
   [[nodiscard]] Eigen::MatrixXd solve_static(const Eigen::MatrixXd& forces);
-  /// Three static solves for a uniform unit traction on the surface along each row of `frame`.
+  /// Three static solves for a uniform unit traction on the surface along each row of `frame`, minus
+  /// what the modes of `basis` carry (theory section 14). With rigid-body modes: inertia relief.
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
                                                          const Eigen::Matrix3d& frame);
-  /// (K − ω²M)⁻¹ F without damping. @param frequency  ω [rad/s], off every resonance.
-  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency, const Eigen::MatrixXd& forces);
+  /// Adds springs between a surface and the ground, e.g. a contact that sticks everywhere:
+  ///   K += Σ_c w_c Σ_d k_cd (N_c e_d)ᵀ(N_c e_d),   e_d row d of the frame.
+  /// Call before modes or solutions are asked for, or ask for them again: factorisations are dropped.
+  /// @param to_points  interpolates nodal values to the points, n_points × surface.nodes.size().
+  /// @param weights    area of each point [m²], n_points.
+  /// @param frame      rows p, q, r.
+  /// @param stiffness  along p, q, r at each point [N/m³], n_points × 3, ≥ 0.
+  /// @throws std::invalid_argument  sizes differ; the message names them.
+  void add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+                           const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
+                           const Eigen::MatrixX3d& stiffness);
+  /// Undamped harmonic response (K − ω²M) u = F: columns of F (3 n_nodes × m) [N] → u [m]. Each call
+  /// factorises anew.
+  /// @throws EigenError  ω is a natural frequency to rounding.
+  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const;
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:

@@ -2,19 +2,48 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
-#include "fem/petsc_check.hpp"
+#include <petscsys.h>
 
 namespace microslip::fem {
+namespace {
 
-void check(PetscErrorCode code, std::source_location place) {
-  if (code == 0) return;
+// Words of the error being unwound. PETSc is called from one thread only.
+std::string& last_message() {
+  static std::string message;
+  return message;
+}
+
+PetscErrorCode keep_message(MPI_Comm /*comm*/, int line, const char* function,
+                            const char* /*file*/, PetscErrorCode code, PetscErrorType type,
+                            const char* message, void* /*context*/) {
+  if (type == PETSC_ERROR_INITIAL) {
+    last_message() = std::string(message == nullptr ? "" : message) + " [" +
+                     (function == nullptr ? "?" : function) + ':' + std::to_string(line) + ']';
+  }
+  return code;
+}
+
+std::string words_of(int code) {
+  std::string words = std::exchange(last_message(), {});
+  if (!words.empty()) return words;
   const char* text = nullptr;
   PetscErrorMessage(code, &text, nullptr);
-  throw PetscError(std::string("PETSc: ") + (text != nullptr ? text : "unknown error") + " (code " +
-                   std::to_string(code) + ", " +
-                   std::filesystem::path(place.file_name()).filename().string() + ":" +
-                   std::to_string(place.line()) + ")");
+  return text == nullptr ? "unknown error" : text;
 }
+
+}  // namespace
+
+void check(int code, std::source_location where) {
+  if (code == 0) return;
+  const std::string place = std::filesystem::path(where.file_name()).filename().string() + ':' +
+                            std::to_string(where.line());
+  const std::string text = "PETSc error " + std::to_string(code) + " at " + place + ": " + words_of(code);
+  if (code == PETSC_ERR_MEM) throw MemoryError("out of memory: " + text);
+  throw PetscError(text);
+}
+
+void install_error_handler() { check(PetscPushErrorHandler(keep_message, nullptr)); }
 
 }  // namespace microslip::fem

@@ -1,11 +1,15 @@
 /// @file
-/// Quadrature on reference elements: tetrahedra on the unit simplex (weights sum to 1/6), hexahedra on
-/// [−1, 1]³ (8), triangles on the unit simplex (1/2), quadrilaterals on [−1, 1]² (4).
+/// Quadrature rules on the reference elements.
 ///
-/// Tetrahedra: 4 points, degree 2; 14 points, degree 5, all weights positive (Walkington 2000).
+/// Tetrahedra: {ξ, η, ζ ≥ 0, ξ + η + ζ ≤ 1}, weights sum to 1/6. Triangles: {ξ, η ≥ 0, ξ + η ≤ 1},
+/// sum 1/2. Hexahedra [−1, 1]³, sum 8, and squares [−1, 1]², sum 4.
+///
+/// Sources: tetrahedra of degree 2, Hammer, Marlowe & Stroud, Math. Tables Aids Comput. 10 (1956)
+/// 130–137; of degree 5, 14 interior points, Walkington, Quadrature on simplices of arbitrary
+/// dimension (2000). Other degrees: products of Gauss–Jacobi rules collapsed onto the simplex, their
+/// points by Golub & Welsch, Math. Comput. 23 (1969) 221–230. No table is trusted: the unit test
+/// integrates every monomial up to the stated degree.
 #pragma once
-
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -13,20 +17,29 @@
 
 namespace microslip::fem {
 
-struct QuadraturePoint {
-  Eigen::Vector3d position;  ///< third entry 0 on faces
-  double weight = 0.0;
-};
-using QuadratureRule = std::vector<QuadraturePoint>;
-
-enum class StiffnessRule {
-  accurate,  ///< 14 points on tet10: curved elements to some 1e-6 in frequency
-  reduced,   ///< 4 points on tet10, as CalculiX: exact on straight elements, to 1e-4 on curved ones
+struct QuadratureRule {
+  Eigen::MatrixX3d points;   ///< reference coordinates, n × 3 (ζ = 0 on faces)
+  Eigen::VectorXd weights;   ///< n, positive
 };
 
-[[nodiscard]] const QuadratureRule& stiffness_rule(mesh::ElementType type, StiffnessRule rule);
-/// Exact for the mass of straight-sided elements.
-[[nodiscard]] const QuadratureRule& mass_rule(mesh::ElementType type);
-[[nodiscard]] const QuadratureRule& face_rule(mesh::FaceType type);
+/// Points and weights of the n-point rule for ∫₋₁¹ (1 − x)^alpha f(x) dx, exact to degree 2n − 1.
+/// @param alpha  Jacobi exponent, ≥ 0; 0 is Gauss–Legendre.
+[[nodiscard]] QuadratureRule gauss_jacobi(int n, double alpha);
+
+/// Tetrahedron rule exact for polynomials up to total degree `degree` ≥ 0; 4 points to degree 2,
+/// 14 to degree 5, (degree/2 + 1)³ above.
+[[nodiscard]] QuadratureRule tetrahedron_rule(int degree);
+
+/// Triangle rule exact to total degree `degree`: (degree/2 + 1)² points.
+[[nodiscard]] QuadratureRule triangle_rule(int degree);
+
+/// n³ Gauss points on the hexahedron, exact to degree 2n − 1 in each direction.
+[[nodiscard]] QuadratureRule hexahedron_rule(int n);
+
+/// n² Gauss points on the square.
+[[nodiscard]] QuadratureRule square_rule(int n);
+
+/// Rule on a face, exact to `degree` (total on triangles, per direction on quadrilaterals).
+[[nodiscard]] QuadratureRule face_rule(mesh::FaceType type, int degree);
 
 }  // namespace microslip::fem

@@ -1,87 +1,101 @@
 #include "fem/slepc_session.hpp"
 
-#include <dlfcn.h>
-#include <petscsys.h>
-#include <slepceps.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <thread>
+#include <optional>
+#include <type_traits>
 
-#include "fem/petsc_check.hpp"
+#include <petscpkg_version.h>
+#include <slepcsys.h>
+
+#include "fem/blas_library.hpp"
+#include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
+
+static_assert(std::is_same_v<PetscScalar, double>, "PETSc must be built with real double scalars");
+
 namespace {
 
-template <typename Function>
-Function* find_symbol(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
-}
-
-/// A thread count from the environment, as OpenBLAS reads it; 0 or rubbish counts as not given.
-bool user_chose_threads() {
-  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
-    const char* value = std::getenv(name);
-    if (value != nullptr && std::atoi(value) > 0) return true;
+// PETSc reads PETSC_OPTIONS and ~/.petscrc while it starts; a stray option there must not change
+// results, so both are kept from it.
+class QuietOptions {
+ public:
+  QuietOptions() {
+    if (const char* value = std::getenv(name)) before_ = value;
+    setenv(name, "-skip_petscrc -no_signal_handler", 1);
   }
-  return false;
-}
+  ~QuietOptions() {
+    if (before_) {
+      setenv(name, before_->c_str(), 1);
+    } else {
+      unsetenv(name);
+    }
+  }
+  QuietOptions(const QuietOptions&) = delete;
+  QuietOptions& operator=(const QuietOptions&) = delete;
+  QuietOptions(QuietOptions&&) = delete;
+  QuietOptions& operator=(QuietOptions&&) = delete;
 
-/// The factorisation lives on dense blocks: all cores of the machine, shared by the ranks on it.
-void use_all_cores(int n_ranks) {
-  const auto set_threads = find_symbol<void(int)>("openblas_set_num_threads");
-  if (set_threads == nullptr || user_chose_threads()) return;
-  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  set_threads(std::max(1, cores / n_ranks));
+ private:
+  static constexpr const char* name = "PETSC_OPTIONS";
+  std::optional<std::string> before_;
+};
+
+int ranks_on_this_machine() {
+  MPI_Comm here = MPI_COMM_NULL;
+  int n = 1;
+  check(MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
+  check(MPI_Comm_size(here, &n));
+  check(MPI_Comm_free(&here));
+  return n;
 }
 
 }  // namespace
 
 SlepcSession::SlepcSession() {
-  check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));
-  check(SlepcInitializeNoArguments());
-  check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));  // codes only, nothing printed
-  use_all_cores(n_ranks());
+  {
+    const QuietOptions quiet;
+    check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
+  }
+  install_error_handler();
+  set_blas_threads(ranks_on_this_machine());
 }
 
-SlepcSession::~SlepcSession() { SlepcFinalize(); }
+SlepcSession::~SlepcSession() {
+  PetscPopErrorHandler();
+  SlepcFinalize();
+}
 
 int SlepcSession::rank() const {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
+  int value = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &value));
+  return value;
 }
 
 int SlepcSession::n_ranks() const {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  return size;
-}
-
-std::string blas_description() {
-  const auto config = find_symbol<char*()>("openblas_get_config");
-  const auto threads = find_symbol<int()>("openblas_get_num_threads");
-  if (config != nullptr && threads != nullptr) {
-    std::string text = config();
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text + ", " + std::to_string(threads()) + " threads";
-  }
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    for (const char* library : {"libmkl_rt", "libblis", "libatlas"}) {
-      if (line.find(library) != std::string::npos) return library;
-    }
-  }
-  return "reference BLAS, 1 thread (3 to 8 times slower: install libopenblas0-pthread)";
+  int value = 0;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &value));
+  return value;
 }
 
 std::string petsc_versions() {
-  char petsc[256] = {};
-  char slepc[256] = {};
-  check(PetscGetVersion(petsc, sizeof petsc));
-  check(SlepcGetVersion(slepc, sizeof slepc));
-  return std::string(petsc) + "; " + slepc;
+  const auto dotted = [](int a, int b, int c) {
+    return std::to_string(a) + '.' + std::to_string(b) + '.' + std::to_string(c);
+  };
+  PetscInt major = 0;
+  PetscInt minor = 0;
+  PetscInt patch = 0;
+  check(PetscGetVersionNumber(&major, &minor, &patch, nullptr));
+  std::string text = "PETSc " + dotted(major, minor, patch);
+  check(SlepcGetVersionNumber(&major, &minor, &patch, nullptr));
+  text += ", SLEPc " + dotted(major, minor, patch);
+  text += ", MUMPS " + dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                              PETSC_PKG_MUMPS_VERSION_SUBMINOR);
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  check(MPI_Get_library_version(mpi, &length));
+  const std::string name(mpi, static_cast<std::size_t>(length));
+  return text + ", " + name.substr(0, name.find(','));
 }
 
 }  // namespace microslip::fem

@@ -1,5 +1,5 @@
 /// @file
-/// Consistent nodal loads of tractions on a surface.
+/// Consistent nodal loads of a traction on a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,11 +8,14 @@
 
 namespace microslip::fem {
 
-/// Loads of uniform unit tractions (1 Pa) along the rows of `frame`: ∫ N_a dA e_axis.
+/// Share ∫ N_i dA of each mesh node in the area of a surface [m²], size nodes.rows(), 0 off the
+/// surface. A uniform traction τ loads node i with τ times its share.
 /// @param nodes  all mesh nodes [m].
-/// @return 3 n_nodes × 3 [N]; each column sums to the area along its axis.
-[[nodiscard]] Eigen::MatrixXd uniform_tractions(const Eigen::MatrixX3d& nodes,
-                                                const mesh::Surface& surface,
-                                                const Eigen::Matrix3d& frame);
+/// @note May be zero or negative at the corners of quadratic faces; the sum is the area.
+[[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface);
+
+/// Load vectors of a unit traction along each row of `frame`: 3 nodes.rows() × 3 [N per Pa].
+[[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                                 const Eigen::Matrix3d& frame);
 
 }  // namespace microslip::fem

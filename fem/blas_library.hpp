@@ -1,0 +1,14 @@
+/// @file
+/// The BLAS that is loaded at run time: which one it is, and its threads. Nothing links OpenBLAS by
+/// name, so it is asked through the dynamic linker.
+#pragma once
+
+namespace microslip::fem {
+
+/// Gives OpenBLAS the hardware threads this process may use, shared among the ranks on this
+/// machine. A positive OPENBLAS_NUM_THREADS or OMP_NUM_THREADS of the user is left in force.
+/// Does nothing for another BLAS.
+/// @param n_ranks_here  MPI ranks on this machine, ≥ 1.
+void set_blas_threads(int n_ranks_here);
+
+}  // namespace microslip::fem

@@ -1,0 +1,10 @@
+// main() of tests that need PETSc: the session is made first and dies last.
+#include <gtest/gtest.h>
+
+#include "fem/slepc_session.hpp"
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  const microslip::fem::SlepcSession session;
+  return RUN_ALL_TESTS();
+}
