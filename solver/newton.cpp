@@ -14,6 +14,7 @@ constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
 // Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
 constexpr double rounding = 1e-16;
+constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 /// [∂R/∂x σ_x/ρ   ∂R/∂p σ_p/ρ]
 /// [    c_x           c_p     ]     ρ the scale of the residual
@@ -106,16 +107,21 @@ class Iteration {
     return true;
   }
 
+  /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does not.
   void polish() {
     for (int i = 0; i < max_polish && now_.residual > rounding; ++i) {
       const BranchVector direction = newton_step();
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
-      NewtonResult next = stepped(direction, 1.0);
-      if (!(next.residual < 0.7 * now_.residual)) {
-        if (next.residual < now_.residual) keep(std::move(next));
-        return;
+      const double before = now_.residual;
+      for (const double length : {1.0, 0.5, 0.1}) {
+        NewtonResult next = stepped(direction, length);
+        if (next.residual < now_.residual) {
+          keep(std::move(next));
+          break;
+        }
+        if (now_.residual < rounding_level) return;
       }
-      keep(std::move(next));
+      if (now_.residual > 0.7 * before) return;
     }
   }
 
