@@ -116,7 +116,7 @@ bool has_straight_edges(const NodeMatrix<10>& nodes) {
   return true;
 }
 
-void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10Stiffness rule,
+void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10Rule rule,
                     ElementMatrices& result) {
   constexpr auto type = mesh::ElementType::tet10;
   static const RuleTable<10> four_point(type, tetrahedron_rule(2));
@@ -124,15 +124,17 @@ void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10
   static const RuleTable<10> straight_mass(type, tetrahedron_rule(4));
   static const RuleTable<10> curved_mass(type, tetrahedron_rule(7));  // N_i N_j: 4, det J: 3
   const bool straight = has_straight_edges(nodes);
-  const bool four = straight || rule == Tet10Stiffness::four_point;
-  integrate<10>(four ? four_point : fourteen_point, straight ? straight_mass : curved_mass, nodes,
+  if (rule == Tet10Rule::four_point) {
+    return integrate<10>(four_point, four_point, nodes, material, result);
+  }
+  integrate<10>(straight ? four_point : fourteen_point, straight ? straight_mass : curved_mass, nodes,
                 material, result);
 }
 
 }  // namespace
 
 void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
-                      const Material& material, Tet10Stiffness rule, ElementMatrices& result) {
+                      const Material& material, Tet10Rule rule, ElementMatrices& result) {
   using mesh::ElementType;
   switch (type) {
     case ElementType::tet4: {

@@ -185,7 +185,7 @@ void Structure::Implementation::drop_held_rigid_modes() {
 }
 
 Structure::Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
-                     Tet10Stiffness rule) {
+                     Tet10Rule rule) {
   const auto start = std::chrono::steady_clock::now();
   FeSystem system = assemble(mesh, material, clamped, rule);
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
