@@ -26,8 +26,9 @@ struct RuleTable {
   RuleTable(mesh::ElementType type, QuadratureRule given) : rule(std::move(given)) {
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector3d xi = rule.points.row(q).transpose();
-      values.emplace_back(mesh::shape_values(type, xi));
-      gradients.emplace_back(mesh::shape_gradients(type, xi));
+      const mesh::ElementShapes shapes = mesh::shapes(type, xi);
+      values.emplace_back(shapes.values);
+      gradients.emplace_back(shapes.gradients);
     }
   }
 };

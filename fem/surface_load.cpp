@@ -16,8 +16,7 @@ void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block,
   const QuadratureRule rule = face_rule(block.type, face_degree);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::Vector2d xi = rule.points.row(q).head<2>().transpose();
-    const Eigen::VectorXd N = mesh::shape_values(block.type, xi);
-    const Eigen::MatrixX2d dN = mesh::shape_gradients(block.type, xi);
+    const auto [N, dN] = mesh::shapes(block.type, xi);
     for (Eigen::Index face = 0; face < block.connectivity.rows(); ++face) {
       Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
       for (Eigen::Index i = 0; i < N.size(); ++i) {

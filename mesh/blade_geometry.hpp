@@ -14,13 +14,13 @@
 namespace microslip::mesh {
 
 struct BladeGeometry {
-  double root_width = 0.014;       ///< x
-  double root_height = 0.030;      ///< y
+  double root_width = 0.0066;       ///< x
+  double root_height = 0.025;      ///< y
   double root_length = 0.050;      ///< z
-  double platform_width = 0.040;   ///< x
-  double platform_height = 0.008;  ///< y
+  double platform_width = 0.060;   ///< x
+  double platform_height = 0.010;  ///< y
   double platform_length = 0.060;  ///< z
-  double span = 0.100;             ///< aerofoil height above the platform
+  double span = 0.115;             ///< aerofoil height above the platform
   double root_chord = 0.044;       ///< chord at the platform
   double tip_chord = 0.034;
   double root_thickness = 0.0050;  ///< largest thickness of the section
@@ -28,7 +28,21 @@ struct BladeGeometry {
   double root_stagger = 0.10;      ///< angle of the chord to z about y, at the platform
   double tip_stagger = 0.60;       ///< at the tip: the difference is the twist
   double camber = 0.04;            ///< height of the camber line over the chord [-]
-  double lean = 0.0;               ///< shift of the tip section along x
+  double lean = -0.0035;               ///< shift of the tip section along x
 };
+
+/// @throws MeshError  a length, angle or ratio out of its range; names it.
+void check_geometry(const BladeGeometry& geometry, double element_size);
+
+struct SectionPoint {
+  double x, y, z;
+};
+
+/// A point on the outline of the aerofoil [m].
+/// @param height       0 at the platform, 1 at the tip; linear in between.
+/// @param chord_share  0 leading edge, 1 trailing edge.
+/// @param side         1 suction side, −1 pressure side. Half thickness t √(s(1−s)): an ellipse.
+[[nodiscard]] SectionPoint section_point(const BladeGeometry& geometry, double height,
+                                         double chord_share, double side);
 
 }  // namespace microslip::mesh

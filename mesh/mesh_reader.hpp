@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "mesh/mesh.hpp"
 
@@ -13,5 +14,9 @@ namespace microslip::mesh {
 /// @param length_unit  metres per unit of the file (1e-3 for mm).
 /// @throws MeshError  missing, truncated or foreign file, unknown element; file and line or byte.
 [[nodiscard]] Mesh read_gmsh(const std::filesystem::path& file, double length_unit = 1.0);
+
+/// The same from the bytes of a file. @param name  what messages call it.
+[[nodiscard]] Mesh read_gmsh_text(std::string content, const std::string& name,
+                                  double length_unit = 1.0);
 
 }  // namespace microslip::mesh

@@ -42,7 +42,7 @@ const std::map<std::string, std::string, std::less<>>& modal_examples() {
       {"modal.output", "[0.9, 0.35]"},
       {"modal.points",
        "[\n  { weight = 1, tangential_stiffness = 1e4, normal_stiffness = 1e4, "
-       "friction_coefficient = 0.3, preload = 2,\n    phi_u_1 = 0.8, phi_u_2 = -0.5, phi_v_1 = 0.1, "
+       "friction_coefficient = 0.3, preload = 2, phi_u_1 = 0.8, phi_u_2 = -0.5, phi_v_1 = 0.1, "
        "phi_v_2 = 0.2 },\n]"},
       {"response.frequency", "[\"5 Hz\", \"50 Hz\"]"},
   };

@@ -1,0 +1,200 @@
+#include "mesh/gmsh_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <gmsh.h>
+
+#include "mesh/mesh_error.hpp"
+
+namespace microslip::mesh {
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+using Entity = std::pair<int, int>;  // dimension, tag
+using Entities = std::vector<Entity>;
+
+constexpr int half_outline_points = 9;  // per spline, from an edge to mid-chord
+
+/// Points from one end of a spline to the other, denser at the rounded edges.
+std::vector<double> chord_shares(double from, double to) {
+  std::vector<double> shares;
+  for (int i = 0; i < half_outline_points; ++i) {
+    const double turn = from + (to - from) * i / (half_outline_points - 1);
+    shares.push_back(0.5 * (1.0 - std::cos(std::numbers::pi * turn)));
+  }
+  return shares;
+}
+
+/// The closed outline of a section: four splines that meet at the edges and at mid-chord.
+int section_wire(const BladeGeometry& geometry, double height) {
+  const auto point = [&](double share, double side) {
+    const SectionPoint p = section_point(geometry, height, share, side);
+    return occ::addPoint(p.x, p.y, p.z);
+  };
+  const int leading = point(0.0, 1.0);
+  const int trailing = point(1.0, 1.0);
+  const int suction = point(0.5, 1.0);
+  const int pressure = point(0.5, -1.0);
+  const auto spline = [&](int first, int last, double from, double to, double side) {
+    std::vector<int> points{first};
+    const std::vector<double> shares = chord_shares(from, to);
+    for (std::size_t i = 1; i + 1 < shares.size(); ++i) points.push_back(point(shares[i], side));
+    points.push_back(last);
+    return occ::addSpline(points);
+  };
+  return occ::addWire({spline(leading, suction, 0.0, 0.5, 1.0),
+                       spline(suction, trailing, 0.5, 1.0, 1.0),
+                       spline(trailing, pressure, 1.0, 0.5, -1.0),
+                       spline(pressure, leading, 0.5, 0.0, -1.0)});
+}
+
+/// Root block, platform and aerofoil as one volume.
+void build_volume(const BladeGeometry& g) {
+  const int root = occ::addBox(-0.5 * g.root_width, 0.0, -0.5 * g.root_length, g.root_width,
+                               g.root_height, g.root_length);
+  const int platform = occ::addBox(-0.5 * g.platform_width, g.root_height, -0.5 * g.platform_length,
+                                   g.platform_width, g.platform_height, g.platform_length);
+  std::vector<int> wires;
+  // The loft starts a little inside the platform: a face in the platform's face would be degenerate.
+  for (const double height : {-0.02, 0.25, 0.5, 0.75, 1.0}) wires.push_back(section_wire(g, height));
+  Entities aerofoil;
+  occ::addThruSections(wires, aerofoil, -1, true);
+  Entities tools{{3, platform}};
+  for (const Entity& entity : aerofoil) {
+    if (entity.first == 3) tools.push_back(entity);
+  }
+  Entities result;
+  std::vector<Entities> map;
+  occ::fuse({{3, root}}, tools, result, map);
+  occ::synchronize();
+  Entities volumes;
+  gmsh::model::getEntities(volumes, 3);
+  if (volumes.size() != 1) {
+    throw MeshError("the blade came out as " + std::to_string(volumes.size()) +
+                    " volumes instead of one; the aerofoil must stand on the platform");
+  }
+}
+
+/// The plane face whose centre of mass has the coordinate `value` along `axis`.
+std::vector<int> faces_at(int axis, double value, double tolerance) {
+  std::vector<int> found;
+  Entities surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const Entity& surface : surfaces) {
+    std::string type;
+    gmsh::model::getType(2, surface.second, type);
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    occ::getCenterOfMass(2, surface.second, x, y, z);
+    const double centre = axis == 0 ? x : (axis == 1 ? y : z);
+    if (type == "Plane" && std::abs(centre - value) < tolerance) found.push_back(surface.second);
+  }
+  return found;
+}
+
+int nearest_point(const SectionPoint& target) {
+  Entities points;
+  gmsh::model::getEntities(points, 0);
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Entity& point : points) {
+    std::vector<double> x;
+    gmsh::model::getValue(0, point.second, {}, x);
+    const double distance = std::hypot(x[0] - target.x, x[1] - target.y, x[2] - target.z);
+    if (distance < least) {
+      least = distance;
+      best = point.second;
+    }
+  }
+  return best;
+}
+
+void add_group(int dimension, const std::vector<int>& tags, const std::string& name) {
+  if (tags.empty()) throw MeshError("no face of the geometry could be named \"" + name + "\"");
+  gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, tags), name);
+}
+
+/// Names come from geometry, after the Boolean operation has numbered everything anew.
+void name_entities(const BladeGeometry& g) {
+  const double tolerance = 1e-6 * (g.span + g.platform_width);
+  add_group(2, faces_at(1, 0.0, tolerance), "root");
+  add_group(2, faces_at(0, 0.5 * g.platform_width, tolerance), "contact");
+  add_group(2, faces_at(0, -0.5 * g.platform_width, tolerance), "platform_left");
+  add_group(2, faces_at(1, g.root_height + g.platform_height + g.span, tolerance), "tip");
+  add_group(0, {nearest_point(section_point(g, 1.0, 0.5, 1.0))}, "A");
+  add_group(0, {nearest_point(section_point(g, 1.0, 0.0, 1.0))}, "B");
+  add_group(0, {nearest_point(section_point(g, 1.0, 1.0, 1.0))}, "B'");
+  Entities volumes;
+  gmsh::model::getEntities(volumes, 3);
+  add_group(3, {volumes.front().second}, "blade");
+}
+
+/// Smallest Jacobian determinant over the largest, element by element, sampled densely: curved elements
+/// at thin edges turn inside out between the Gauss points.
+bool has_inverted_elements() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags;
+  std::vector<std::vector<std::size_t>> nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, 3);
+  std::vector<double> points;
+  constexpr int n = 4;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j) {
+      for (int k = 0; i + j + k <= n; ++k) {
+        for (const int index : {i, j, k}) points.push_back(static_cast<double>(index) / n);
+      }
+    }
+  }
+  for (const int type : types) {
+    std::vector<double> jacobians;
+    std::vector<double> determinants;
+    std::vector<double> coordinates;
+    gmsh::model::mesh::getJacobians(type, points, jacobians, determinants, coordinates);
+    if (std::any_of(determinants.begin(), determinants.end(), [](double d) { return d <= 0.0; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+class Session {
+ public:
+  Session() {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh every time
+  }
+  ~Session() { gmsh::finalize(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  Session(Session&&) = delete;
+  Session& operator=(Session&&) = delete;
+};
+
+}  // namespace
+
+void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
+                          const std::string& file) {
+  check_geometry(geometry, element_size);
+  const Session session;
+  gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0.5 * element_size);
+  gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
+  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+  gmsh::option::setNumber("Mesh.Binary", 1);
+  build_volume(geometry);
+  name_entities(geometry);
+  gmsh::model::mesh::generate(3);
+  gmsh::model::mesh::setOrder(2);
+  if (has_inverted_elements()) gmsh::model::mesh::optimize("HighOrder");
+  gmsh::write(file);
+}
+
+}  // namespace microslip::mesh

@@ -1,0 +1,17 @@
+/// @file
+/// Geometry → mesh with gmsh's OpenCASCADE kernel. Part of the program microslip-mesher, the only thing
+/// that links gmsh.
+#pragma once
+
+#include <string>
+
+#include "mesh/blade_geometry.hpp"
+
+namespace microslip::mesh {
+
+/// Meshes the blade into `file`: format 4.1, binary, second order, curved on the surface.
+/// @throws MeshError or std::runtime_error  gmsh failed; its message.
+void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
+                          const std::string& file);
+
+}  // namespace microslip::mesh

@@ -1,0 +1,72 @@
+/// @file
+/// The program microslip-mesher: reads "key value" lines from standard input, meshes, writes one file.
+///   microslip-mesher OUTPUT.msh MEMORY_MB < parameters
+/// It limits its own memory and dies with its parent: gmsh can crash, hang or eat memory on bad geometry.
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "mesh/gmsh_mesher.hpp"
+
+namespace {
+
+using microslip::mesh::BladeGeometry;
+
+std::map<std::string, double*> names_of(BladeGeometry& g) {
+  return {{"root_width", &g.root_width},         {"root_height", &g.root_height},
+          {"root_length", &g.root_length},       {"platform_width", &g.platform_width},
+          {"platform_height", &g.platform_height}, {"platform_length", &g.platform_length},
+          {"span", &g.span},                     {"root_chord", &g.root_chord},
+          {"tip_chord", &g.tip_chord},           {"root_thickness", &g.root_thickness},
+          {"tip_thickness", &g.tip_thickness},   {"root_stagger", &g.root_stagger},
+          {"tip_stagger", &g.tip_stagger},       {"camber", &g.camber},
+          {"lean", &g.lean}};
+}
+
+void limit_memory(double megabytes) {
+  const auto bytes = static_cast<rlim_t>(megabytes * 1e6);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: microslip-mesher OUTPUT.msh MEMORY_MB < parameters\n";
+    return 1;
+  }
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  limit_memory(std::atof(argv[2]));
+  try {
+    BladeGeometry geometry;
+    double element_size = 0.0;
+    auto names = names_of(geometry);
+    names["element_size"] = &element_size;
+    std::string key;
+    double value = 0.0;
+    while (std::cin >> key >> value) {
+      const auto found = names.find(key);
+      if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
+      *found->second = value;
+    }
+    microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, argv[1]);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return 4;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  } catch (const std::string& error) {  // some versions of gmsh throw their message bare
+    std::cerr << error << '\n';
+    return 1;
+  }
+  return 0;
+}
