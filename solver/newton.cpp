@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace microslip::solver {
 namespace {
@@ -141,6 +142,21 @@ NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& st
                           const Scaling& scaling, const NewtonOptions& options) {
   const BranchVector hold{Eigen::VectorXd::Zero(start.x.size()), 1.0};
   return solve_newton(system, start, hold, scaling, options);
+}
+
+std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scaling& scaling,
+                                        double orientation) {
+  const Eigen::Index n = at.residual.size();
+  const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
+  Eigen::MatrixXd square = bordered(at, none, scaling);
+  if (!square.allFinite()) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(square.topRows(n).transpose());
+  if (factors.rank() < n) return std::nullopt;
+  const Eigen::MatrixXd Q = factors.householderQ();
+  Eigen::VectorXd y = Q.col(n);
+  square.row(n) = y.transpose();
+  if (square.determinant() * orientation < 0.0) y = -y;
+  return BranchVector{y.head(n), y[n]};
 }
 
 Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,

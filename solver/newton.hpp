@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -61,5 +62,10 @@ struct Tangent {
 /// @param previous  last tangent; the new one makes an angle below 90° with it.
 [[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                                      const Scaling& scaling);
+
+/// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ] the sign
+/// of `orientation`. Empty: the Jacobian is not finite or loses rank twice.
+[[nodiscard]] std::optional<BranchVector> null_vector(const BalanceEvaluation& at,
+                                                      const Scaling& scaling, double orientation);
 
 }  // namespace microslip::solver
