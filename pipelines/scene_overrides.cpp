@@ -42,10 +42,9 @@ std::vector<Step> steps_of(const std::string& path, const std::string& assignmen
   return steps;
 }
 
-toml::table value_of(const std::string& text, const std::string& assignment) {
-  const std::string source = "--set " + assignment;
+toml::table value_of(const std::string& text) {
   try {
-    return toml::parse("x = " + text, source);
+    return toml::parse("x = " + text);
   } catch (const toml::parse_error&) {  // not TOML: 2.5 mm, stuck, … is meant as a text
     toml::table table;
     table.insert_or_assign("x", text);
@@ -81,7 +80,7 @@ void apply_override(toml::table& scene, const std::string& assignment) {
     refuse(assignment, "expected key.path=value");
   }
   const auto steps = steps_of(assignment.substr(0, equals), assignment);
-  const toml::table value = value_of(assignment.substr(equals + 1), assignment);
+  const toml::table value = value_of(assignment.substr(equals + 1));
   toml::table* table = &scene;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) table = &descend(*table, steps[i], assignment);
   const Step& last = steps.back();

@@ -38,7 +38,7 @@ std::string place_of(const toml::node* node, const std::string& file) {
   if (node == nullptr) return file;
   const auto& source = node->source();
   const std::string path = source.path ? *source.path : file;
-  if (path.starts_with("--set ") || source.begin.line == 0) return path;
+  if (source.begin.line == 0) return "--set";  // overrides have no line
   return fmt::format("{}:{}", path, source.begin.line);
 }
 
