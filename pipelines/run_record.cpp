@@ -59,6 +59,7 @@ void clear_results(const std::filesystem::path& folder) {
 
 RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
     : folder_(options.output),
+      rank_(options.rank),
       writes_(options.rank == 0),
       progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
                 writes_ ? options.verbosity : Verbosity::quiet) {
@@ -77,7 +78,17 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   write_whole(folder_ / "scene.toml", scene.complete_toml);
 }
 
+std::filesystem::path RunRecord::mesh_file() const {
+  if (writes_) return folder_ / "mesh.msh";
+  return std::filesystem::temp_directory_path() /
+         fmt::format("microslip_rank{}_{}.msh", rank_, ::getpid());
+}
+
 RunRecord::~RunRecord() {
+  if (!writes_) {
+    std::error_code ignored;  // a file of our own in the temporary folder
+    std::filesystem::remove(mesh_file(), ignored);
+  }
   if (lock_ < 0) return;
   ::unlink((folder_ / ".lock").c_str());
   ::close(lock_);

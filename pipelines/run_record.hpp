@@ -32,6 +32,8 @@ class RunRecord {
   RunRecord& operator=(RunRecord&&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// Where the mesher writes: mesh.msh of the run folder; MPI ranks above 0 mesh for themselves.
+  [[nodiscard]] std::filesystem::path mesh_file() const;
   [[nodiscard]] Progress& progress() { return progress_; }
 
   /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
@@ -67,6 +69,7 @@ class RunRecord {
   [[nodiscard]] ExitCode verdict() const;
 
   std::filesystem::path folder_;
+  int rank_;
   bool writes_;  ///< false on MPI ranks above 0
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
