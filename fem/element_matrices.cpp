@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "fem/number_text.hpp"
 #include "fem/quadrature.hpp"
 #include "mesh/shape_functions.hpp"
 
@@ -117,7 +118,7 @@ bool has_straight_edges(const NodeMatrix<10>& nodes) {
   return true;
 }
 
-void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10Stiffness rule,
+void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10Rule rule,
                     ElementMatrices& result) {
   constexpr auto type = mesh::ElementType::tet10;
   static const RuleTable<10> four_point(type, tetrahedron_rule(2));
@@ -125,15 +126,17 @@ void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10
   static const RuleTable<10> straight_mass(type, tetrahedron_rule(4));
   static const RuleTable<10> curved_mass(type, tetrahedron_rule(7));  // N_i N_j: 4, det J: 3
   const bool straight = has_straight_edges(nodes);
-  const bool four = straight || rule == Tet10Stiffness::four_point;
-  integrate<10>(four ? four_point : fourteen_point, straight ? straight_mass : curved_mass, nodes,
+  if (rule == Tet10Rule::four_point) {
+    return integrate<10>(four_point, four_point, nodes, material, result);
+  }
+  integrate<10>(straight ? four_point : fourteen_point, straight ? straight_mass : curved_mass, nodes,
                 material, result);
 }
 
 }  // namespace
 
 void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
-                      const Material& material, Tet10Stiffness rule, ElementMatrices& result) {
+                      const Material& material, Tet10Rule rule, ElementMatrices& result) {
   using mesh::ElementType;
   switch (type) {
     case ElementType::tet4: {
@@ -158,7 +161,7 @@ void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
 
 void check_material(const Material& material) {
   const auto refuse = [](const char* what, double value, const char* range) {
-    throw std::invalid_argument(std::string(what) + " = " + std::to_string(value) + " is not " + range);
+    throw std::invalid_argument(std::string(what) + " = " + number_text(value) + " is not " + range);
   };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!positive(material.youngs_modulus)) {

@@ -131,7 +131,7 @@ void finish(Mat matrix) {
 }  // namespace
 
 FeSystem assemble(const mesh::Mesh& mesh, const Material& material,
-                  const std::vector<std::string>& clamped, Tet10Stiffness rule) {
+                  const std::vector<std::string>& clamped, Tet10Rule rule) {
   check_material(material);
   int rank = 0;
   int n_ranks = 1;

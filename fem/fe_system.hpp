@@ -26,6 +26,6 @@ struct FeSystem {
 /// @note One and several ranks agree to summation order (1e-15 relative).
 [[nodiscard]] FeSystem assemble(const mesh::Mesh& mesh, const Material& material,
                                 const std::vector<std::string>& clamped,
-                                Tet10Stiffness rule = Tet10Stiffness::accurate);
+                                Tet10Rule rule = Tet10Rule::accurate);
 
 }  // namespace microslip::fem

@@ -37,7 +37,7 @@ class Structure {
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
   Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
-            Tet10Stiffness rule = Tet10Stiffness::accurate);
+            Tet10Rule rule = Tet10Rule::accurate);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;

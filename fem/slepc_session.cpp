@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 
 #include <petscpkg_version.h>
@@ -53,6 +54,13 @@ int ranks_on_this_machine() {
 }  // namespace
 
 SlepcSession::SlepcSession() {
+  int over = 0;
+  check(MPI_Finalized(&over));
+  PetscBool alive = PETSC_FALSE;
+  check(SlepcInitialized(&alive));
+  if (over != 0 || alive == PETSC_TRUE) {
+    throw std::logic_error("SlepcSession: one per process, and there was one already");
+  }
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));

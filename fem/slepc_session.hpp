@@ -9,6 +9,7 @@ namespace microslip::fem {
 class SlepcSession {
  public:
   /// Does not read the command line. PETSc's own error handler and signal handler are switched off.
+  /// @throws std::logic_error  a second one in the life of the process.
   SlepcSession();
   ~SlepcSession();
   SlepcSession(const SlepcSession&) = delete;

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "fem/slepc_session.hpp"
@@ -19,6 +20,7 @@
 #include "pipelines/interrupt.hpp"
 #include "pipelines/output_file.hpp"
 #include "pipelines/scene_file.hpp"
+#include "pipelines/scene_keys.hpp"
 #include "pipelines/scene_template.hpp"
 #include "pipelines/study.hpp"
 
@@ -185,6 +187,22 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   report_command->add_option("folder", a.input, "run folder")->required();
 }
 
+/// What is wrong with the first word when it is no command; empty when it is one, or an option.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return {};
+    names.push_back(command->get_name());
+  }
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string near = nearest_name(word, views);
+  return near.empty() ? fmt::format("unknown command \"{}\"; the commands are: {}", word,
+                                    fmt::join(names, ", "))
+                      : fmt::format("unknown command \"{}\"; did you mean \"{}\"?", word, near);
+}
+
 void print_json_line(const Arguments& arguments, int code, const std::string& message) {
   nlohmann::ordered_json line{{"program", "microslip"}, {"version", MICROSLIP_VERSION},
                               {"exit_code", code},      {"input", arguments.input},
@@ -224,6 +242,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   add_global_options(app, arguments);
   add_commands(app, arguments, chosen);
+  if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) {
+    std::cerr << "microslip: " << unknown << '\n';
+    return static_cast<int>(ExitCode::bad_input);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -64,7 +64,7 @@ class SectionReader {
   toml::table& complete_;
 };
 
-/// "file:line" of a node, or "--set path" when it came from an override.
+/// "file:line" of a node, or "--set key.path=value" when it came from an override.
 [[nodiscard]] std::string place_of(const toml::node* node, const std::string& file);
 
 }  // namespace microslip::pipelines

@@ -1,5 +1,6 @@
 #include "solver/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -36,11 +37,12 @@ class Iteration {
 
   NewtonResult run(const BranchVector& start, const NewtonOptions& options) {
     move_to(start);
-    for (int i = 0; i < options.max_iterations && now_.residual > options.tolerance; ++i) {
+    const double tolerance = std::max(options.tolerance, scaling_.rounding);
+    for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
       if (!step(i)) break;
       ++now_.iterations;
     }
-    now_.converged = now_.residual <= options.tolerance;
+    now_.converged = now_.residual <= tolerance;
     if (now_.converged) polish();
     return std::move(now_);
   }

@@ -1,0 +1,26 @@
+/// @file
+/// Natural frequencies from CalculiX (the program `ccx`), an independent finite-element code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fem/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace microslip::test {
+
+/// True if `ccx` is on PATH.
+[[nodiscard]] bool has_calculix();
+
+/// Frequencies [rad/s] of the lowest modes of a mesh, ascending, as CalculiX prints them (7 digits).
+/// Node order is that of Abaqus already. Works in a folder of its own below the system's temporary
+/// one and removes it.
+/// @param clamped  names of surfaces or node sets that are held.
+/// @throws std::runtime_error  ccx failed or printed fewer frequencies; with its last words.
+[[nodiscard]] Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh, const fem::Material& material,
+                                                   const std::vector<std::string>& clamped, int n_modes);
+
+}  // namespace microslip::test
