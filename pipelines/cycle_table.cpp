@@ -11,7 +11,6 @@
 
 #include "contact/friction_cycle.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -72,8 +71,7 @@ void check_columns(const CsvTable& table) {
     const std::string& name = table.columns()[column];
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (!is_later_motion(name)) {
-      throw SceneError(fmt::format("{}:1: unknown column \"{}\"; did you mean \"{}\"?", table.name(),
-                                   name, nearest_name(name, known)));
+      throw SceneError(unknown_column(table, name, known));
     }
     for (std::size_t row = 0; row < table.n_rows(); ++row) {
       if (table.at(row, column) == 0.0) continue;

@@ -38,7 +38,7 @@ std::string place_of(const toml::node* node, const std::string& file) {
   if (node == nullptr) return file;
   const auto& source = node->source();
   const std::string path = source.path ? *source.path : file;
-  if (source.begin.line == 0) return "--set";  // overrides have no line
+  if (path.starts_with("--set ") || source.begin.line == 0) return path;
   return fmt::format("{}:{}", path, source.begin.line);
 }
 
@@ -124,6 +124,20 @@ double SectionReader::number_in(const toml::node& node, std::string_view key) co
          &node);
   }
   return value;
+}
+
+double SectionReader::number_or_word_in(const toml::node& node, std::string_view key,
+                                        std::span<const std::string_view> words) const {
+  const auto text = node.is_string() ? node.value<std::string>() : std::nullopt;
+  constexpr std::string_view number_begins = "0123456789.+- \t";
+  if (text && (text->empty() || number_begins.find(text->front()) == std::string_view::npos)) {
+    const std::string near = nearest_name(*text, words);
+    fail(key, fmt::format("\"{}\" is not known; expected {} or a number [{}]{}", *text,
+                          fmt::join(words, ", "), spec_of(key).unit,
+                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+         &node);
+  }
+  return number_in(node, key);
 }
 
 double SectionReader::number(std::string_view key) const {
