@@ -186,7 +186,7 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
-void RunRecord::keep_curve(const CurveResult& result, Eigen::Index n_modes) {
+void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
   const std::string outcome =
@@ -198,9 +198,15 @@ void RunRecord::keep_curve(const CurveResult& result, Eigen::Index n_modes) {
       peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude,
                                     to_hz * peak->frequency)
                       : std::string()));
+  CurveSummary summary = summarise(result);
+  if (const auto* scale = std::get_if<double>(&result.preload);
+      scale != nullptr && model.vertices.rows() == 0 && model.weights.size() > 0) {
+    summary.preload_scale = *scale;
+    summary.preload = *scale * model.weights.dot(model.preload);
+  }
   const std::lock_guard lock(mutex_);
-  summary_.curves.push_back(summarise(result));
-  write_curve(folder_, result, n_modes);
+  summary_.curves.push_back(std::move(summary));
+  write_curve(folder_, result, model.frequency.size());
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {

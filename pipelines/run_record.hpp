@@ -50,7 +50,8 @@ class RunRecord {
   void keep_model(const ReducedModel& model);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
-  void keep_curve(const CurveResult& result, Eigen::Index n_modes);
+  /// A modal scene's scale is told as the total force it means.
+  void keep_curve(const CurveResult& result, const ReducedModel& model);
   void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
