@@ -46,7 +46,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw SceneError(fmt::format("{}: no such file", file.string()));
+    throw SceneError(fmt::format("{}: {}", file.empty() ? "\"\"" : file.string(),
+                                 error ? error.message() : "no such file"));
   }
   if (!std::filesystem::is_regular_file(file, error)) {
     throw SceneError(fmt::format("{}: not a file", file.string()));
@@ -161,10 +162,12 @@ std::string CsvTable::header_place() const {
   return header_line_ == 0 ? name_ : fmt::format("{}:{}", name_, header_line_);
 }
 
+std::string CsvTable::row_place(std::size_t row) const {
+  return places_.empty() ? fmt::format("{}:{}", name_, lines_[row]) : places_[row];
+}
+
 std::string CsvTable::place(std::size_t row, std::size_t column) const {
-  const std::string where =
-      places_.empty() ? fmt::format("{}:{}", name_, lines_[row]) : places_[row];
-  return fmt::format("{}: {}: ", where, columns_[column]);
+  return fmt::format("{}: {}: ", row_place(row), columns_[column]);
 }
 
 std::string unknown_column(const CsvTable& table, const std::string& column,

@@ -39,6 +39,8 @@ class CsvTable {
   [[nodiscard]] const std::string& id(std::size_t row) const { return ids_[row]; }
   /// "name:line" of the header, for messages.
   [[nodiscard]] std::string header_place() const;
+  /// "name:line" of a row.
+  [[nodiscard]] std::string row_place(std::size_t row) const;
   /// "name:line: column: " of a cell, for messages.
   [[nodiscard]] std::string place(std::size_t row, std::size_t column) const;
 

@@ -393,7 +393,9 @@ ResponseDescription read_modal_response(const SectionReader& s) {
 }
 
 /// Effects this version simulates wherever the scene has them, and those it does not have yet.
-std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s) {
+/// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
+std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
+                                                              bool has_residual) {
   constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
   constexpr std::array<std::string_view, 4> later{"second_direction", "higher_harmonics",
                                                   "roughness", "rate_dependence"};
@@ -408,9 +410,22 @@ std::vector<std::pair<std::string, std::string>> read_effects(const SectionReade
       s.fail(key.name, "cannot be switched off in this version; expected auto or on",
              s.node(key.name));
     }
+    if (key.name == "residual" && setting == "on" && !has_residual) {
+      s.fail(key.name, "cannot be on: modal scenes and modes.residual = \"none\" have no residual",
+             s.node(key.name));
+    }
     effects.emplace_back(key.name, setting);
   }
   return effects;
+}
+
+/// Without contact there is no preload to set, and none to choose.
+void refuse_contact_keys(const SectionReader& response) {
+  for (const char* key : {"preload", "optimum", "maps"}) {
+    if (response.given(key)) {
+      response.fail(key, "the scene has no [contact]", response.node(key));
+    }
+  }
 }
 
 void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
@@ -428,7 +443,9 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   SectionReader excitation = reading.section("excitation", "excitation");
   scene.forces = read_forces(excitation);
   if (reading.given.contains("response")) {
-    scene.response = read_response(reading.section("response", "response"));
+    const SectionReader response = reading.section("response", "response");
+    scene.response = read_response(response);
+    if (!scene.contact) refuse_contact_keys(response);
   }
 }
 
@@ -463,7 +480,8 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  scene.effects = read_effects(reading.section("effects", "effects"));
+  const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
+  scene.effects = read_effects(reading.section("effects", "effects"), has_residual);
   std::ostringstream complete;
   complete << reading.complete << '\n';
   scene.complete_toml = complete.str();
@@ -472,8 +490,9 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
 
 SceneDescription read_scene(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
+  const std::string text = read_text(file, largest_scene);
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  return parse_scene(read_text(file, largest_scene), file.string(), folder, overrides);
+  return parse_scene(text, file.string(), folder, overrides);
 }
 
 }  // namespace microslip::pipelines
