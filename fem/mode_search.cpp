@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fem/block_krylov.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
@@ -68,13 +69,16 @@ MatHandle shifted_stiffness(const FeSystem& system, double shift) {
 }
 
 CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                Eigen::Index n, const Eigen::MatrixXd& rigid) {
+                                Eigen::Index n, const Eigen::MatrixXd& rigid, ModeSearch search) {
   constexpr int max_rounds = 5;
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - rigid.cols();
   Stopwatch watch;
   CountedPairs result;
-  // Two beyond the last: one to find the gap, one because the last of a run converges worst.
-  result.pairs = refine(system, inverse, lowest_pairs(system, inverse, shift, n + 2, rigid).vectors);
+  // Krylov–Schur is asked for one beyond the last, which shows the gap above it; blocks bring it along.
+  const EigenPairs first = search == ModeSearch::blocks
+                               ? lowest_pairs_by_blocks(system, inverse, shift, n, rigid)
+                               : lowest_pairs(system, inverse, shift, n + 1, rigid);
+  result.pairs = refine(system, inverse, first.vectors);
   result.search_seconds += watch.lap();
   for (int round = 0; round < max_rounds; ++round) {
     Eigen::Index n_missing = 0;
