@@ -31,10 +31,21 @@ std::string_view unquoted(std::string_view cell) {
   return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
+/// Where the cell that begins at `begin` ends: the next comma that stands in no quotes.
+std::size_t end_of_cell(std::string_view line, std::size_t begin) {
+  const std::size_t first = std::min(line.find_first_not_of(" \t", begin), line.size());
+  std::size_t from = begin;
+  if (first < line.size() && line[first] == '"') {
+    const std::size_t closing = line.find('"', first + 1);
+    if (closing != std::string_view::npos) from = closing;
+  }
+  return std::min(line.find(',', from), line.size());
+}
+
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = end_of_cell(line, begin);
     cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
     begin = end + 1;
   }
