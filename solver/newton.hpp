@@ -20,6 +20,8 @@ struct Scaling {
   double x = 1.0;
   double parameter = 1.0;
   double residual = 1.0;
+  /// Size of rounding errors of the residual, over `residual`: nothing smaller is asked for. ≥ 0
+  double rounding = 0.0;
 };
 
 /// A point of the branch, or a direction: (x, p).
@@ -29,7 +31,7 @@ struct BranchVector {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual
+  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
   int max_iterations = 15;
 };
 
