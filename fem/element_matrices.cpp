@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "fem/number_text.hpp"
 #include "fem/quadrature.hpp"
 #include "mesh/shape_functions.hpp"
 
@@ -160,7 +161,7 @@ void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
 
 void check_material(const Material& material) {
   const auto refuse = [](const char* what, double value, const char* range) {
-    throw std::invalid_argument(std::string(what) + " = " + std::to_string(value) + " is not " + range);
+    throw std::invalid_argument(std::string(what) + " = " + number_text(value) + " is not " + range);
   };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!positive(material.youngs_modulus)) {

@@ -12,6 +12,7 @@
 
 #include "fem/columns.hpp"
 #include "fem/mode_search.hpp"
+#include "fem/number_text.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/rigid_modes.hpp"
 #include "fem/surface_load.hpp"
@@ -136,7 +137,7 @@ void Structure::Implementation::check_residuals(const ModalBasis& basis, double 
     }
     if (!(basis.residual[k] <= allowed)) {
       throw EigenError("eigen-inaccurate: mode " + std::to_string(k + 1) + " has residual " +
-                       std::to_string(basis.residual[k]) + ", allowed is " + std::to_string(allowed));
+                       number_text(basis.residual[k]) + ", allowed is " + number_text(allowed));
     }
   }
 }
@@ -210,14 +211,14 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
   }
   const Eigen::Index n_rigid = self.rigid.cols();
   if (n_rigid > 6) {
-    throw EigenError("rigid-body: " + std::to_string(n_rigid) +
+    throw EigenError("mechanism: " + std::to_string(n_rigid) +
                      " zero modes, a free body has six: the mesh has loose parts");
   }
   self.factorise();
   CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0), options.search);
   if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
-    throw EigenError("rigid-body: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
-                     " of them a mechanism (parts that share only an edge, a corner or too few supports)");
+    throw EigenError("mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
+                     " of them inside the body (parts that share only an edge, a corner or too few supports)");
   }
   ModalBasis basis = self.basis_from(found, options.n_modes);
   self.check_residuals(basis, options.residual_tolerance);
@@ -264,7 +265,7 @@ Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixX
   const FeSystem& system = self_->system;
   const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(), FactorKind::indefinite);
   if (dynamic.inertia().zero > 0) {
-    throw EigenError("resonance: omega = " + std::to_string(frequency) + " rad/s is a natural frequency");
+    throw EigenError("resonance: omega = " + number_text(frequency) + " rad/s is a natural frequency");
   }
   return system.dofs.to_mesh(dynamic.solve(system.dofs.to_local(forces)));
 }

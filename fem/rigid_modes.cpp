@@ -128,7 +128,12 @@ double elastic_scale(const Eigen::MatrixX3d& nodes, const FeSystem& system, Eige
       metric.eigenvalues().tail(n_kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Eigen::MatrixXd energy = inner_products(fields, multiply(system.stiffness.get(), fields));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(to_orthonormal.transpose() * energy * to_orthonormal);
-  return ritz.eigenvalues()[std::min(n_rigid, n_kept - 1)];
+  // A mechanism inside the body may be one of the fields: its zero is no scale. Values of bodies a
+  // hundred times as long as thick span eight decades.
+  const double zero = 1e-10 * ritz.eigenvalues()[n_kept - 1];
+  Eigen::Index first = std::min(n_rigid, n_kept - 1);
+  while (first + 1 < n_kept && ritz.eigenvalues()[first] < zero) ++first;
+  return ritz.eigenvalues()[first];
 }
 
 }  // namespace microslip::fem

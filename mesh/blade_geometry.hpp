@@ -20,7 +20,7 @@ struct BladeGeometry {
   double platform_width = 0.060;   ///< x
   double platform_height = 0.010;  ///< y
   double platform_length = 0.060;  ///< z
-  double span = 0.115;             ///< aerofoil height above the platform
+  double span = 0.1141;             ///< aerofoil height above the platform
   double root_chord = 0.044;       ///< chord at the platform
   double tip_chord = 0.034;
   double root_thickness = 0.0050;  ///< largest thickness of the section
@@ -28,7 +28,7 @@ struct BladeGeometry {
   double root_stagger = 0.10;      ///< angle of the chord to z about y, at the platform
   double tip_stagger = 0.60;       ///< at the tip: the difference is the twist
   double camber = 0.04;            ///< height of the camber line over the chord [-]
-  double lean = -0.0035;               ///< shift of the tip section along x
+  double lean = -0.003;               ///< shift of the tip section along x
 };
 
 /// @throws MeshError  a length, angle or ratio out of its range; names it.

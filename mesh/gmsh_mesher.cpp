@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <gmsh.h>
@@ -61,7 +64,8 @@ void build_volume(const BladeGeometry& g) {
                                    g.platform_width, g.platform_height, g.platform_length);
   std::vector<int> wires;
   // The loft starts a little inside the platform: a face in the platform's face would be degenerate.
-  for (const double height : {-0.02, 0.25, 0.5, 0.75, 1.0}) wires.push_back(section_wire(g, height));
+  const double sunk = -std::min(0.02, 0.5 * g.platform_height / g.span);
+  for (const double height : {sunk, 0.25, 0.5, 0.75, 1.0}) wires.push_back(section_wire(g, height));
   Entities aerofoil;
   occ::addThruSections(wires, aerofoil, -1, true);
   Entities tools{{3, platform}};
@@ -163,6 +167,21 @@ bool has_inverted_elements() {
   return false;
 }
 
+/// Straightens elements that curving turned inside out. gmsh's optimisers give up on some of them, each on
+/// others: what the first leaves the second takes; the reader refuses what is left.
+void untangle() {
+  for (const char* method : {"HighOrder", "HighOrderElastic"}) {
+    if (!has_inverted_elements()) return;
+    try {
+      gmsh::model::mesh::optimize(method);
+    } catch (const std::runtime_error& error) {
+      std::cerr << method << ": " << error.what() << '\n';
+    } catch (const std::string& error) {
+      std::cerr << method << ": " << error << '\n';
+    }
+  }
+}
+
 class Session {
  public:
   Session() {
@@ -193,7 +212,7 @@ void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
   name_entities(geometry);
   gmsh::model::mesh::generate(3);
   gmsh::model::mesh::setOrder(2);
-  if (has_inverted_elements()) gmsh::model::mesh::optimize("HighOrder");
+  untangle();
   gmsh::write(file);
 }
 

@@ -67,6 +67,14 @@ std::string GmshSource::next_section() {
   return {};
 }
 
+void GmshSource::expect_end(const std::string& name) {
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  const std::string wanted = "$End" + name;
+  if (text_.compare(at_, wanted.size(), wanted) != 0) {
+    fail("expected " + wanted + ": the section holds more or less than it says");
+  }
+}
+
 void GmshSource::end_line() {
   const std::size_t end = text_.find('\n', at_);
   at_ = end == std::string::npos ? text_.size() : end + 1;

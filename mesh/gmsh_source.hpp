@@ -22,6 +22,8 @@ class GmshSource {
 
   /// Goes to the next "$Section" at the start of a line and returns its name; empty: end of file.
   [[nodiscard]] std::string next_section();
+  /// The section must be over: "$EndNAME" comes next. @throws MeshError  anything else.
+  void expect_end(const std::string& name);
   /// Puts the cursor behind the line that it is on: binary data begin there.
   void end_line();
   /// Rest of the present line, trimmed.

@@ -19,7 +19,9 @@ class Reader {
   explicit Reader(GmshSource source) : source_(std::move(source)) {}
 
   GmshContent read() {
-    if (source_.next_section() != "MeshFormat") source_.fail("not a gmsh mesh: no $MeshFormat");
+    std::string first = source_.next_section();
+    while (first == "Comments") first = source_.next_section();
+    if (first != "MeshFormat") source_.fail("not a gmsh mesh: no $MeshFormat");
     read_format();
     bool nodes = false;
     bool elements = false;
@@ -29,10 +31,12 @@ class Reader {
       if (name == "PartitionedEntities") source_.fail("partitioned meshes are not read");
       if (name == "Nodes") {
         version_4_ ? read_nodes_4() : read_nodes_2();
+        source_.expect_end(name);
         nodes = true;
       }
       if (name == "Elements") {
         version_4_ ? read_elements_4() : read_elements_2();
+        source_.expect_end(name);
         elements = true;
       }
     }
@@ -141,6 +145,10 @@ class Reader {
     if (type == nullptr) {
       source_.fail("element type " + std::to_string(number) +
                    " is not read; the volumes may be tet4, tet10, hex8 or hex20");
+    }
+    if (type->dimension == 3 && !type->supported) {
+      source_.fail(std::string(type->name) +
+                   " elements are not read; the volumes may be tet4, tet10, hex8 or hex20");
     }
     return *type;
   }

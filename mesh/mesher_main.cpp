@@ -44,26 +44,30 @@ int main(int argc, char** argv) {
     return 1;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  limit_memory(std::atof(argv[2]));
+  const double memory = std::atof(argv[2]);
+  if (!(memory > 0.0)) {
+    std::cerr << "the memory limit must be a number above 0\n";
+    return 1;
+  }
+  limit_memory(memory);
   try {
     BladeGeometry geometry;
     double element_size = 0.0;
     auto names = names_of(geometry);
     names["element_size"] = &element_size;
-    std::string key;
-    double value = 0.0;
-    while (std::cin >> key >> value) {
+    for (std::string key; std::cin >> key;) {
       const auto found = names.find(key);
       if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
-      *found->second = value;
+      if (!(std::cin >> *found->second)) throw std::invalid_argument(key + ": expected a number");
     }
     microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, argv[1]);
   } catch (const std::bad_alloc&) {
     std::cerr << "out of memory\n";
     return 4;
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
+    const std::string text = error.what();
+    std::cerr << text << '\n';
+    return text.find("out of memory") != std::string::npos ? 4 : 1;
   } catch (const std::string& error) {  // some versions of gmsh throw their message bare
     std::cerr << error << '\n';
     return 1;

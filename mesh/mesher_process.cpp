@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -146,6 +147,9 @@ void judge(int status, const MesherLimits& limits, const std::string& said) {
 void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::path& file,
                 const MesherLimits& limits) {
   check_geometry(geometry, element_size);
+  if (!(limits.seconds > 0.0) || !(limits.memory_mb > 0.0)) {
+    throw std::invalid_argument("mesher limits must be above 0 s and 0 MB");
+  }
   const fs::path program = mesher_program();
   const std::string stem = file.string() + "." + std::to_string(::getpid());
   const ScratchFile input(stem + ".in");
@@ -157,7 +161,8 @@ void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::pa
     if (!stream.flush()) throw MeshError("cannot write " + input.path().string());
   }
   const pid_t child = start(program, input.path(), mesh.path(), messages.path(), limits.memory_mb);
-  judge(wait_for(child, limits.seconds), limits, tail_of(messages.path()));
+  const int status = wait_for(child, limits.seconds);  // before its messages are read
+  judge(status, limits, tail_of(messages.path()));
   std::error_code error;
   fs::rename(mesh.path(), file, error);
   if (error) throw MeshError("the mesher left no mesh at " + file.string() + ": " + error.message());

@@ -213,6 +213,17 @@ class Sampler {
   Triplets to_vertices_;
 };
 
+/// Diagonal of the bounding box [m].
+double extent(const Eigen::MatrixX3d& nodes, const Surface& surface) {
+  Eigen::RowVector3d low = nodes.row(surface.nodes.front());
+  Eigen::RowVector3d high = low;
+  for (const Eigen::Index node : surface.nodes) {
+    low = low.cwiseMin(nodes.row(node));
+    high = high.cwiseMax(nodes.row(node));
+  }
+  return (high - low).norm();
+}
+
 }  // namespace
 
 SurfaceSampling sample_surface(const Eigen::MatrixX3d& nodes, const Surface& surface,
@@ -227,7 +238,7 @@ SurfaceSampling sample_surface(const Eigen::MatrixX3d& nodes, const Surface& sur
   if (n_faces == 0) throw MeshError("surface \"" + surface.name + "\" has no faces");
   int n = 1;
   while (n_faces * n * n < n_cells) ++n;  // every face gives n² cells at least
-  const double spacing = std::sqrt(surface.area / static_cast<double>(n_faces)) / n;
+  const double spacing = extent(nodes, surface) / std::sqrt(static_cast<double>(n_faces)) / n;
   Sampler sampler(nodes, surface, spacing);
   for (const FaceBlock& block : surface.faces) {
     const std::vector<Cell> cells =

@@ -80,9 +80,7 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (interrupt_requested()) throw InterruptedError("interrupted; finished curves are kept");
     for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
-    const bool draws_peak = std::find(scene.response->maps.begin(), scene.response->maps.end(),
-                                      MapEntry(MapName::peak)) != scene.response->maps.end();
-    if (const auto* peak = highest_peak(curves[i].curve); draws_peak && peak != nullptr) {
+    if (const auto* peak = highest_peak(curves[i].curve)) {
       record.keep_motion(curves[i].name + "_peak", *peak);
     }
   }

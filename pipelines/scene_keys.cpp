@@ -31,7 +31,7 @@ constexpr std::array blade_keys{
     length_key("platform_width", "\"60 mm\"", "platform along x; its right side face is the contact"),
     length_key("platform_height", "\"10 mm\"", "platform along y"),
     length_key("platform_length", "\"60 mm\"", "platform along z"),
-    length_key("span", "\"115 mm\"", "aerofoil above the platform"),
+    length_key("span", "\"114.1 mm\"", "aerofoil above the platform"),
     length_key("root_chord", "\"44 mm\"", "chord at the platform"),
     length_key("tip_chord", "\"34 mm\"", "chord at the tip"),
     length_key("root_thickness", "\"5 mm\"", "largest thickness of the section at the platform"),
@@ -40,7 +40,7 @@ constexpr std::array blade_keys{
             "angle of the chord to z about y at the platform"},
     KeySpec{"tip_stagger", number, "rad", "0.6", -1.5, 1.5, false, "the same at the tip"},
     KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false, "height of the camber line over the chord"},
-    KeySpec{"lean", number, "m", "\"-3.5 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
+    KeySpec{"lean", number, "m", "\"-3 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
 };
 
 constexpr std::array mesh_keys{

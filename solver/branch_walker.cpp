@@ -57,20 +57,23 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
 }
 
 BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) const {
+  return attempt(now_.tangent, distance, max_iterations);
+}
+
+BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
+                                          int max_iterations) const {
   Trial trial;
   NewtonOptions options;
   options.max_iterations = max_iterations;
-  const BranchVector predicted =
-      moved(now_.solution.point, now_.tangent, distance, now_.scaling);
-  NewtonResult solution =
-      solve_newton(system_, predicted, now_.tangent, now_.scaling, options);
+  const BranchVector predicted = moved(now_.solution.point, direction, distance, now_.scaling);
+  NewtonResult solution = solve_newton(system_, predicted, direction, now_.scaling, options);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   trial.converged = solution.converged;
   if (!solution.converged) return trial;
   trial.correction = length(difference(solution.point, predicted, now_.scaling)) / distance;
   const Scaling scaling = rule_(solution);
-  const BranchVector previous = rescaled(now_.tangent, now_.scaling, scaling);
+  const BranchVector previous = rescaled(direction, now_.scaling, scaling);
   const Tangent tangent = branch_tangent(solution.evaluation, previous, scaling);
   trial.cosine = dot(tangent.direction, previous);
   trial.orientation = tangent.orientation;
@@ -114,7 +117,32 @@ bool BranchWalker::advance() {
     }
     step_ *= 0.5;
   }
-  return leap();
+  return turn_at_kink() || leap();
+}
+
+bool BranchWalker::turn_at_kink() {
+  // Where slip begins a branch may turn back sharply: no solution lies ahead in the old direction. Just
+  // beyond the kink the Jacobian is that of the other regime; its null vector, with the sign that keeps
+  // the orientation of the branch, points out of the kink (Allgower & Georg 1990, section 2.1).
+  if (orientation_ == 0.0) return false;
+  for (double beyond = 1e-7; beyond < 1e-2; beyond *= 10.0) {
+    const BranchVector probe =
+        moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
+    const BalanceEvaluation other = system_(probe.x, probe.parameter);
+    ++evaluations_;
+    const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation_);
+    if (!way) continue;
+    for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
+      Trial trial = attempt(*way, distance, 15);
+      const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
+                          trial.orientation == orientation_;
+      if (!onward) continue;
+      step_ = distance;
+      accept(std::move(trial));
+      return true;
+    }
+  }
+  return false;
 }
 
 bool BranchWalker::leap() {

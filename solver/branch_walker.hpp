@@ -50,11 +50,15 @@ class BranchWalker {
     bool converged = false;
   };
 
+  /// From now() along its tangent, or along another direction that leaves a kink.
   [[nodiscard]] Trial attempt(double length, int max_iterations) const;
+  [[nodiscard]] Trial attempt(const BranchVector& direction, double length,
+                              int max_iterations) const;
   [[nodiscard]] bool smooth(const Trial& trial) const;
   void accept(Trial trial);
   void choose_step(const Trial& trial);
   [[nodiscard]] bool leap();
+  [[nodiscard]] bool turn_at_kink();
 
   ParametricSystem system_;
   ScalingRule rule_;

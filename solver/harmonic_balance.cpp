@@ -1,6 +1,7 @@
 #include "solver/harmonic_balance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -141,6 +142,15 @@ double HarmonicBalance::force_scale(double frequency) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
   add_stiffness(stuck_stiffness_, 1.0, stiffness);
   return std::max(load, (stiffness * stuck).norm());
+}
+
+double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency) const {
+  const Harmonics q = harmonics(x);
+  double sum = (q.rows() * stiffness_.asDiagonal()).norm() + (q.rows() * stuck_stiffness_).norm();
+  for (int k = 1; k <= n_harmonics_; ++k) {
+    sum += (k * frequency) * (k * frequency) * std::hypot(q.sine(k).norm(), q.cosine(k).norm());
+  }
+  return sum;
 }
 
 }  // namespace microslip::solver

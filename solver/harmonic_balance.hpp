@@ -52,6 +52,9 @@ class HarmonicBalance {
   [[nodiscard]] const Eigen::MatrixXd& stuck_stiffness() const { return stuck_stiffness_; }
   /// max(‖Q‖, ‖contact force of the stuck limit‖) [N/√kg]: what residuals are measured by.
   [[nodiscard]] double force_scale(double frequency) const;
+  /// Size of the terms that cancel in R [N/√kg]: stiffness, inertia and stuck contact under x. A point
+  /// that slips far is computed as the small difference of forces of this size.
+  [[nodiscard]] double largest_terms(const Eigen::VectorXd& x, double frequency) const;
 
  private:
   void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;

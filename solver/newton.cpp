@@ -1,10 +1,12 @@
 #include "solver/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace microslip::solver {
 namespace {
@@ -13,6 +15,7 @@ constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
 // Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
 constexpr double rounding = 1e-16;
+constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 /// [∂R/∂x σ_x/ρ   ∂R/∂p σ_p/ρ]
 /// [    c_x           c_p     ]     ρ the scale of the residual
@@ -34,11 +37,12 @@ class Iteration {
 
   NewtonResult run(const BranchVector& start, const NewtonOptions& options) {
     move_to(start);
-    for (int i = 0; i < options.max_iterations && now_.residual > options.tolerance; ++i) {
+    const double tolerance = std::max(options.tolerance, scaling_.rounding);
+    for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
       if (!step(i)) break;
       ++now_.iterations;
     }
-    now_.converged = now_.residual <= options.tolerance;
+    now_.converged = now_.residual <= tolerance;
     if (now_.converged) polish();
     return std::move(now_);
   }
@@ -105,16 +109,21 @@ class Iteration {
     return true;
   }
 
+  /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does not.
   void polish() {
     for (int i = 0; i < max_polish && now_.residual > rounding; ++i) {
       const BranchVector direction = newton_step();
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
-      NewtonResult next = stepped(direction, 1.0);
-      if (!(next.residual < 0.7 * now_.residual)) {
-        if (next.residual < now_.residual) keep(std::move(next));
-        return;
+      const double before = now_.residual;
+      for (const double length : {1.0, 0.5, 0.1}) {
+        NewtonResult next = stepped(direction, length);
+        if (next.residual < now_.residual) {
+          keep(std::move(next));
+          break;
+        }
+        if (now_.residual < rounding_level) return;
       }
-      keep(std::move(next));
+      if (now_.residual > 0.7 * before) return;
     }
   }
 
@@ -141,6 +150,21 @@ NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& st
                           const Scaling& scaling, const NewtonOptions& options) {
   const BranchVector hold{Eigen::VectorXd::Zero(start.x.size()), 1.0};
   return solve_newton(system, start, hold, scaling, options);
+}
+
+std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scaling& scaling,
+                                        double orientation) {
+  const Eigen::Index n = at.residual.size();
+  const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
+  Eigen::MatrixXd square = bordered(at, none, scaling);
+  if (!square.allFinite()) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(square.topRows(n).transpose());
+  if (factors.rank() < n) return std::nullopt;
+  const Eigen::MatrixXd Q = factors.householderQ();
+  Eigen::VectorXd y = Q.col(n);
+  square.row(n) = y.transpose();
+  if (square.determinant() * orientation < 0.0) y = -y;
+  return BranchVector{y.head(n), y[n]};
 }
 
 Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,

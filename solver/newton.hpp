@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -19,6 +20,8 @@ struct Scaling {
   double x = 1.0;
   double parameter = 1.0;
   double residual = 1.0;
+  /// Size of rounding errors of the residual, over `residual`: nothing smaller is asked for. ≥ 0
+  double rounding = 0.0;
 };
 
 /// A point of the branch, or a direction: (x, p).
@@ -28,7 +31,7 @@ struct BranchVector {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual
+  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
   int max_iterations = 15;
 };
 
@@ -61,5 +64,10 @@ struct Tangent {
 /// @param previous  last tangent; the new one makes an angle below 90° with it.
 [[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                                      const Scaling& scaling);
+
+/// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ] the sign
+/// of `orientation`. Empty: the Jacobian is not finite or loses rank twice.
+[[nodiscard]] std::optional<BranchVector> null_vector(const BalanceEvaluation& at,
+                                                      const Scaling& scaling, double orientation);
 
 }  // namespace microslip::solver

@@ -319,6 +319,11 @@ class ContactMap:
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
         corners = vertices if self.cells is not None else self.points
+        self.names = "p [mm]", "r [mm]"
+        if np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):  # a long patch lies on its side
+            corners, self.points = corners[:, ::-1], self.points[:, ::-1]
+            self.cells = None if self.cells is None else self.cells[:, :, ::-1]
+            self.names = self.names[::-1]
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def shares(self, phase):
@@ -350,9 +355,8 @@ class ContactMap:
 def layout_of(contact):
     """Figure size for two columns of states and one of sums over the period."""
     width, height = np.maximum(contact.high - contact.low, 1e-3)
-    ratio = min(max(height / width, 0.18), 2.2)
-    panel = 2.1 if ratio > 1 else 2.6
-    return 3 * panel + 1.2, 2 * (panel * ratio + 0.55) + 0.8
+    ratio = max(height / width, 0.18)  # at most 1: the long side lies flat
+    return 3 * 2.9 + 1.2, 2 * (2.9 * ratio + 0.6) + 0.8
 
 
 def state_legend(figure, contact):
@@ -367,9 +371,8 @@ def draw_states(axes, contact, angle):
     phase = int(np.argmin(np.abs((contact.phase - angle + 180) % 360 - 180)))
     contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
     stick, slip, apart = contact.shares(phase)
-    axes.set_title(f"{contact.phase[phase]:.0f}°", loc="left", fontweight="bold")
-    axes.set_title(f"{100 * stick:.0f} % stick · {100 * slip:.0f} % slip · {100 * apart:.0f} % open",
-                   loc="right", fontsize=7, color="0.35")
+    axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
+                   f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8)
 
 
 def draw_sum(figure, axes, contact, values, name):
@@ -378,7 +381,7 @@ def draw_sum(figure, axes, contact, values, name):
     drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)
-    axes.set_title(name, loc="left")
+    axes.set_title(name, loc="left", fontsize=8)
 
 
 def plot_patch(contact):
@@ -393,9 +396,9 @@ def plot_patch(contact):
         axes.spines[:].set_visible(False)
         axes.tick_params(length=2)
     for axes in grid[1]:
-        axes.set_xlabel("p [mm]")
+        axes.set_xlabel(contact.names[0])
     for axes in grid[:, 0]:
-        axes.set_ylabel("r [mm]")
+        axes.set_ylabel(contact.names[1])
     figure.get_layout_engine().set(w_pad=0.1)
     return figure
 

@@ -95,9 +95,10 @@ TEST_P(ElementMatricesOf, MassIsThatOfEveryPolynomialMotion) {
   Eigen::Matrix4d exact = Eigen::Matrix4d::Zero();
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::Vector3d xi = rule.points.row(q).transpose();
-    const Eigen::Matrix3d jacobian = mesh::shape_gradients(GetParam(), xi).transpose() * nodes;
+    const mesh::ElementShapes shapes = mesh::shapes(GetParam(), xi);
+    const Eigen::Matrix3d jacobian = shapes.gradients.transpose() * nodes;
     Eigen::Vector4d field;
-    field << 1.0, nodes.transpose() * mesh::shape_values(GetParam(), xi);
+    field << 1.0, nodes.transpose() * shapes.values;
     exact += titanium.density * rule.weights[q] * jacobian.determinant() * field * field.transpose();
   }
   Eigen::MatrixXd fields(nodes.rows(), 4);

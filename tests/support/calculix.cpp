@@ -1,7 +1,5 @@
 #include "tests/support/calculix.hpp"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,32 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace microslip::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Folder that goes when the comparison is over, however it ends.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "calculix_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;  // nothing to be done about a folder that stays
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  TemporaryFolder(TemporaryFolder&&) = delete;
-  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 const char* calculix_name(mesh::ElementType type) {
   switch (type) {

@@ -1,0 +1,87 @@
+#include "mesh/surface.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mesh/mesh.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace microslip::mesh {
+namespace {
+
+/// One face of reference shape in the plane z = 0, mid-nodes moved inside the plane.
+struct PlaneFace {
+  Eigen::MatrixX3d nodes;
+  Surface surface;
+};
+
+PlaneFace plane_face(FaceType type, double bulge) {
+  const int n = n_nodes(type);
+  PlaneFace face{Eigen::MatrixX3d::Zero(n, 3), {}};
+  FaceBlock block{type, Connectivity(1, n)};
+  const ElementType owner = type == FaceType::tri6 ? ElementType::tet10 : ElementType::hex20;
+  const auto& table = faces(owner)[type == FaceType::tri6 ? 0 : 1];  // tet: z = 0, hex: z = 1
+  for (int a = 0; a < n; ++a) {
+    face.nodes.row(a).head(2) =
+        reference_nodes(owner).row(table[static_cast<std::size_t>(a)]).head(2);
+    block.connectivity(0, a) = a;
+    face.surface.nodes.push_back(a);
+  }
+  face.nodes(n_corners(type), 1) -= bulge;  // the first edge bows out or in
+  face.surface.faces.push_back(block);
+  face.surface.area = 1.0;
+  return face;
+}
+
+double bulged_area(FaceType type, double bulge) {
+  // A parabola of height h over an edge of length l adds 2/3 h l; tri6 edge of length 1, quad8 of 2.
+  // The triangle's first edge runs along y there, so the bulge slides along it and adds nothing.
+  return type == FaceType::tri6 ? 0.5 : 4.0 + 2.0 / 3.0 * bulge * 2.0;
+}
+
+TEST(Surface, SampledWeightsSumToTheAreaOfCurvedPlaneFaces) {
+  for (const FaceType type : {FaceType::tri6, FaceType::quad8}) {
+    for (const Eigen::Index n_cells : {1, 7, 100}) {
+      const PlaneFace face = plane_face(type, 0.1);
+      const SurfaceSampling sampling = sample_surface(face.nodes, face.surface, n_cells);
+      EXPECT_GE(sampling.weights.size(), n_cells);
+      EXPECT_NEAR(sampling.weights.sum(), bulged_area(type, 0.1), 1e-14);
+      EXPECT_GT(sampling.weights.minCoeff(), 0.0);
+    }
+  }
+}
+
+TEST(Surface, InterpolatesQuadraticFieldsExactly) {
+  for (const FaceType type : {FaceType::tri6, FaceType::quad8}) {
+    const PlaneFace face = plane_face(type, 0.0);
+    const SurfaceSampling sampling = sample_surface(face.nodes, face.surface, 40);
+    const auto field = [](const auto& x) {
+      return (1.0 + x.col(0).array() - 2.0 * x.col(1).array() + x.col(0).array() * x.col(1).array() +
+              3.0 * x.col(0).array().square())
+          .matrix()
+          .eval();
+    };
+    const Eigen::VectorXd nodal = field(face.nodes);
+    EXPECT_LT((sampling.to_centres * nodal - field(sampling.centres)).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((sampling.to_vertices * nodal - field(sampling.vertices)).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(Surface, NeighbouringCellsShareTheirVertices) {
+  const PlaneFace face = plane_face(FaceType::quad8, 0.0);
+  const SurfaceSampling sampling = sample_surface(face.nodes, face.surface, 16);
+  EXPECT_EQ(sampling.weights.size(), 16);
+  EXPECT_EQ(sampling.vertices.rows(), 25);
+}
+
+TEST(Surface, PlaneTellsHowFarAFaceIsFromPlane) {
+  PlaneFace face = plane_face(FaceType::quad8, 0.0);
+  EXPECT_LT(fit_plane(face.nodes, face.surface).flatness, 1e-15);
+  EXPECT_NEAR(fit_plane(face.nodes, face.surface).diameter, 2.0 * std::sqrt(2.0), 1e-14);
+  face.nodes(0, 2) = 0.3;
+  EXPECT_GT(fit_plane(face.nodes, face.surface).flatness, 0.1);
+}
+
+}  // namespace
+}  // namespace microslip::mesh
