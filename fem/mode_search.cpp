@@ -94,10 +94,11 @@ CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inv
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - rigid.cols();
   Stopwatch watch;
   CountedPairs result;
-  // Krylov–Schur is asked for one beyond the last, which shows the gap above it; blocks bring it along.
+  // Krylov–Schur is asked for two beyond the last: one to find the gap, one because the last of a run
+  // converges worst; blocks bring more along.
   const EigenPairs first = search == ModeSearch::blocks
                                ? lowest_pairs_by_blocks(system, inverse, shift, n, rigid)
-                               : lowest_pairs(system, inverse, shift, n + 1, rigid);
+                               : lowest_pairs(system, inverse, shift, n + 2, rigid);
   result.pairs = refine_beside(rigid, system, inverse, first.vectors);
   result.search_seconds += watch.lap();
   for (int round = 0; round < max_rounds; ++round) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/scene_error.hpp"
+#include "pipelines/scene_keys.hpp"
 #include "pipelines/units.hpp"
 
 namespace microslip::pipelines {
@@ -21,18 +23,19 @@ constexpr std::uintmax_t largest_table = 1'000'000'000;  // bytes
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
-  text = text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
-    text = text.substr(1, text.size() - 2);
-  }
-  return text;
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string_view unquoted(std::string_view cell) {
+  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back(trimmed(line.substr(begin, end - begin)));
+    cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
     begin = end + 1;
   }
   return cells;
@@ -43,7 +46,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw SceneError(fmt::format("{}: no such file", file.string()));
+    throw SceneError(fmt::format("{}: {}", file.empty() ? "\"\"" : file.string(),
+                                 error ? error.message() : "no such file"));
   }
   if (!std::filesystem::is_regular_file(file, error)) {
     throw SceneError(fmt::format("{}: not a file", file.string()));
@@ -80,57 +84,65 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
     if (line.empty() || line.front() == '#') continue;
     const auto cells = cells_of(line);
     if (table.columns_.empty()) {
-      table.columns_.assign(cells.begin(), cells.end());
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].empty()) {
-          throw SceneError(fmt::format("{}:{}: column {} has no name", name, line_number, i + 1));
-        }
-        if (std::count(cells.begin(), cells.end(), cells[i]) > 1) {
-          throw SceneError(
-              fmt::format("{}:{}: column \"{}\" stands twice", name, line_number, cells[i]));
-        }
-      }
+      table.read_header(cells, line_number);
       id_column = table.find("id");
-      continue;
-    }
-    if (cells.size() != table.columns_.size()) {
-      throw SceneError(fmt::format("{}:{}: {} values under {} column names", name, line_number,
-                                   cells.size(), table.columns_.size()));
-    }
-    table.lines_.push_back(line_number);
-    table.ids_.emplace_back(id_column ? cells[*id_column] : std::string_view());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (id_column == i) {
-        table.values_.push_back(0.0);
-        continue;
-      }
-      double value = 0.0;
-      try {
-        value = parse_number(cells[i]);
-      } catch (const UnitError& error) {
-        throw SceneError(
-            fmt::format("{}:{}: {}: {}", name, line_number, table.columns_[i], error.what()));
-      }
-      if (!std::isfinite(value)) {
-        throw SceneError(fmt::format("{}:{}: {}: \"{}\" is not a finite number", name, line_number,
-                                     table.columns_[i], cells[i]));
-      }
-      table.values_.push_back(value);
+    } else {
+      table.read_row(cells, line_number, id_column);
     }
   }
   if (table.columns_.empty()) throw SceneError(fmt::format("{}: empty; expected a header", name));
   return table;
 }
 
+void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size_t line) {
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].empty()) {
+      throw SceneError(fmt::format("{}:{}: column {} has no name", name_, line, i + 1));
+    }
+    if (!seen.insert(cells[i]).second) {
+      throw SceneError(fmt::format("{}:{}: column \"{}\" stands twice", name_, line, cells[i]));
+    }
+  }
+  columns_.assign(cells.begin(), cells.end());
+  header_line_ = line;
+}
+
+void CsvTable::read_row(const std::vector<std::string_view>& cells, std::size_t line,
+                        std::optional<std::size_t> id_column) {
+  if (cells.size() != columns_.size()) {
+    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line, cells.size(),
+                                 columns_.size()));
+  }
+  lines_.push_back(line);
+  ids_.emplace_back(id_column ? cells[*id_column] : std::string_view());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    values_.push_back(id_column == i ? 0.0 : number_in(cells[i], line, i));
+  }
+}
+
+double CsvTable::number_in(std::string_view cell, std::size_t line, std::size_t column) const {
+  double value = 0.0;
+  try {
+    value = parse_number(cell);
+  } catch (const UnitError& error) {
+    throw SceneError(fmt::format("{}:{}: {}: {}", name_, line, columns_[column], error.what()));
+  }
+  if (!std::isfinite(value)) {
+    throw SceneError(fmt::format("{}:{}: {}: \"{}\" is not a finite number", name_, line,
+                                 columns_[column], cell));
+  }
+  return value;
+}
+
 CsvTable CsvTable::from_rows(std::string name, std::vector<std::string> columns,
-                             std::vector<double> values) {
+                             std::vector<double> values, std::vector<std::string> places) {
   CsvTable table;
   table.name_ = std::move(name);
-  const std::size_t n_rows = columns.empty() ? 0 : values.size() / columns.size();
   table.columns_ = std::move(columns);
   table.values_ = std::move(values);
-  table.ids_.resize(n_rows);
-  for (std::size_t i = 1; i <= n_rows; ++i) table.lines_.push_back(i);
+  table.ids_.resize(places.size());
+  table.places_ = std::move(places);
   return table;
 }
 
@@ -142,12 +154,28 @@ std::optional<std::size_t> CsvTable::find(std::string_view column) const {
 
 std::size_t CsvTable::require(std::string_view column) const {
   if (const auto found = find(column)) return *found;
-  throw SceneError(fmt::format("{}:1: column \"{}\" is missing; the columns are: {}", name_, column,
+  throw SceneError(fmt::format("{}: column \"{}\" is missing; the columns are: {}", header_place(), column,
                                fmt::join(columns_, ", ")));
 }
 
+std::string CsvTable::header_place() const {
+  return header_line_ == 0 ? name_ : fmt::format("{}:{}", name_, header_line_);
+}
+
+std::string CsvTable::row_place(std::size_t row) const {
+  return places_.empty() ? fmt::format("{}:{}", name_, lines_[row]) : places_[row];
+}
+
 std::string CsvTable::place(std::size_t row, std::size_t column) const {
-  return fmt::format("{}:{}: {}: ", name_, lines_[row], columns_[column]);
+  return fmt::format("{}: {}: ", row_place(row), columns_[column]);
+}
+
+std::string unknown_column(const CsvTable& table, const std::string& column,
+                           const std::vector<std::string_view>& known) {
+  const std::string near = nearest_name(column, known);
+  return fmt::format("{}: unknown column \"{}\"; {}", table.header_place(), column,
+                     near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                                  : fmt::format("did you mean \"{}\"?", near));
 }
 
 }  // namespace microslip::pipelines

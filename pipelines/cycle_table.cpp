@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "contact/friction_cycle.hpp"
+#include "pipelines/cycle_harmonics.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -72,8 +75,7 @@ void check_columns(const CsvTable& table) {
     const std::string& name = table.columns()[column];
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (!is_later_motion(name)) {
-      throw SceneError(fmt::format("{}:1: unknown column \"{}\"; did you mean \"{}\"?", table.name(),
-                                   name, nearest_name(name, known)));
+      throw SceneError(unknown_column(table, name, known));
     }
     for (std::size_t row = 0; row < table.n_rows(); ++row) {
       if (table.at(row, column) == 0.0) continue;
@@ -84,8 +86,13 @@ void check_columns(const CsvTable& table) {
   }
 }
 
-Json force_json(const contact::ForceCoefficients& force) {
-  return {{"mean", force.mean}, {"sin", Json::array({force.sin})}, {"cos", Json::array({force.cos})}};
+/// @param higher  harmonics 2, 3, …
+Json force_json(const contact::ForceCoefficients& force, const HarmonicSeries& higher) {
+  Json sines = Json::array({force.sin});
+  Json cosines = Json::array({force.cos});
+  for (const double value : higher.sin) sines.push_back(value);
+  for (const double value : higher.cos) cosines.push_back(value);
+  return {{"mean", force.mean}, {"sin", std::move(sines)}, {"cos", std::move(cosines)}};
 }
 
 Json jacobian_json(const contact::CycleJacobian& jacobian) {
@@ -98,7 +105,8 @@ Json jacobian_json(const contact::CycleJacobian& jacobian) {
   return rows;
 }
 
-Json cycle_json(const std::string& id, const contact::FrictionCycle& cycle) {
+Json cycle_json(const std::string& id, const contact::FrictionCycle& cycle,
+                const CycleHarmonics& higher) {
   Json segments = Json::array();
   for (const contact::CycleSegment& segment : cycle.segments()) {
     segments.push_back(
@@ -107,11 +115,29 @@ Json cycle_json(const std::string& id, const contact::FrictionCycle& cycle) {
   return {{"id", id},
           {"regime", name_of(cycle.regime)},
           {"segments", std::move(segments)},
-          {"friction", force_json(cycle.friction)},
-          {"normal", force_json(cycle.normal)},
+          {"friction", force_json(cycle.friction, higher.friction)},
+          {"normal", force_json(cycle.normal, higher.normal)},
           {"dissipated_energy", cycle.dissipated_energy},
           {"slip_distance", cycle.slip_distance},
           {"jacobian", jacobian_json(cycle.jacobian)}};
+}
+
+bool is_finite(const contact::FrictionCycle& cycle) {
+  const auto finite = [](const contact::ForceCoefficients& force) {
+    return std::isfinite(force.mean) && std::isfinite(force.sin) && std::isfinite(force.cos);
+  };
+  return finite(cycle.friction) && finite(cycle.normal) && cycle.jacobian.allFinite() &&
+         std::isfinite(cycle.dissipated_energy) && std::isfinite(cycle.slip_distance);
+}
+
+/// Whether every byte belongs to a character: JSON can hold nothing else.
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(Json(text).dump());
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
 }
 
 class Rows {
@@ -132,6 +158,9 @@ class Rows {
     return {get(row, 0), get(row, 1), get(row, 2), get(row, 3)};
   }
 
+  /// "file:line: " of a row.
+  [[nodiscard]] std::string place(std::size_t row) const { return table_.row_place(row) + ": "; }
+
   [[nodiscard]] contact::PointMotion motion(std::size_t row) const {
     return {u_mean_ ? table_.at(row, *u_mean_) : 0.0,
             get(row, 4), get(row, 5), get(row, 6), get(row, 7), get(row, 8)};
@@ -149,13 +178,24 @@ class Rows {
 
 }  // namespace
 
-std::string cycles_as_json(const CsvTable& table) {
+std::string cycles_as_json(const CsvTable& table, int n_harmonics) {
+  if (n_harmonics < 1 || n_harmonics > largest_harmonic) {
+    throw std::invalid_argument(fmt::format("cycles_as_json: {} harmonics; expected 1 to {}",
+                                            n_harmonics, largest_harmonic));
+  }
   const Rows rows(table);
   check_columns(table);
   Json list = Json::array();
   for (std::size_t row = 0; row < table.n_rows(); ++row) {
     const std::string id = table.id(row).empty() ? std::to_string(row + 1) : table.id(row);
-    list.push_back(cycle_json(id, contact::friction_cycle(rows.point(row), rows.motion(row))));
+    if (!is_utf8(id)) throw SceneError(rows.place(row) + "id: not a text in UTF-8");
+    const contact::PointParameters point = rows.point(row);
+    const contact::PointMotion motion = rows.motion(row);
+    const contact::FrictionCycle cycle = contact::friction_cycle(point, motion);
+    if (!is_finite(cycle)) {
+      throw SceneError(rows.place(row) + "forces or energy beyond the range of double precision");
+    }
+    list.push_back(cycle_json(id, cycle, higher_harmonics(cycle, point, motion, n_harmonics)));
   }
   return list.dump(1) + "\n";
 }

@@ -1,5 +1,6 @@
 #include "pipelines/exit_code.hpp"
 
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -22,7 +23,10 @@ ExitCode exit_code_of(const std::exception& error) {
     return ExitCode::bad_input;
   }
   if (is<RefusedError>(error) || is<fem::EigenError>(error)) return ExitCode::refused;
-  if (is<ExhaustedError>(error) || is<std::bad_alloc>(error)) return ExitCode::exhausted;
+  if (is<ExhaustedError>(error) || is<std::bad_alloc>(error) ||
+      is<std::filesystem::filesystem_error>(error)) {
+    return ExitCode::exhausted;
+  }
   return ExitCode::internal;
 }
 

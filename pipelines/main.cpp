@@ -1,11 +1,14 @@
 /// @file
 /// The program `microslip`: reads the command line, calls one study, turns its end into an exit code.
 
-#include <clocale>
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fem/slepc_session.hpp"
+#include "pipelines/command_line.hpp"
 #include "pipelines/cycle_table.hpp"
 #include "pipelines/exit_code.hpp"
 #include "pipelines/interrupt.hpp"
@@ -28,6 +32,7 @@ using namespace microslip;
 using namespace microslip::pipelines;
 
 struct Arguments {
+  std::string command;
   std::string input;  // scene, table, kind or folder
   std::string output;
   std::vector<std::string> overrides;
@@ -43,14 +48,22 @@ struct Arguments {
   int rank = 0;
 };
 
-/// Options that interfaces.md names and this version does not have: refused, never ignored.
-void refuse_later_options(const Arguments& arguments) {
-  const auto refuse = [](const char* name) {
-    throw SceneError(fmt::format("{} is not available in this version", name));
+/// Options this version does not have, or that say nothing to the command: refused, never ignored.
+void refuse_idle_options(const Arguments& arguments) {
+  const auto refuse_later = [](bool given, const char* name) {
+    if (given) throw SceneError(fmt::format("{} is not available in this version", name));
   };
-  if (arguments.resume) refuse("--resume");
-  if (!arguments.tolerance.empty()) refuse("--tolerance");
-  if (!arguments.budget.empty()) refuse("--budget");
+  refuse_later(arguments.resume, "--resume");
+  refuse_later(!arguments.tolerance.empty(), "--tolerance");
+  refuse_later(!arguments.budget.empty(), "--budget");
+  const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
+                           arguments.command != "report";
+  if (!reads_scene && !arguments.overrides.empty()) {
+    throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
+  }
+  if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report")) {
+    throw SceneError(fmt::format("--dry-run: {} has nothing to leave out", arguments.command));
+  }
 }
 
 RunOptions options_of(const Arguments& arguments, const std::filesystem::path& output) {
@@ -63,51 +76,66 @@ RunOptions options_of(const Arguments& arguments, const std::filesystem::path& o
   return options;
 }
 
-/// runs/STEM in the working folder.
-std::filesystem::path run_folder(const Arguments& arguments) {
-  if (!arguments.output.empty()) return arguments.output;
-  return std::filesystem::path("runs") / std::filesystem::path(arguments.input).stem();
+/// runs/STEM in the working folder, where -o names none.
+void choose_run_folder(Arguments& arguments) {
+  if (!arguments.output.empty()) return;
+  const std::filesystem::path stem = std::filesystem::path(arguments.input).stem();
+  arguments.output = (std::filesystem::path("runs") / stem).string();
 }
 
 SceneDescription scene_of(const Arguments& arguments) {
   return read_scene(arguments.input, arguments.overrides);
 }
 
-int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&),
-              const std::filesystem::path& output) {
+int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
   const SceneDescription scene = scene_of(arguments);
   if (arguments.dry_run) return check_study(scene, std::cout);
+  choose_run_folder(arguments);
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
     session = std::make_unique<fem::SlepcSession>();
     arguments.rank = session->rank();
   }
   watch_for_interrupts();  // after MPI, which sets handlers of its own
-  return study(scene, options_of(arguments, output));
+  return study(scene, options_of(arguments, arguments.output));
+}
+
+int mesh(const Arguments& arguments) {
+  const SceneDescription scene = scene_of(arguments);
+  if (arguments.dry_run) return check_study(scene, std::cout);
+  if (!std::holds_alternative<BladeModel>(scene.model)) {
+    throw SceneError(scene.file.string() +
+                     ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
+  }
+  return mesh_study(scene, options_of(arguments, arguments.output));
+}
+
+/// To the file given with -o, whole or not at all; else to standard output.
+void put_out(const Arguments& arguments, const std::string& text) {
+  if (arguments.output.empty()) {
+    std::cout << text;
+  } else {
+    write_whole(arguments.output, text);
+  }
 }
 
 int init(const Arguments& arguments) {
   const std::string text = scene_template(arguments.input.empty() ? "blade" : arguments.input);
-  if (arguments.output.empty()) {
-    std::cout << text;
-    return 0;
-  }
-  if (std::filesystem::exists(arguments.output)) {
+  std::error_code ignored;  // a path that cannot be looked at cannot be written either: said there
+  if (!arguments.output.empty() && std::filesystem::exists(arguments.output, ignored)) {
     throw SceneError(arguments.output + ": exists; init overwrites nothing");
   }
-  write_whole(arguments.output, text);
+  put_out(arguments, text);
   return 0;
 }
 
 int cycle(const Arguments& arguments) {
-  if (arguments.harmonics != 1) {
-    throw SceneError("--harmonics: mean and first harmonic only in this version: expected 1");
-  }
-  const std::string json = cycles_as_json(CsvTable::read(arguments.input));
-  if (arguments.output.empty()) {
-    std::cout << json;
+  const CsvTable table = CsvTable::read(arguments.input);
+  const std::string json = cycles_as_json(table, arguments.harmonics);
+  if (arguments.dry_run) {
+    std::cout << fmt::format("{} points; every row is complete\n", table.n_rows());
   } else {
-    write_whole(arguments.output, json);
+    put_out(arguments, json);
   }
   return 0;
 }
@@ -128,16 +156,19 @@ void add_global_options(CLI::App& app, Arguments& a) {
                  "accuracy asked for, e.g. 1% (not available in this version)");
   app.add_option("--budget", a.budget, "time allowed, e.g. 60s (not available in this version)");
   app.add_flag("--dry-run", a.dry_run, "check the scene and stop, as `check` does");
-  app.add_flag("-q,--quiet", a.quiet, "warnings and errors only");
-  app.add_flag("-v,--verbose", a.verbose, "one line per solution point");
+  auto* quiet = app.add_flag("-q,--quiet", a.quiet, "warnings and errors only");
+  app.add_flag("-v,--verbose", a.verbose, "one line per solution point")->excludes(quiet);
   app.add_flag("--json", a.json, "last line on standard output is one JSON object");
 }
 
-CLI::App* add_command(CLI::App& app, Action& chosen, const char* name, const char* what,
-                      Action action) {
+CLI::App* add_command(CLI::App& app, Arguments& a, Action& chosen, const char* name,
+                      const char* what, Action action) {
   CLI::App* command = app.add_subcommand(name, what);
   command->fallthrough();
-  command->callback([&chosen, action = std::move(action)] { chosen = action; });
+  command->callback([&a, &chosen, name, action = std::move(action)] {
+    a.command = name;
+    chosen = action;
+  });
   return command;
 }
 
@@ -150,56 +181,70 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
     command->add_option("-o,--output", a.output, what);
     return command;
   };
-  auto* init_command = add_command(app, chosen, "init", "print a commented template scene",
+  auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
   init_command->add_option("kind", a.input, "blade, mesh or modal")->default_str("blade");
   with_output(init_command, "file to write; it must not exist");
-  with_scene(add_command(app, chosen, "check",
+  with_scene(add_command(app, a, chosen, "check",
                          "parse, check units and names, show mesh, effects and forecast; solve nothing",
                          [&] { return check_study(scene_of(a), std::cout); }));
-  auto* mesh_command = with_scene(add_command(app, chosen, "mesh", "geometry to mesh", [&] {
-    return mesh_study(scene_of(a), options_of(a, a.output));
+  auto* mesh_command = with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] {
+    return mesh(a);
   }));
   with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();
   auto* modes_command =
-      with_scene(add_command(app, chosen, "modes", "mesh to modes and residual flexibility",
-                             [&] { return run_scene(a, modes_study, run_folder(a)); }));
+      with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
+                             [&] { return run_scene(a, modes_study); }));
   with_output(modes_command, "run folder; default runs/SCENE");
   auto* run_command =
-      with_scene(add_command(app, chosen, "run", "everything: modes, curves, maps, report",
-                             [&] { return run_scene(a, run_study, run_folder(a)); }));
+      with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
+                             [&] { return run_scene(a, run_study); }));
   with_output(run_command, "run folder; default runs/SCENE");
-  auto* cycle_command = add_command(app, chosen, "cycle",
+  auto* cycle_command = add_command(app, a, chosen, "cycle",
                                     "steady friction cycles of single contact points",
                                     [&] { return cycle(a); });
   cycle_command->add_option("table", a.input, "CSV file, see README")->required();
   with_output(cycle_command, "JSON file to write; default standard output");
-  cycle_command->add_option("--harmonics", a.harmonics, "harmonics put out")->capture_default_str();
-  with_scene(add_command(app, chosen, "converge", "what accuracy costs (not available in this version)",
+  cycle_command->add_option("--harmonics", a.harmonics, "highest harmonic of the forces put out")
+      ->check(CLI::Range(1, largest_harmonic))
+      ->capture_default_str();
+  with_scene(add_command(app, a, chosen, "converge", "what accuracy costs (not available in this version)",
                          []() -> int {
                            throw SceneError("converge is not available in this version; "
                                             "share/scripts/mesh_convergence.py varies the mesh");
                          }));
-  auto* report_command = add_command(app, chosen, "report", "rebuild plots and report of a run folder",
+  auto* report_command = add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
                                      [&] { return report_study(a.input); });
   report_command->add_option("folder", a.input, "run folder")->required();
 }
 
 void print_json_line(const Arguments& arguments, int code, const std::string& message) {
-  nlohmann::ordered_json line{{"program", "microslip"}, {"version", MICROSLIP_VERSION},
-                              {"exit_code", code},      {"input", arguments.input},
-                              {"output", arguments.output}};
+  nlohmann::ordered_json line{{"program", "microslip"},     {"version", MICROSLIP_VERSION},
+                              {"command", arguments.command}, {"exit_code", code},
+                              {"input", arguments.input},   {"output", arguments.output}};
   if (!message.empty()) line["message"] = message;
   std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
             << std::endl;
+}
+
+/// A command line that cannot be read.
+int misused(const Arguments& arguments, const std::string& message, int argc, char** argv) {
+  std::cerr << "microslip: " << message << "\nRun with --help for more information.\n";
+  const int code = static_cast<int>(ExitCode::bad_input);
+  const std::vector<std::string_view> words(argv, argv + argc);
+  const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  if (json) print_json_line(arguments, code, message);
+  return code;
 }
 
 int guarded(Arguments& arguments, const Action& action) {
   std::string message;
   int code = 0;
   try {
-    refuse_later_options(arguments);
+    refuse_idle_options(arguments);
     code = action();
+    std::cout.flush();
+    if (!std::cout) throw ExhaustedError("standard output cannot be written; is the disk full?");
   } catch (const std::exception& error) {
     const ExitCode verdict = exit_code_of(error);
     code = static_cast<int>(verdict);
@@ -224,11 +269,13 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   add_global_options(app, arguments);
   add_commands(app, arguments, chosen);
+  const std::string unknown = unknown_command(app, argc, argv);
+  if (!unknown.empty()) return misused(arguments, unknown, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return misused(arguments, explained(error, app, argc, argv), argc, argv);
   }
   return guarded(arguments, chosen);
 }

@@ -53,30 +53,41 @@ Eigen::VectorXd natural_frequencies(const SectionReader& section) {
   return hertz ? values : Eigen::VectorXd(values / (2.0 * std::numbers::pi));
 }
 
+bool may_be_absent(std::string_view column) {
+  return column.starts_with("phi_v_") || column.starts_with("phi_w_");
+}
+
+/// One number of an inline point; shapes along q and r are zero where they are not given.
+double inline_value(const SectionReader& section, const toml::node& entry,
+                    const std::string& column) {
+  const toml::node* value = entry.as_table()->get(column);
+  if (value == nullptr) {
+    if (may_be_absent(column)) return 0.0;
+    section.fail("points", fmt::format("this point has no {}", column), &entry);
+  }
+  if (!value->is_number() || !std::isfinite(*value->value<double>())) {
+    section.fail("points", fmt::format("{}: expected a finite number", column), value);
+  }
+  return *value->value<double>();
+}
+
 /// A list of inline tables as the table a CSV file would give.
 CsvTable inline_points(const SectionReader& section, const toml::array& list) {
-  const std::string name = section.file() + ": modal.points";
   std::set<std::string> names;
+  std::vector<std::string> places;
   for (const toml::node& entry : list) {
     const toml::table* point = entry.as_table();
     if (point == nullptr) section.fail("points", "expected tables { weight = …, … }", &entry);
     for (const auto& [key, value] : *point) names.insert(std::string(key.str()));
+    places.push_back(place_of(&entry, section.file()) + ": modal.points");
   }
   std::vector<std::string> columns(names.begin(), names.end());
   std::vector<double> values;
   for (const toml::node& entry : list) {
-    for (const std::string& column : columns) {
-      const toml::node* value = entry.as_table()->get(column);
-      if (value == nullptr || !value->is_number() || !std::isfinite(*value->value<double>())) {
-        section.fail("points",
-                     value == nullptr ? fmt::format("this point has no {}", column)
-                                      : fmt::format("{}: expected a finite number", column),
-                     &entry);
-      }
-      values.push_back(*value->value<double>());
-    }
+    for (const std::string& column : columns) values.push_back(inline_value(section, entry, column));
   }
-  return CsvTable::from_rows(name, std::move(columns), std::move(values));
+  return CsvTable::from_rows(section.file() + ": modal.points", std::move(columns),
+                             std::move(values), std::move(places));
 }
 
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
@@ -99,8 +110,8 @@ void refuse_unknown_columns(const CsvTable& table, Eigen::Index n_modes) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   for (const std::string& column : table.columns()) {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
-    throw SceneError(fmt::format("{}:1: unknown column \"{}\" ({} modes); did you mean \"{}\"?",
-                                 table.name(), column, n_modes, nearest_name(column, views)));
+    throw SceneError(unknown_column(table, column, views) +
+                     fmt::format(" ({} modes)", n_modes));
   }
 }
 
@@ -129,14 +140,16 @@ Eigen::MatrixXd shape_columns(const CsvTable& table, const std::string& stem, Ei
 
 /// A point that rubs and moves along r needs friction in two directions: never dropped in silence.
 void refuse_second_direction(const CsvTable& table, const ModalModel& model) {
-  for (std::size_t i = 0; i < table.n_rows(); ++i) {
-    const auto& point = model.points[i];
-    const bool rubs = point.friction_coefficient > 0.0 && point.tangential_stiffness > 0.0;
-    if (rubs && (model.shapes.w.row(static_cast<Eigen::Index>(i)).array() != 0.0).any()) {
-      throw SceneError(fmt::format(
-          "{}: point {}: phi_w is not zero and the point has friction: friction in two tangential "
-          "directions is not available in this version; turn p along the motion or leave phi_w out",
-          table.name(), i + 1));
+  for (Eigen::Index mode = 0; mode < model.shapes.w.cols(); ++mode) {
+    const auto column = table.find(fmt::format("phi_w_{}", mode + 1));
+    if (!column) continue;
+    for (std::size_t i = 0; i < table.n_rows(); ++i) {
+      const auto& point = model.points[i];
+      const bool rubs = point.friction_coefficient > 0.0 && point.tangential_stiffness > 0.0;
+      if (!rubs || table.at(i, *column) == 0.0) continue;
+      throw SceneError(table.place(i, *column) +
+                       "is not zero and the point has friction, which acts along p only in this "
+                       "version; turn p along the motion or leave phi_w out");
     }
   }
 }
@@ -144,6 +157,7 @@ void refuse_second_direction(const CsvTable& table, const ModalModel& model) {
 }  // namespace
 
 void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) {
+  if (table.n_rows() == 0) throw SceneError(table.name() + ": no contact points under the header");
   refuse_unknown_columns(table, n_modes);
   const std::size_t weight = table.require("weight");
   const std::size_t tangential = table.require("tangential_stiffness");
@@ -171,7 +185,7 @@ void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) 
   }
 }
 
-ModalModel read_modal(const SectionReader& section, const std::filesystem::path& folder) {
+ModalModel read_modal(SectionReader section, const std::filesystem::path& folder) {
   ModalModel model;
   model.frequency_hz = natural_frequencies(section);
   const Eigen::Index n = model.frequency_hz.size();
@@ -186,6 +200,7 @@ ModalModel read_modal(const SectionReader& section, const std::filesystem::path&
     const std::filesystem::path path =
         std::filesystem::path(*file).is_absolute() ? std::filesystem::path(*file) : folder / *file;
     set_points(model, CsvTable::read(path), n);
+    section.complete("points", path.string());  // scene.toml stands elsewhere than the scene
   } else if (const toml::array* list = points.as_array()) {
     if (!list->empty()) set_points(model, inline_points(section, *list), n);
   } else {

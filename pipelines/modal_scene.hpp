@@ -13,7 +13,7 @@ namespace microslip::pipelines {
 /// @param section  the [modal] section.
 /// @param folder   what a relative points file is relative to.
 /// @throws SceneError  lengths that do not fit, a bad value, a bad points table.
-[[nodiscard]] ModalModel read_modal(const SectionReader& section,
+[[nodiscard]] ModalModel read_modal(SectionReader section,
                                     const std::filesystem::path& folder);
 
 /// Fills weights, points, shapes and positions of the model from a table.

@@ -109,7 +109,7 @@ BladeModel read_blade(const SectionReader& s) {
   return model;
 }
 
-MeshFileModel read_mesh_file(const SectionReader& s, const std::filesystem::path& folder) {
+MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
   static_cast<void>(s.integer("order"));
   MeshFileModel model;
   const std::filesystem::path file = s.text("file");
@@ -119,8 +119,10 @@ MeshFileModel read_mesh_file(const SectionReader& s, const std::filesystem::path
                                file.string()),
            s.node("file"));
   }
+  s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
   const toml::node& unit = *s.node("length_unit");
   if (const auto name = unit.value<std::string>(); name && unit.is_string()) {
+    if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
     try {
       model.length_unit = to_si("1 " + *name, "m");
     } catch (const UnitError& error) {
@@ -191,7 +193,22 @@ ModesDescription read_modes(const SectionReader& s) {
 std::optional<double> read_stiffness(const SectionReader& s, std::string_view key) {
   const toml::node& node = *s.node(key);
   if (node.is_string() && *node.value<std::string>() == "rigid") return std::nullopt;
-  return s.number_in(node, key);
+  constexpr std::array<std::string_view, 1> words{"rigid"};
+  return s.number_or_word_in(node, key, words);
+}
+
+double read_friction(const SectionReader& s) {
+  const toml::node& node = *s.node("friction_coefficient");
+  if (node.is_string()) {
+    try {
+      static_cast<void>(to_si(*node.value<std::string>(), "1"));
+    } catch (const UnitError& error) {
+      s.fail("friction_coefficient",
+             fmt::format("{}; expressions in p and r are not available in this version", error.what()),
+             &node);
+    }
+  }
+  return s.number("friction_coefficient");
 }
 
 ContactDescription read_contact(const SectionReader& s) {
@@ -202,7 +219,7 @@ ContactDescription read_contact(const SectionReader& s) {
   }
   contact.surface = s.text("surface");
   contact.slip_direction = s.direction("slip_direction");
-  contact.friction_coefficient = s.number("friction_coefficient");
+  contact.friction_coefficient = read_friction(s);
   contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
   contact.wear_coefficient = s.number("wear_coefficient");
@@ -225,24 +242,27 @@ ContactDescription read_contact(const SectionReader& s) {
   return contact;
 }
 
-std::vector<ForceDescription> read_forces(const SectionReader& s) {
+std::vector<ForceDescription> read_forces(SectionReader& s) {
   const toml::node& node = *s.node("forces");
   const toml::array* list = node.as_array();
   if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
   std::vector<ForceDescription> forces;
+  toml::array completed;
   for (const toml::node& entry : *list) {
     if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
     toml::table complete;
+    complete.is_inline(true);
     const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces", s.file(),
                               complete);
     ForceDescription description;
     description.at = force.text("at");
     description.direction = force.direction("direction");
     description.amplitude = force.number("amplitude");
-    // UDUNITS takes a bare number as it is: degrees.
     description.phase_deg = force.number("phase");
     forces.push_back(description);
+    completed.push_back(std::move(complete));
   }
+  s.complete("forces", std::move(completed));
   return forces;
 }
 
@@ -287,7 +307,8 @@ void read_maps(const SectionReader& s, ResponseDescription& response) {
       response.maps.emplace_back(*word == "peak" ? MapName::peak : MapName::folds);
       continue;
     }
-    const double frequency = s.number_in(entry, "maps");  // in Hz; checked below for its unit
+    constexpr std::array<std::string_view, 2> words{"peak", "folds"};
+    const double frequency = s.number_or_word_in(entry, "maps", words);
     if (!(frequency > 0.0)) s.fail("maps", "frequencies must be above 0", &entry);
     response.maps.emplace_back(frequency);
   }
@@ -310,7 +331,8 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
     if (word == "free") return LimitName::free;
     if (word == "stuck") return LimitName::stuck;
   }
-  return s.number_in(entry, "preload");
+  constexpr std::array<std::string_view, 2> words{"free", "stuck"};
+  return s.number_or_word_in(entry, "preload", words);
 }
 
 ResponseDescription read_response(const SectionReader& s) {
@@ -338,6 +360,9 @@ ResponseDescription read_response(const SectionReader& s) {
                                       s.number_in(*list->get(1), "optimum_range")};
     if (!(range[0] > 0.0 && range[0] < range[1])) {
       s.fail("optimum_range", "expected 0 < low < high", &node);
+    }
+    if (!response.optimum_preload) {
+      s.fail("optimum_range", "has no meaning without optimum = \"preload\"", &node);
     }
     response.optimum_range = range;
   }
@@ -368,7 +393,9 @@ ResponseDescription read_modal_response(const SectionReader& s) {
 }
 
 /// Effects this version simulates wherever the scene has them, and those it does not have yet.
-std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s) {
+/// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
+std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
+                                                              bool has_residual) {
   constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
   constexpr std::array<std::string_view, 4> later{"second_direction", "higher_harmonics",
                                                   "roughness", "rate_dependence"};
@@ -383,9 +410,22 @@ std::vector<std::pair<std::string, std::string>> read_effects(const SectionReade
       s.fail(key.name, "cannot be switched off in this version; expected auto or on",
              s.node(key.name));
     }
+    if (key.name == "residual" && setting == "on" && !has_residual) {
+      s.fail(key.name, "cannot be on: modal scenes and modes.residual = \"none\" have no residual",
+             s.node(key.name));
+    }
     effects.emplace_back(key.name, setting);
   }
   return effects;
+}
+
+/// Without contact there is no preload to set, and none to choose.
+void refuse_contact_keys(const SectionReader& response) {
+  for (const char* key : {"preload", "optimum", "maps"}) {
+    if (response.given(key)) {
+      response.fail(key, "the scene has no [contact]", response.node(key));
+    }
+  }
 }
 
 void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
@@ -400,9 +440,12 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   if (reading.given.contains("contact")) {
     scene.contact = read_contact(reading.section("contact", "contact"));
   }
-  scene.forces = read_forces(reading.section("excitation", "excitation"));
+  SectionReader excitation = reading.section("excitation", "excitation");
+  scene.forces = read_forces(excitation);
   if (reading.given.contains("response")) {
-    scene.response = read_response(reading.section("response", "response"));
+    const SectionReader response = reading.section("response", "response");
+    scene.response = read_response(response);
+    if (!scene.contact) refuse_contact_keys(response);
   }
 }
 
@@ -437,7 +480,8 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  scene.effects = read_effects(reading.section("effects", "effects"));
+  const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
+  scene.effects = read_effects(reading.section("effects", "effects"), has_residual);
   std::ostringstream complete;
   complete << reading.complete << '\n';
   scene.complete_toml = complete.str();
@@ -446,8 +490,9 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
 
 SceneDescription read_scene(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
+  const std::string text = read_text(file, largest_scene);
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  return parse_scene(read_text(file, largest_scene), file.string(), folder, overrides);
+  return parse_scene(text, file.string(), folder, overrides);
 }
 
 }  // namespace microslip::pipelines

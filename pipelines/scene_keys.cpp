@@ -206,7 +206,10 @@ std::string nearest_name(std::string_view name, std::span<const std::string_view
   std::string_view best;
   std::size_t least = std::max<std::size_t>(3, name.size() / 2) + 1;
   for (const std::string_view candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
+    // A shortened name is near to the beginning of the whole one.
+    const std::size_t distance =
+        std::min(edit_distance(name, candidate),
+                 edit_distance(name, candidate.substr(0, name.size() + 1)) + 1);
     if (distance < least) {
       least = distance;
       best = candidate;

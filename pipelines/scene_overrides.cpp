@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <optional>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,24 +44,42 @@ std::vector<Step> steps_of(const std::string& path, const std::string& assignmen
   return steps;
 }
 
+std::string quoted(const std::string& text) {
+  std::ostringstream stream;
+  stream << toml::value<std::string>(text);
+  return stream.str();
+}
+
+/// The value under the key "x". It is parsed even where it is plain text, so that it remembers where it
+/// came from and messages about it can say --set.
 toml::table value_of(const std::string& text, const std::string& assignment) {
   const std::string source = "--set " + assignment;
   try {
-    return toml::parse("x = " + text, source);
-  } catch (const toml::parse_error&) {  // not TOML: 2.5 mm, stuck, … is meant as a text
-    toml::table table;
-    table.insert_or_assign("x", text);
-    return table;
+    toml::table table = toml::parse("x = " + text, source);
+    if (table.size() == 1) return table;  // more: a line break smuggled in further keys
+  } catch (const toml::parse_error&) {
+    // Not TOML: 2.5 mm, stuck, … is meant as a text.
+  }
+  try {
+    return toml::parse("x = " + quoted(text), source);
+  } catch (const toml::parse_error& error) {
+    refuse(assignment, fmt::format("{}", error.description()));
   }
 }
 
-void assign(toml::table& table, const std::string& key, const toml::node& value) {
-  value.visit([&](const auto& content) { table.insert_or_assign(key, content); });
+/// Moves, because a copy would forget its source.
+void assign(toml::table& table, const std::string& key, toml::node& value) {
+  value.visit([&](auto& content) {
+    table.insert_or_assign(key, std::move(content));
+  });
 }
 
 /// The table one step down, made when it is not there.
 toml::table& descend(toml::table& table, const Step& step, const std::string& assignment) {
-  if (!table.contains(step.key)) table.insert_or_assign(step.key, toml::table{});
+  if (!table.contains(step.key)) {
+    toml::table made = value_of("{}", assignment);
+    assign(table, step.key, *made.get("x"));
+  }
   toml::node* node = table.get(step.key);
   if (step.index) {
     toml::array* list = node->as_array();
@@ -81,7 +101,7 @@ void apply_override(toml::table& scene, const std::string& assignment) {
     refuse(assignment, "expected key.path=value");
   }
   const auto steps = steps_of(assignment.substr(0, equals), assignment);
-  const toml::table value = value_of(assignment.substr(equals + 1), assignment);
+  toml::table value = value_of(assignment.substr(equals + 1), assignment);
   toml::table* table = &scene;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) table = &descend(*table, steps[i], assignment);
   const Step& last = steps.back();
@@ -94,8 +114,8 @@ void apply_override(toml::table& scene, const std::string& assignment) {
   if (list == nullptr || *last.index >= list->size()) {
     refuse(assignment, fmt::format("{} has no entry {}", last.key, *last.index));
   }
-  value.get("x")->visit([&](const auto& content) {
-    list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*last.index), content);
+  value.get("x")->visit([&](auto& content) {
+    list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*last.index), std::move(content));
   });
 }
 

@@ -126,6 +126,20 @@ double SectionReader::number_in(const toml::node& node, std::string_view key) co
   return value;
 }
 
+double SectionReader::number_or_word_in(const toml::node& node, std::string_view key,
+                                        std::span<const std::string_view> words) const {
+  const auto text = node.is_string() ? node.value<std::string>() : std::nullopt;
+  constexpr std::string_view number_begins = "0123456789.+- \t";
+  if (text && (text->empty() || number_begins.find(text->front()) == std::string_view::npos)) {
+    const std::string near = nearest_name(*text, words);
+    fail(key, fmt::format("\"{}\" is not known; expected {} or a number [{}]{}", *text,
+                          fmt::join(words, ", "), spec_of(key).unit,
+                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+         &node);
+  }
+  return number_in(node, key);
+}
+
 double SectionReader::number(std::string_view key) const {
   return number_in(required(key), key);
 }

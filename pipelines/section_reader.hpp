@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/Core>
 #include <toml++/toml.h>
@@ -29,6 +30,10 @@ class SectionReader {
   /// One of the words given. @throws SceneError  another; the message lists them.
   [[nodiscard]] std::string word(std::string_view key,
                                  std::span<const std::string_view> allowed) const;
+  /// A number in a node that might have been one of the words instead: a text that begins with no
+  /// number is told the words. @throws SceneError  as number_in().
+  [[nodiscard]] double number_or_word_in(const toml::node& node, std::string_view key,
+                                         std::span<const std::string_view> words) const;
   /// Unit vector. @throws SceneError  not three finite numbers, or zero.
   [[nodiscard]] Eigen::Vector3d direction(std::string_view key) const;
   /// The node as given, or its default; nullptr for an optional key that is absent.
@@ -37,6 +42,11 @@ class SectionReader {
 
   /// A number in a node, with or without a unit, finite and in the range of the key.
   [[nodiscard]] double number_in(const toml::node& node, std::string_view key) const;
+  /// Replaces a key in the completed scene: where its value holds defaults of its own, or a path.
+  template <typename Value>
+  void complete(std::string_view key, Value&& value) {
+    complete_.insert_or_assign(key, std::forward<Value>(value));
+  }
   /// "file:line: path.key: message" as a SceneError.
   [[noreturn]] void fail(std::string_view key, const std::string& message,
                          const toml::node* at = nullptr) const;
@@ -54,7 +64,7 @@ class SectionReader {
   toml::table& complete_;
 };
 
-/// "file:line" of a node, or "--set path" when it came from an override.
+/// "file:line" of a node, or "--set key.path=value" when it came from an override.
 [[nodiscard]] std::string place_of(const toml::node* node, const std::string& file);
 
 }  // namespace microslip::pipelines

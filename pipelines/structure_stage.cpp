@@ -46,8 +46,7 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   fem::ModalOptions options;
   options.n_modes = scene.modes.count;
   result.basis = structure.solve_modes(options);
-  if (scene.contact && scene.modes.residual == ResidualKind::stiffness &&
-      result.basis.n_rigid_body == 0) {
+  if (scene.contact && scene.modes.residual == ResidualKind::stiffness) {
     result.residual = structure.residual_flexibility(
         result.basis, mesh.surface(scene.contact->surface), contact_frame(mesh, *scene.contact));
   }

@@ -33,8 +33,8 @@ struct StructureModes {
 /// @throws mesh::MeshError, SceneError  a surface or point that is not there, a face that is not plane.
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 
-/// Assembles and solves. Collective over the MPI ranks. A structure that floats has no residual
-/// flexibility (K is singular): `residual` stays empty.
+/// Assembles and solves. Collective over the MPI ranks. The residual flexibility of a structure that
+/// floats is that of inertia relief.
 [[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines
