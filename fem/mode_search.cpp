@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fem/block_krylov.hpp"
 #include "fem/columns.hpp"
 #include "fem/number_text.hpp"
 #include "fem/petsc_error.hpp"
@@ -88,13 +89,17 @@ MatHandle shifted_stiffness(const FeSystem& system, double shift) {
 }
 
 CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                Eigen::Index n, const Eigen::MatrixXd& rigid) {
+                                Eigen::Index n, const Eigen::MatrixXd& rigid, ModeSearch search) {
   constexpr int max_rounds = 5;
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - rigid.cols();
   Stopwatch watch;
   CountedPairs result;
-  // Two beyond the last: one to find the gap, one because the last of a run converges worst.
-  result.pairs = refine_beside(rigid, system, inverse, lowest_pairs(system, inverse, shift, n + 2, rigid).vectors);
+  // Krylov–Schur is asked for two beyond the last: one to find the gap, one because the last of a run
+  // converges worst; blocks bring more along.
+  const EigenPairs first = search == ModeSearch::blocks
+                               ? lowest_pairs_by_blocks(system, inverse, shift, n, rigid)
+                               : lowest_pairs(system, inverse, shift, n + 2, rigid);
+  result.pairs = refine_beside(rigid, system, inverse, first.vectors);
   result.search_seconds += watch.lap();
   for (int round = 0; round < max_rounds; ++round) {
     Eigen::Index n_missing = 0;

@@ -1,5 +1,5 @@
 /// @file
-/// The lowest elastic modes, none missed: Krylov–Schur finds them, the inertia of an LDLᵀ
+/// The lowest elastic modes, none missed: a Krylov method finds them, the inertia of an LDLᵀ
 /// factorisation just above the last one counts them, and what is missing is searched beside what was
 /// found.
 ///
@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "fem/eigensolver.hpp"
+#include "fem/modal_analysis.hpp"
 
 namespace microslip::fem {
 
@@ -33,6 +34,7 @@ struct CountedPairs {
 /// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end, with
 ///         both numbers.
 [[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                              Eigen::Index n, const Eigen::MatrixXd& rigid);
+                                              Eigen::Index n, const Eigen::MatrixXd& rigid,
+                                              ModeSearch search = ModeSearch::blocks);
 
 }  // namespace microslip::fem

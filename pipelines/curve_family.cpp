@@ -68,7 +68,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
     finished[i] = true;
     for (; kept < finished.size() && finished[kept]; ++kept) {
-      record.keep_curve(results[kept], model.frequency.size());
+      record.keep_curve(results[kept], model);
     }
   });
   if (interrupt_requested()) throw InterruptedError("interrupted; finished points are kept");

@@ -59,6 +59,7 @@ void clear_results(const std::filesystem::path& folder) {
 
 RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
     : folder_(options.output),
+      rank_(options.rank),
       writes_(options.rank == 0),
       progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
                 writes_ ? options.verbosity : Verbosity::quiet) {
@@ -77,7 +78,17 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   write_whole(folder_ / "scene.toml", scene.complete_toml);
 }
 
+std::filesystem::path RunRecord::mesh_file() const {
+  if (writes_) return folder_ / "mesh.msh";
+  return std::filesystem::temp_directory_path() /
+         fmt::format("microslip_rank{}_{}.msh", rank_, ::getpid());
+}
+
 RunRecord::~RunRecord() {
+  if (!writes_) {
+    std::error_code ignored;  // a file of our own in the temporary folder
+    std::filesystem::remove(mesh_file(), ignored);
+  }
   if (lock_ < 0) return;
   ::unlink((folder_ / ".lock").c_str());
   ::close(lock_);
@@ -175,7 +186,7 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
-void RunRecord::keep_curve(const CurveResult& result, Eigen::Index n_modes) {
+void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
   const std::string outcome =
@@ -187,9 +198,15 @@ void RunRecord::keep_curve(const CurveResult& result, Eigen::Index n_modes) {
       peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude,
                                     to_hz * peak->frequency)
                       : std::string()));
+  CurveSummary summary = summarise(result);
+  if (const auto* scale = std::get_if<double>(&result.preload);
+      scale != nullptr && model.vertices.rows() == 0 && model.weights.size() > 0) {
+    summary.preload_scale = *scale;
+    summary.preload = *scale * model.weights.dot(model.preload);
+  }
   const std::lock_guard lock(mutex_);
-  summary_.curves.push_back(summarise(result));
-  write_curve(folder_, result, n_modes);
+  summary_.curves.push_back(std::move(summary));
+  write_curve(folder_, result, model.frequency.size());
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {

@@ -32,6 +32,8 @@ class RunRecord {
   RunRecord& operator=(RunRecord&&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// Where the mesher writes: mesh.msh of the run folder; MPI ranks above 0 mesh for themselves.
+  [[nodiscard]] std::filesystem::path mesh_file() const;
   [[nodiscard]] Progress& progress() { return progress_; }
 
   /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
@@ -48,7 +50,8 @@ class RunRecord {
   void keep_model(const ReducedModel& model);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
-  void keep_curve(const CurveResult& result, Eigen::Index n_modes);
+  /// A modal scene's scale is told as the total force it means.
+  void keep_curve(const CurveResult& result, const ReducedModel& model);
   void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
@@ -67,6 +70,7 @@ class RunRecord {
   [[nodiscard]] ExitCode verdict() const;
 
   std::filesystem::path folder_;
+  int rank_;
   bool writes_;  ///< false on MPI ranks above 0
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own

@@ -23,7 +23,7 @@ ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
     return model;
   }
   record.stage("mesh");
-  const mesh::Mesh mesh = obtain_mesh(scene, record.folder() / "mesh.msh");
+  const mesh::Mesh mesh = obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);
   record.keep_mesh(mesh, scene.material.density);
   record.stage("modes");

@@ -71,6 +71,7 @@ Json to_json(const CurveSummary& curve) {
   for (const double fold : curve.folds) folds.push_back(hertz(fold));
   return {{"name", curve.name},
           {"preload_N", to_json(curve.preload)},
+          {"preload_scale", curve.preload_scale ? Json(*curve.preload_scale) : Json(nullptr)},
           {"complete", curve.complete},
           {"diagnosis", curve.diagnosis},
           {"message", curve.message},

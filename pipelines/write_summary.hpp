@@ -37,7 +37,8 @@ struct PeakSummary {
 /// A ResponseCurve in a few numbers.
 struct CurveSummary {
   std::string name;
-  std::variant<double, LimitName> preload;
+  std::variant<double, LimitName> preload;  ///< total [N], or a limit
+  std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
   bool complete = false;
   std::string diagnosis;
   std::string message;

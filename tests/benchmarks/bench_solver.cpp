@@ -1,0 +1,86 @@
+// One frequency point and one whole curve of harmonic balance: 10 modes, 300 contact points, varying load with
+// separation, mean and first harmonic. Goals: a point ≤ 1 ms, a curve of 250 points ≤ 0.3 s, on one core.
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "contact/patch_force.hpp"
+#include "solver/continuation.hpp"
+#include "solver/start_point.hpp"
+
+namespace {
+
+using namespace microslip;
+
+constexpr Eigen::Index n_modes = 10;
+
+/// A strip of n points under modes that bend along it: some stick, some slip, some separate.
+solver::Scene strip(Eigen::Index n_points) {
+  solver::Scene s;
+  s.natural_frequency.resize(n_modes);
+  s.output = Eigen::VectorXd::LinSpaced(n_modes, 1.0, 0.1);
+  s.damping_ratio = Eigen::VectorXd::Constant(n_modes, 0.002);
+  s.excitation = contact::Harmonics(1, n_modes);
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(n_points, 1.0 / static_cast<double>(n_points));
+  std::vector<contact::PointParameters> points(static_cast<std::size_t>(n_points),
+                                               {0.3, 0.4, 0.4, 0.2});
+  contact::ModalShapes shapes{Eigen::MatrixXd(n_points, n_modes), Eigen::MatrixXd(n_points, n_modes),
+                              {}};
+  for (Eigen::Index k = 0; k < n_modes; ++k) {
+    s.natural_frequency[k] = static_cast<double>((k + 1) * (k + 1));
+    s.excitation.rows()(1, k) = 0.02 / static_cast<double>(k + 1);
+    for (Eigen::Index i = 0; i < n_points; ++i) {
+      const double x = static_cast<double>(i) / static_cast<double>(n_points);
+      shapes.u(i, k) = std::cos(static_cast<double>(k) * 1.3 * x + 0.2);
+      shapes.v(i, k) = 0.7 * std::sin(static_cast<double>(k) * 1.7 * x + 0.4);
+    }
+  }
+  s.contact = std::make_unique<contact::PatchForce>(
+      contact::ContactPatch(std::move(weights), std::move(points)), std::move(shapes));
+  return s;
+}
+
+solver::ContinuationOptions range() {
+  solver::ContinuationOptions options;
+  options.frequency_begin = 0.8;
+  options.frequency_end = 1.5;
+  return options;
+}
+
+void one_frequency_point(benchmark::State& state) {
+  const solver::Scene scene = strip(state.range(0));
+  const solver::HarmonicBalance balance(scene, 1);
+  const auto curve = solver::trace_response(scene, range());
+  const auto& start = curve.points[curve.points.size() / 2];
+  const double omega = start.frequency * 1.001;  // as far as a step of continuation
+  int iterations = 0;
+  for (auto _ : state) {
+    const auto solution = solver::solve_at(balance, start.q.vector(), omega, {});
+    iterations = solution.iterations;
+    benchmark::DoNotOptimize(solution.residual);
+  }
+  state.counters["iterations"] = iterations;
+}
+
+void whole_curve(benchmark::State& state) {
+  const solver::Scene scene = strip(state.range(0));
+  double n = 0.0;
+  for (auto _ : state) {
+    const auto curve = solver::trace_response(scene, range());
+    n = static_cast<double>(curve.points.size());
+    if (!curve.complete) state.SkipWithError(curve.diagnosis.c_str());
+  }
+  state.counters["points"] = n;
+  state.counters["seconds_per_250"] = benchmark::Counter(
+      n / 250.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(one_frequency_point)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK(whole_curve)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
