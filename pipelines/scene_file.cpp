@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +15,7 @@
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
 #include "pipelines/units.hpp"
+#include "pipelines/write_scene.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -482,9 +482,7 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   }
   const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
   scene.effects = read_effects(reading.section("effects", "effects"), has_residual);
-  std::ostringstream complete;
-  complete << reading.complete << '\n';
-  scene.complete_toml = complete.str();
+  scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }
 

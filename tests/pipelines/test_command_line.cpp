@@ -304,7 +304,7 @@ TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
 
 TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   std::string scales = "[1";
-  for (int i = 2; i <= 3000; ++i) scales += "," + std::to_string(i);  // work for minutes
+  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));  // work for minutes
   write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
   const std::string scene = path("scene.toml").string();
   const std::string out = path("out").string();
