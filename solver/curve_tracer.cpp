@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 #include "solver/certificate.hpp"
-#include "solver/output_amplitude.hpp"
+#include "solver/special_points.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
@@ -72,64 +70,11 @@ void CurveTracer::stop(const std::string& diagnosis, const std::string& message)
   curve_.message = message;
 }
 
-double CurveTracer::indicator(const WalkerPoint& point, Special kind) const {
-  if (kind == Special::fold) return point.tangent.parameter;
-  const auto amplitude = output_amplitude(balance_.harmonics(point.solution.point.x),
-                                          balance_.scene().output);
-  return amplitude.gradient.dot(point.tangent.x);
-}
-
-std::optional<CurveTracer::Located> CurveTracer::locate(const BranchWalker& walker,
-                                                        Special kind) const {
-  double low = 0.0;
-  double high = 1.0;
-  double at_low = indicator(walker.before(), kind);
-  double at_high = indicator(walker.now(), kind);
-  std::optional<Located> best;
-  double best_size = std::numeric_limits<double>::infinity();
-  const double enough = 1e-13 * std::max(std::abs(at_low), std::abs(at_high));
-  for (int i = 0; i < 60 && high - low > 1e-14; ++i) {  // Illinois; bisection now and then for kinks
-    const double share = i % 4 == 3 ? 0.5 * (low + high)
-                                    : low + (high - low) * at_low / (at_low - at_high);
-    auto point = walker.between(std::clamp(share, low, high));
-    if (!point) return best;
-    const double here = indicator(*point, kind);
-    if (std::abs(here) < best_size) {
-      best_size = std::abs(here);
-      best = Located{share, std::move(point->solution),
-                     kind == Special::peak ? PointMark::peak : PointMark::fold};
-    }
-    if (std::abs(here) <= enough) break;
-    if ((here > 0.0) == (at_low > 0.0)) {
-      low = share;
-      at_low = here;
-      at_high *= 0.5;
-    } else {
-      high = share;
-      at_high = here;
-      at_low *= 0.5;
-    }
-  }
-  return best;
-}
-
 bool CurveTracer::add_specials(const BranchWalker& walker, double share_of_segment) {
-  std::vector<Located> found;
-  const auto look_for = [&](Special kind, bool present) {
-    if (!present) return;
-    auto located = locate(walker, kind);
-    if (located && located->share < share_of_segment) found.push_back(std::move(*located));
-  };
-  const double rise_before = indicator(walker.before(), Special::peak);
-  const double rise_now = indicator(walker.now(), Special::peak);
-  look_for(Special::peak, rise_before > 0.0 && rise_now <= 0.0);
-  const double forward_before = walker.before().tangent.parameter;
-  const double forward_now = walker.now().tangent.parameter;
-  look_for(Special::fold, (forward_before > 0.0) != (forward_now > 0.0));
-  std::sort(found.begin(), found.end(),
-            [](const Located& a, const Located& b) { return a.share < b.share; });
-  return std::all_of(found.begin(), found.end(),
-                     [&](const Located& one) { return add(one.solution, one.mark); });
+  for (const SpecialPoint& special : special_points(walker, balance_)) {
+    if (special.share < share_of_segment && !add(special.solution, special.mark)) return false;
+  }
+  return true;
 }
 
 bool CurveTracer::finish(const BranchWalker& walker) {

@@ -3,8 +3,6 @@
 /// points, ends exactly at the end of the range.
 #pragma once
 
-#include <optional>
-
 #include "solver/branch_walker.hpp"
 #include "solver/continuation.hpp"
 #include "solver/harmonic_balance.hpp"
@@ -21,22 +19,14 @@ class CurveTracer {
   [[nodiscard]] ResponseCurve run();
 
  private:
-  enum class Special { peak, fold };
-
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
   /// False: the observer asked to stop.
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
   void walk(BranchWalker& walker);
+  /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(const BranchWalker& walker, double share_of_segment);
-  [[nodiscard]] double indicator(const WalkerPoint& point, Special kind) const;
-  struct Located {
-    double share = 0.0;
-    NewtonResult solution;
-    PointMark mark = PointMark::none;
-  };
-  [[nodiscard]] std::optional<Located> locate(const BranchWalker& walker, Special kind) const;
   [[nodiscard]] bool finish(const BranchWalker& walker);
   void stop(const std::string& diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
