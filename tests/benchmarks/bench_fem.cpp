@@ -1,6 +1,7 @@
-// Element matrices, assembly, and ten modes of the clamped default blade (curved tet10) at about 30 000,
-// 115 000, 260 000 and 300 000 degrees of freedom, split into assembly, ordering, factorisation, search
-// and inertia count. Goal: ten modes at 115 000 in ≤ 5 s on two cores, all of it.
+// Element matrices, assembly, and ten modes of the clamped default blade (curved tet10) at about 30
+// 000, 115 000, 260 000 and 300 000 degrees of freedom, split into assembly, ordering,
+// factorisation, search and inertia count. Goal: ten modes at 115 000 in ≤ 5 s on two cores, all of
+// it.
 //
 // BENCH_FEM_SIZES=2 takes the first two meshes only. The same mesh as bench_calculix is number 2.
 
@@ -69,12 +70,17 @@ void ten_modes(benchmark::State& state, fem::ModeSearch search) {
 void register_all() {
   const auto last = static_cast<int64_t>(meshes.size()) - 1;
   const auto add = [&](const char* name, auto function) {
-    benchmark::RegisterBenchmark(name, function)->DenseRange(0, last)->Unit(benchmark::kMillisecond)->UseRealTime();
+    benchmark::RegisterBenchmark(name, function)
+        ->DenseRange(0, last)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   };
   benchmark::RegisterBenchmark("element_matrices", element_matrices);
   add("assembly", assembly);
-  add("ten_modes/blocks", [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::blocks); });
-  add("ten_modes/krylov_schur", [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::krylov_schur); });
+  add("ten_modes/blocks",
+      [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::blocks); });
+  add("ten_modes/krylov_schur",
+      [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::krylov_schur); });
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
-#include "mesh/mesher_process.hpp"
 #include "mesh/mesh_reader.hpp"
+#include "mesh/mesher_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::test {

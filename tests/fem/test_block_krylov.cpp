@@ -15,7 +15,8 @@ const Material steel{.youngs_modulus = 2.0e11, .poissons_ratio = 0.3, .density =
 
 // A square section: bending comes in twins.
 mesh::Mesh square_bar() {
-  return test::box_mesh(mesh::ElementType::tet4, {.size = {0.1, 0.02, 0.02}, .cells = {8, 2, 2}, .map = {}});
+  return test::box_mesh(mesh::ElementType::tet4,
+                        {.size = {0.1, 0.02, 0.02}, .cells = {8, 2, 2}, .map = {}});
 }
 
 struct Held {
@@ -37,7 +38,8 @@ double largest_error(const Eigen::VectorXd& values, const Eigen::VectorXd& exact
 TEST(BlockKrylov, FindsTheLowestPairsOfTheFullMatrices) {
   const Held bar;
   for (const Eigen::Index n : {1, 2, 5, 12, 40}) {  // 40 need restarts
-    const EigenPairs pairs = lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, n, bar.nothing_known);
+    const EigenPairs pairs =
+        lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, n, bar.nothing_known);
     ASSERT_GT(pairs.values.size(), n);
     EXPECT_LT(largest_error(pairs.values.head(n), bar.exact.head(n)), rounding) << n;
   }
@@ -45,30 +47,38 @@ TEST(BlockKrylov, FindsTheLowestPairsOfTheFullMatrices) {
 
 TEST(BlockKrylov, GivesMassOrthonormalVectors) {
   const Held bar;
-  const EigenPairs pairs = lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 20, bar.nothing_known);
-  const Eigen::MatrixXd gram = inner_products(pairs.vectors, multiply(bar.system.mass_matrix.get(), pairs.vectors));
+  const EigenPairs pairs =
+      lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 20, bar.nothing_known);
+  const Eigen::MatrixXd gram =
+      inner_products(pairs.vectors, multiply(bar.system.mass_matrix.get(), pairs.vectors));
   // Two passes of Gram–Schmidt leave rounding only.
-  EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(),
+            1e-13);
 }
 
 TEST(BlockKrylov, ShowsOnePairBeyondTheWantedOnesWellEnoughToSeeTheGap) {
   const Held bar;
-  const EigenPairs pairs = lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 6, bar.nothing_known);
-  EXPECT_NEAR(pairs.values[6], bar.exact[6], 1e-6 * bar.exact[6]);  // vector good to 1e-4, λ to its square
+  const EigenPairs pairs =
+      lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 6, bar.nothing_known);
+  EXPECT_NEAR(pairs.values[6], bar.exact[6],
+              1e-6 * bar.exact[6]);  // vector good to 1e-4, λ to its square
 }
 
 TEST(BlockKrylov, SearchesBesideWhatIsKnown) {
   const Held bar;
   const EigenPairs low = lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 4, bar.nothing_known);
-  const EigenPairs next = lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 3, low.vectors.leftCols(4));
+  const EigenPairs next =
+      lowest_pairs_by_blocks(bar.system, bar.inverse, 0.0, 3, low.vectors.leftCols(4));
   EXPECT_LT(largest_error(next.values.head(3), bar.exact.segment(4, 3)), rounding);
 }
 
 TEST(BlockKrylov, FindsAllPairsOfASmallSpace) {
-  const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, {.size = {1.0, 0.9, 0.8}, .cells = {1, 1, 1}, .map = {}});
+  const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8,
+                                         {.size = {1.0, 0.9, 0.8}, .cells = {1, 1, 1}, .map = {}});
   const FeSystem system = assemble(mesh, steel, {"x0"});
   const Factorisation inverse(system.stiffness.get(), FactorKind::positive_definite);
-  const EigenPairs pairs = lowest_pairs_by_blocks(system, inverse, 0.0, 30, Eigen::MatrixXd(system.dofs.n_local_dofs(), 0));
+  const EigenPairs pairs = lowest_pairs_by_blocks(system, inverse, 0.0, 30,
+                                                  Eigen::MatrixXd(system.dofs.n_local_dofs(), 0));
   const Eigen::VectorXd exact = test::dense_system(mesh, steel, {"x0"}).eigenvalues();
   ASSERT_EQ(pairs.values.size(), 12);
   EXPECT_LT(largest_error(pairs.values, exact), rounding);
@@ -79,7 +89,8 @@ TEST(BlockKrylov, AgreesWithKrylovSchurBesideRigidMotions) {
   const FeSystem system = assemble(mesh, steel, {});
   const Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   const double shift = -0.1 * elastic_scale(mesh.nodes(), system, rigid.cols());
-  const Factorisation inverse(shifted_stiffness(system, shift).get(), FactorKind::positive_definite);
+  const Factorisation inverse(shifted_stiffness(system, shift).get(),
+                              FactorKind::positive_definite);
   const EigenPairs blocks = lowest_pairs_by_blocks(system, inverse, shift, 8, rigid);
   const EigenPairs single = lowest_pairs(system, inverse, shift, 8, rigid);
   EXPECT_LT(largest_error(blocks.values.head(8), single.values.head(8)), rounding);
