@@ -6,9 +6,9 @@
 #include <numbers>
 #include <ostream>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <Eigen/Eigenvalues>
 
 #include "mesh/mesh.hpp"
 #include "pipelines/contact_stage.hpp"
@@ -114,8 +114,9 @@ void check_modal(const ModalModel& modal, const SceneDescription& scene, std::os
   if (scene.response) {
     const ResponseDescription& response = *scene.response;
     const std::size_t n_curves = curve_requests(scene).size();
-    fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves, n_curves == 1 ? "curve" : "curves",
-               response.frequency_begin_hz, response.frequency_end_hz);
+    fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,
+               n_curves == 1 ? "curve" : "curves", response.frequency_begin_hz,
+               response.frequency_end_hz);
   }
 }
 

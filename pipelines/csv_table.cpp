@@ -122,8 +122,8 @@ void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size
 void CsvTable::read_row(const std::vector<std::string_view>& cells, std::size_t line,
                         std::optional<std::size_t> id_column) {
   if (cells.size() != columns_.size()) {
-    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line, cells.size(),
-                                 columns_.size()));
+    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line,
+                                 cells.size(), columns_.size()));
   }
   lines_.push_back(line);
   ids_.emplace_back(id_column ? cells[*id_column] : std::string_view());
@@ -165,8 +165,8 @@ std::optional<std::size_t> CsvTable::find(std::string_view column) const {
 
 std::size_t CsvTable::require(std::string_view column) const {
   if (const auto found = find(column)) return *found;
-  throw SceneError(fmt::format("{}: column \"{}\" is missing; the columns are: {}", header_place(), column,
-                               fmt::join(columns_, ", ")));
+  throw SceneError(fmt::format("{}: column \"{}\" is missing; the columns are: {}", header_place(),
+                               column, fmt::join(columns_, ", ")));
 }
 
 std::string CsvTable::header_place() const {

@@ -58,7 +58,8 @@ frequency = [10, 30]
 class Program : public testing::Test {
  protected:
   /// @param arguments  as typed in a shell.
-  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& environment = "") const {
+  [[nodiscard]] Outcome run(const std::string& arguments,
+                            const std::string& environment = "") const {
     std::string command = "cd '";
     command.append(folder()).append("' && ").append(environment);
     command.append(" '" MICROSLIP_PROGRAM "' ").append(arguments).append(" > .out 2> .err");
@@ -108,7 +109,8 @@ TEST_F(Program, ExplainsEveryCommandAndOption) {
                            "--quiet", "--verbose", "--json", "--version"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
-  for (const char* command : {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report"}) {
+  for (const char* command :
+       {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report"}) {
     EXPECT_EQ(run(std::string(command) + " --help").code, 0) << command;
   }
 }

@@ -87,7 +87,8 @@ TEST(CycleTable, TheJacobianLeavesOutTheMeanOfU) {
   }
 }
 
-// D = 4 μ n₀ (a − μ n₀ / k_u) for constant load (theory section 7); slip distance 4 (a − μ n₀ / k_u).
+// D = 4 μ n₀ (a − μ n₀ / k_u) for constant load (theory section 7); slip distance 4 (a − μ n₀ /
+// k_u).
 TEST(CycleTable, ConstantLoadDissipatesTheClosedForm) {
   const Json row = cycles(header + "2e6,0,0.4,1000,1e-3,0,0,0,0\n")[0];
   const double slip = 4.0 * (1e-3 - 400.0 / 2e6);
@@ -99,10 +100,10 @@ TEST(CycleTable, ConstantLoadDissipatesTheClosedForm) {
 
 TEST(CycleTable, RegimesHaveTheirNames) {
   const Json list = cycles(header +
-                           "1,1,0.5,10,1,0,0,0,0\n"     // bound 5 never reached
-                           "1,1,0.5,1,3,0,0,0.2,0\n"    // slides, always loaded
-                           "1,1,0.5,1,3,0,0,2,0\n"      // lifts off
-                           "1,1,0.5,-3,3,0,0,2,0\n");   // never touches
+                           "1,1,0.5,10,1,0,0,0,0\n"    // bound 5 never reached
+                           "1,1,0.5,1,3,0,0,0.2,0\n"   // slides, always loaded
+                           "1,1,0.5,1,3,0,0,2,0\n"     // lifts off
+                           "1,1,0.5,-3,3,0,0,2,0\n");  // never touches
   EXPECT_EQ(list[0]["regime"], "full_stick");
   EXPECT_EQ(list[1]["regime"], "stick_slip");
   EXPECT_EQ(list[2]["regime"], "separation");
@@ -126,16 +127,17 @@ TEST(CycleTable, ColumnsMayStandInAnyOrderAndRowsKeepTheirs) {
 
 TEST(CycleTable, TheMeanOfUPushesAStuckPoint) {
   const std::string columns = header.substr(0, header.size() - 1) + ",u_mean\n";
-  EXPECT_DOUBLE_EQ(cycles(columns + "2,1,0.5,10,1,0,0,0,0,0.5\n")[0]["friction"]["mean"].get<double>(),
-                   1.0);  // k_u u₀: within the band
+  EXPECT_DOUBLE_EQ(
+      cycles(columns + "2,1,0.5,10,1,0,0,0,0,0.5\n")[0]["friction"]["mean"].get<double>(),
+      1.0);  // k_u u₀: within the band
 }
 
 TEST(CycleTable, NumbersReadBackToTheSameDoubles) {
   const contact::PointParameters point{1.0 / 3.0, 0.7, 0.3, 1.0 / 7.0};
   const contact::PointMotion motion{0.0, 1.1, 1e-17, 0.1, 0.2, 0.3};
   const auto cycle = contact::friction_cycle(point, motion);
-  const Json row = cycles(header +
-                          "0.33333333333333331,0.7,0.3,0.14285714285714285,1.1,1e-17,0.1,0.2,0.3\n")[0];
+  const Json row =
+      cycles(header + "0.33333333333333331,0.7,0.3,0.14285714285714285,1.1,1e-17,0.1,0.2,0.3\n")[0];
   EXPECT_EQ(row["friction"]["sin"][0].get<double>(), cycle.friction.sin);
   EXPECT_EQ(row["friction"]["cos"][0].get<double>(), cycle.friction.cos);
   EXPECT_EQ(row["dissipated_energy"].get<double>(), cycle.dissipated_energy);
@@ -159,9 +161,11 @@ TEST(CycleTable, WindowsFilesAreTheSame) {
 TEST(CycleHarmonics, AreTheIntegralsOfTheForcesOverThePeriod) {
   constexpr int n = 1 << 17;
   constexpr int n_harmonics = 7;
-  const std::array<contact::PointParameters, 5> points{
-      {{1.0, 0.0, 0.5, 1.0}, {1.0, 1.0, 0.5, 1.0}, {1.0, 1.0, 0.5, -0.5}, {1.0, 1.0, 0.5, 9.0},
-       {1.0, 1.0, 0.0, 1.0}}};
+  const std::array<contact::PointParameters, 5> points{{{1.0, 0.0, 0.5, 1.0},
+                                                        {1.0, 1.0, 0.5, 1.0},
+                                                        {1.0, 1.0, 0.5, -0.5},
+                                                        {1.0, 1.0, 0.5, 9.0},
+                                                        {1.0, 1.0, 0.0, 1.0}}};
   const contact::PointMotion motion{0.2, 2.5, -0.7, 0.1, 1.5, 0.4};
   for (const auto& point : points) {
     const auto cycle = contact::friction_cycle(point, motion);
@@ -265,7 +269,9 @@ TEST(BadCycleTable, AnyMutationEndsInJsonOrAnError) {
   };
   const std::string table = "id," + header + "a,1e6,2e6,0.4,100,1e-3,0,0,2e-5,1e-6\n" +
                             "b,1e6,0,0.4,-100,1e-3,1e-4,0,2e-5,1e-6\n\nc,0,1,0,0,0,0,0,0,0\n";
-  constexpr std::string_view bytes(",\n\r\" \t#0123459.+-eEnaif_uvw\0\xFF\xC3", 31);
+  constexpr char all_bytes[] =
+      ",\n\r\" \t#0123459.+-eEnaif_uvw\0\xFF\xC3";  // a zero byte is among them
+  const std::string_view bytes(all_bytes, sizeof(all_bytes) - 1);
   int n_taken = 0;
   constexpr int n_trials = 5000;
   for (int i = 0; i < n_trials; ++i) {

@@ -89,7 +89,8 @@ TEST(Units, TheReciprocalIsAnotherDimension) {  // UDUNITS would convert 0.01 s 
 }
 
 TEST(Units, TurnsAreNotPureNumbers) {  // UDUNITS would take 60 rpm for 6.28 Hz
-  for (const char* text : {"60 rpm", "60 rad/s", "60 deg/s"}) EXPECT_TRUE(refuses(text, "Hz")) << text;
+  for (const char* text : {"60 rpm", "60 rad/s", "60 deg/s"})
+    EXPECT_TRUE(refuses(text, "Hz")) << text;
   EXPECT_TRUE(refuses("60 Hz", "rad/s"));
   EXPECT_TRUE(refuses("10 deg", "1"));
   EXPECT_TRUE(refuses("10 %", "rad"));
@@ -158,7 +159,9 @@ TEST(ParseNumber, TakesTheWholeTextOrNothing) {
 TEST(Units, AnyTextEndsInANumberOrAnError) {
   constexpr std::string_view alphabet = "0123456789.,+-eE mNPaGHzkg^/*%()°µ\"'\\\t[]@_";
   unsigned state = 20240611;  // fixed seed of a linear congruence
-  const auto next = [&](unsigned n) { return ((state = state * 1664525U + 1013904223U) >> 16) % n; };
+  const auto next = [&](unsigned n) {
+    return ((state = state * 1664525U + 1013904223U) >> 16) % n;
+  };
   int n_taken = 0;
   for (int i = 0; i < 5000; ++i) {
     std::string text;
