@@ -4,6 +4,8 @@
 /// that a swapped row or column shows.
 #pragma once
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -19,7 +21,8 @@ inline constexpr Eigen::Index n_modes = 2;
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("microslip_" + name)) {
+      : path_(std::filesystem::temp_directory_path() / 
+              ("microslip_" + name + "_" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
