@@ -107,6 +107,11 @@ int mesh(const Arguments& arguments) {
     throw SceneError(scene.file.string() +
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
   }
+  const std::filesystem::path file = std::filesystem::absolute(arguments.output);
+  if (!std::filesystem::is_directory(file.parent_path())) {
+    throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
+  }
+  require_writable(file.parent_path());  // before the mesher works for nothing
   return mesh_study(scene, options_of(arguments, arguments.output));
 }
 
@@ -166,6 +171,12 @@ CLI::App* add_command(CLI::App& app, Arguments& a, Action& chosen, const char* n
                       const char* what, Action action) {
   CLI::App* command = app.add_subcommand(name, what);
   command->fallthrough();
+  command->footer([&app] {  // the help of a command is complete
+    const auto* format = dynamic_cast<const CLI::Formatter*>(app.get_formatter().get());
+    return format == nullptr
+               ? std::string("More options: microslip --help")
+               : "Of every command:\n" + format->make_groups(&app, CLI::AppFormatMode::Normal);
+  });
   command->callback([&a, &chosen, name, action = std::move(action)] {
     a.command = name;
     chosen = action;
@@ -204,7 +215,12 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   auto* cycle_command =
       add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
                   [&] { return cycle(a); });
-  cycle_command->add_option("table", a.input, "CSV file, see README")->required();
+  cycle_command
+      ->add_option("table", a.input,
+                   "CSV file, SI units, one point per row; columns tangential_stiffness, "
+                   "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
+                   "v_mean, v_sin, v_cos, optional id and u_mean, in any order")
+      ->required();
   with_output(cycle_command, "JSON file to write; default standard output");
   cycle_command->add_option("--harmonics", a.harmonics, "highest harmonic of the forces put out")
       ->check(CLI::Range(1, largest_harmonic))

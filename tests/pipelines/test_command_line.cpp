@@ -111,7 +111,9 @@ TEST_F(Program, ExplainsEveryCommandAndOption) {
   }
   for (const char* command :
        {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report"}) {
-    EXPECT_EQ(run(std::string(command) + " --help").code, 0) << command;
+    const Outcome own = run(std::string(command) + " --help");
+    EXPECT_EQ(own.code, 0) << command;
+    EXPECT_NE(own.out.find("--set"), std::string::npos) << command;
   }
 }
 
@@ -198,6 +200,20 @@ TEST_F(Program, NamesBadScenes) {
   expect("check broken.toml", 1, {"broken.toml:11:"});
   write(path("mesh.toml"), run("init mesh").out);
   expect("check mesh.toml", 1, {"blade.msh", "no such file"});
+}
+
+TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
+  write(path("scene.toml"), scene_text);
+  expect("mesh scene.toml -o m.msh", 1, {"model.kind", "\"blade\""});
+  write(path("blade.toml"), run("init blade").out);
+  const std::string coarse = " --set model.element_size=10mm";
+  EXPECT_EQ(run("mesh blade.toml -o m.msh --dry-run" + coarse).code, 0);
+  EXPECT_FALSE(exists("m.msh"));
+  const Outcome meshed = run("mesh blade.toml -o m.msh" + coarse);
+  EXPECT_EQ(meshed.code, 0) << meshed.err;
+  EXPECT_TRUE(exists("m.msh"));
+  expect("check blade.toml --set contact.surface=contct" + coarse, 1, {"contct", "\"contact\""});
+  expect("mesh blade.toml -o no/such/folder/b.msh", 4, {"no/such/folder"});
 }
 
 TEST_F(Program, ReadsPathsWithSpacesAndLetters) {
