@@ -82,8 +82,8 @@ class Iteration {
 
   [[nodiscard]] NewtonResult stepped(const BranchVector& step, double length) {
     ++now_.evaluations;
-    return evaluated({now_.point.x + length * step.x,
-                      now_.point.parameter + length * step.parameter});
+    return evaluated(
+        {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter});
   }
 
   /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step
