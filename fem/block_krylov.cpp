@@ -13,12 +13,12 @@
 namespace microslip::fem {
 namespace {
 
-constexpr double tolerance = 1e-9;      // of (2) over θ, as for Krylov–Schur
-constexpr double rough = 1e-4;          // of the pairs above: their λ is then good to 1e-8
-constexpr double dependence = 1e-12;    // a column that lost this much to others is one of them
+constexpr double tolerance = 1e-9;    // of (2) over θ, as for Krylov–Schur
+constexpr double rough = 1e-4;        // of the pairs above: their λ is then good to 1e-8
+constexpr double dependence = 1e-12;  // a column that lost this much to others is one of them
 constexpr int max_steps = 300;
-// Right-hand sides at a time. Wider blocks cost less each but need more of them: at 103 000 degrees of
-// freedom ten modes take 2.4, 1.9, 2.1, 2.2 s of one core with 3, 4, 6, 8, and 4.2 s one by one.
+// Right-hand sides at a time. Wider blocks cost less each but need more of them: at 103 000 degrees
+// of freedom ten modes take 2.4, 1.9, 2.1, 2.2 s of one core with 3, 4, 6, 8, and 4.2 s one by one.
 constexpr Eigen::Index block_size = 4;
 
 // Numbers in [−1, 1) that depend on the place only (splitmix64): the same on any number of ranks.
@@ -50,8 +50,12 @@ class Basis {
     MV_.leftCols(n_known_) = multiply(M, deflation);
   }
   [[nodiscard]] Eigen::Index size() const { return n_ - n_known_; }
-  [[nodiscard]] auto columns(Eigen::Index first, Eigen::Index n) const { return V_.middleCols(n_known_ + first, n); }
-  [[nodiscard]] auto products(Eigen::Index first, Eigen::Index n) const { return MV_.middleCols(n_known_ + first, n); }
+  [[nodiscard]] auto columns(Eigen::Index first, Eigen::Index n) const {
+    return V_.middleCols(n_known_ + first, n);
+  }
+  [[nodiscard]] auto products(Eigen::Index first, Eigen::Index n) const {
+    return MV_.middleCols(n_known_ + first, n);
+  }
 
   // Takes out of W what the basis holds, twice; returns the coefficients, deflated ones left out.
   [[nodiscard]] Eigen::MatrixXd orthogonalise(Eigen::MatrixXd& W) const {
@@ -64,8 +68,8 @@ class Basis {
     return coefficients.bottomRows(size());
   }
 
-  // Appends the directions of W (orthogonal to the basis) by Gram–Schmidt within the block; W = V₊β.
-  // Columns that depend on the others add none.
+  // Appends the directions of W (orthogonal to the basis) by Gram–Schmidt within the block; W =
+  // V₊β. Columns that depend on the others add none.
   [[nodiscard]] Eigen::MatrixXd append(const Eigen::MatrixXd& W) {
     const Eigen::VectorXd before = column_norms(W);
     const Eigen::Index first = n_;
@@ -130,8 +134,9 @@ struct Ritz {
 
 }  // namespace
 
-EigenPairs lowest_pairs_by_blocks(const FeSystem& system, const Factorisation& inverse, double shift,
-                                  Eigen::Index n_wanted, const Eigen::MatrixXd& deflation) {
+EigenPairs lowest_pairs_by_blocks(const FeSystem& system, const Factorisation& inverse,
+                                  double shift, Eigen::Index n_wanted,
+                                  const Eigen::MatrixXd& deflation) {
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - deflation.cols();
   const Eigen::Index n = std::min(n_wanted, space);
   const Eigen::Index capacity = std::min(space, 2 * n + 6 * block_size);
@@ -163,8 +168,8 @@ EigenPairs lowest_pairs_by_blocks(const FeSystem& system, const Factorisation& i
     basis.restart(ritz.s.leftCols(kept), last);
     T = ritz.theta.head(kept).asDiagonal();
   }
-  throw EigenError("eigen-not-converged: " + std::to_string(n) + " modes requested, " + std::to_string(n_converged) +
-                   " converged at tolerance 1e-9");
+  throw EigenError("eigen-not-converged: " + std::to_string(n) + " modes requested, " +
+                   std::to_string(n_converged) + " converged at tolerance 1e-9");
 }
 
 }  // namespace microslip::fem

@@ -23,7 +23,9 @@ namespace microslip::fem {
 /// Arguments, result and errors as lowest_pairs(), but one pair or more beyond the wanted ones is
 /// always returned while the space has any, its vector good to 1e-4 only: it shows the gap above.
 /// @note The start does not depend on the number of ranks, and neither does the result beyond rounding.
-[[nodiscard]] EigenPairs lowest_pairs_by_blocks(const FeSystem& system, const Factorisation& inverse, double shift,
-                                                Eigen::Index n_wanted, const Eigen::MatrixXd& deflation);
+[[nodiscard]] EigenPairs lowest_pairs_by_blocks(const FeSystem& system,
+                                                const Factorisation& inverse, double shift,
+                                                Eigen::Index n_wanted,
+                                                const Eigen::MatrixXd& deflation);
 
 }  // namespace microslip::fem

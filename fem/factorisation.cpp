@@ -1,8 +1,10 @@
 #include "fem/factorisation.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 
+#include "fem/number_text.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
@@ -32,9 +34,16 @@ bool workspace_too_small(PetscInt code) { return code == -8 || code == -9 || cod
   throw PetscError(text);
 }
 
+void refuse_beyond(double available_mb, PetscInt needed_mb) {
+  if (static_cast<double>(needed_mb) <= available_mb) return;
+  throw MemoryError("out of memory: the factorisation needs about " + std::to_string(needed_mb) + " MB, " +
+                    number_text(std::floor(available_mb)) +
+                    " MB are available. Use a coarser mesh or a machine with more memory.");
+}
+
 }  // namespace
 
-Factorisation::Factorisation(Mat matrix, FactorKind kind) {
+Factorisation::Factorisation(Mat matrix, FactorKind kind, double memory_mb) {
   const bool definite = kind == FactorKind::positive_definite;
   check(MatSetOption(matrix, MAT_SPD, definite ? PETSC_TRUE : PETSC_FALSE));
   check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
@@ -46,6 +55,7 @@ Factorisation::Factorisation(Mat matrix, FactorKind kind) {
   const auto start = std::chrono::steady_clock::now();
   check(MatCholeskyFactorSymbolic(factor_.get(), matrix, nullptr, &options));
   if (info(factor_.get(), 1) < 0) fail(factor_.get(), "ordering");
+  refuse_beyond(memory_mb, info(factor_.get(), 17));
   ordering_seconds_ = seconds_since(start);
   for (const PetscInt extra_percent : {30, 100, 300}) {
     check(MatMumpsSetIcntl(factor_.get(), 14, extra_percent));

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fem/handle.hpp"
+#include "fem/machine_memory.hpp"
 
 namespace microslip::fem {
 
@@ -25,8 +26,9 @@ struct Inertia {
 class Factorisation {
  public:
   /// Orders and factorises. The matrix may change afterwards without effect.
+  /// @param memory_mb  what may be used [MB]; compared with what MUMPS expects to need after ordering.
   /// @throws MemoryError  it does not fit; PetscError  another failure of MUMPS, with its code.
-  Factorisation(Mat matrix, FactorKind kind);
+  Factorisation(Mat matrix, FactorKind kind, double memory_mb = available_memory_mb());
 
   /// Solves A X = B for all columns in one go. @param rhs  rows of this rank × m.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;

@@ -1,11 +1,14 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <ostream>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <Eigen/Eigenvalues>
 
 #include "mesh/mesh.hpp"
 #include "pipelines/contact_stage.hpp"
@@ -69,15 +72,51 @@ void describe_effects(const SceneDescription& scene, std::ostream& out) {
   }
 }
 
+/// Natural frequencies with every contact point stuck [Hz], ascending.
+Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
+  const solver::Scene scene = solver_scene(model, 1.0);
+  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
+  if (scene.contact) K += scene.contact->stuck_stiffness();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, Eigen::EigenvaluesOnly);
+  return pairs.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+}
+
+void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {
+  Eigen::VectorXd free = modal.frequency_hz;
+  std::sort(free.begin(), free.end());
+  const Eigen::VectorXd stuck = stuck_frequencies(model);
+  constexpr Eigen::Index longest_list = 20;
+  fmt::print(out, "  natural frequencies [Hz]      free     all stuck\n");
+  for (Eigen::Index i = 0; i < std::min(free.size(), longest_list); ++i) {
+    fmt::print(out, "  {:<20}{:14.6g}{:14.6g}\n", i + 1, free[i], stuck[i]);
+  }
+  if (free.size() > longest_list) fmt::print(out, "  … {} in all\n", free.size());
+}
+
+void describe_points(const ModalModel& modal, std::ostream& out) {
+  double load = 0.0;
+  int n_gaps = 0;
+  for (std::size_t i = 0; i < modal.points.size(); ++i) {
+    const double preload = modal.points[i].preload;
+    load += std::max(preload, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
+    if (preload < 0.0) ++n_gaps;
+  }
+  fmt::print(out, "{} contact points: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
+             modal.points.size(), modal.weights.sum(), load, n_gaps);
+}
+
 void check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
-  fmt::print(out, "modal scene: {} modes from {:.6g} to {:.6g} Hz, {} contact points, area {:.6g}\n",
-             modal.frequency_hz.size(), modal.frequency_hz.minCoeff(),
-             modal.frequency_hz.maxCoeff(), modal.points.size(), modal.weights.sum());
+  fmt::print(out, "modal scene: {} modes\n", modal.frequency_hz.size());
   const ReducedModel model = reduced_model(modal);
   require_held(model);
+  describe_modes(modal, model, out);
+  describe_points(modal, out);
   if (scene.response) {
-    fmt::print(out, "{} curves from {:.6g} to {:.6g} Hz\n", curve_requests(scene).size(),
-               scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
+    const ResponseDescription& response = *scene.response;
+    const std::size_t n_curves = curve_requests(scene).size();
+    fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,
+               n_curves == 1 ? "curve" : "curves", response.frequency_begin_hz,
+               response.frequency_end_hz);
   }
 }
 

@@ -31,10 +31,21 @@ std::string_view unquoted(std::string_view cell) {
   return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
+/// Where the cell that begins at `begin` ends: the next comma that stands in no quotes.
+std::size_t end_of_cell(std::string_view line, std::size_t begin) {
+  const std::size_t first = std::min(line.find_first_not_of(" \t", begin), line.size());
+  std::size_t from = begin;
+  if (first < line.size() && line[first] == '"') {
+    const std::size_t closing = line.find('"', first + 1);
+    if (closing != std::string_view::npos) from = closing;
+  }
+  return std::min(line.find(',', from), line.size());
+}
+
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = end_of_cell(line, begin);
     cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
     begin = end + 1;
   }
@@ -111,8 +122,8 @@ void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size
 void CsvTable::read_row(const std::vector<std::string_view>& cells, std::size_t line,
                         std::optional<std::size_t> id_column) {
   if (cells.size() != columns_.size()) {
-    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line, cells.size(),
-                                 columns_.size()));
+    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line,
+                                 cells.size(), columns_.size()));
   }
   lines_.push_back(line);
   ids_.emplace_back(id_column ? cells[*id_column] : std::string_view());
@@ -154,8 +165,8 @@ std::optional<std::size_t> CsvTable::find(std::string_view column) const {
 
 std::size_t CsvTable::require(std::string_view column) const {
   if (const auto found = find(column)) return *found;
-  throw SceneError(fmt::format("{}: column \"{}\" is missing; the columns are: {}", header_place(), column,
-                               fmt::join(columns_, ", ")));
+  throw SceneError(fmt::format("{}: column \"{}\" is missing; the columns are: {}", header_place(),
+                               column, fmt::join(columns_, ", ")));
 }
 
 std::string CsvTable::header_place() const {

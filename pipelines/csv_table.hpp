@@ -54,7 +54,7 @@ class CsvTable {
   std::vector<std::string> columns_;
   std::vector<double> values_;
   std::vector<std::string> ids_;
-  std::size_t header_line_ = 0;  // 0: none, the table comes from elsewhere
+  std::size_t header_line_ = 0;      // 0: none, the table comes from elsewhere
   std::vector<std::size_t> lines_;   // of each row in the file,
   std::vector<std::string> places_;  // or where each row stands, when it comes from elsewhere
 };

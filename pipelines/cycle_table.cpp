@@ -21,9 +21,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 9> required_columns{
-    "tangential_stiffness", "normal_stiffness", "friction_coefficient", "preload", "u_sin",
-    "u_cos",                "v_mean",           "v_sin",                "v_cos"};
+constexpr std::array<std::string_view, 9> required_columns{"tangential_stiffness",
+                                                           "normal_stiffness",
+                                                           "friction_coefficient",
+                                                           "preload",
+                                                           "u_sin",
+                                                           "u_cos",
+                                                           "v_mean",
+                                                           "v_sin",
+                                                           "v_cos"};
 
 const char* name_of(contact::CycleRegime regime) {
   switch (regime) {
@@ -163,7 +169,11 @@ class Rows {
 
   [[nodiscard]] contact::PointMotion motion(std::size_t row) const {
     return {u_mean_ ? table_.at(row, *u_mean_) : 0.0,
-            get(row, 4), get(row, 5), get(row, 6), get(row, 7), get(row, 8)};
+            get(row, 4),
+            get(row, 5),
+            get(row, 6),
+            get(row, 7),
+            get(row, 8)};
   }
 
  private:

@@ -23,7 +23,7 @@ ExitCode exit_code_of(const std::exception& error) {
     return ExitCode::bad_input;
   }
   if (is<RefusedError>(error) || is<fem::EigenError>(error)) return ExitCode::refused;
-  if (is<ExhaustedError>(error) || is<std::bad_alloc>(error) ||
+  if (is<ExhaustedError>(error) || is<std::bad_alloc>(error) || is<fem::MemoryError>(error) ||
       is<std::filesystem::filesystem_error>(error)) {
     return ExitCode::exhausted;
   }

@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "fem/slepc_session.hpp"
@@ -56,8 +56,8 @@ void refuse_idle_options(const Arguments& arguments) {
   refuse_later(arguments.resume, "--resume");
   refuse_later(!arguments.tolerance.empty(), "--tolerance");
   refuse_later(!arguments.budget.empty(), "--budget");
-  const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
-                           arguments.command != "report";
+  const bool reads_scene =
+      arguments.command != "init" && arguments.command != "cycle" && arguments.command != "report";
   if (!reads_scene && !arguments.overrides.empty()) {
     throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
   }
@@ -148,7 +148,8 @@ void add_global_options(CLI::App& app, Arguments& a) {
                  "key.path=value: overrides any key of the scene; may be repeated")
       ->take_all()
       ->expected(1);
-  app.add_option("-j,--jobs", a.jobs, "curves traced at the same time; the numbers do not depend on it")
+  app.add_option("-j,--jobs", a.jobs,
+                 "curves traced at the same time; the numbers do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_flag("--resume", a.resume, "continue an interrupted run (not available in this version)");
@@ -185,12 +186,12 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                                    [&] { return init(a); });
   init_command->add_option("kind", a.input, "blade, mesh or modal")->default_str("blade");
   with_output(init_command, "file to write; it must not exist");
-  with_scene(add_command(app, a, chosen, "check",
-                         "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                         [&] { return check_study(scene_of(a), std::cout); }));
-  auto* mesh_command = with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] {
-    return mesh(a);
-  }));
+  with_scene(
+      add_command(app, a, chosen, "check",
+                  "parse, check units and names, show mesh, effects and forecast; solve nothing",
+                  [&] { return check_study(scene_of(a), std::cout); }));
+  auto* mesh_command =
+      with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
   with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();
   auto* modes_command =
       with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
@@ -200,28 +201,30 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
                              [&] { return run_scene(a, run_study); }));
   with_output(run_command, "run folder; default runs/SCENE");
-  auto* cycle_command = add_command(app, a, chosen, "cycle",
-                                    "steady friction cycles of single contact points",
-                                    [&] { return cycle(a); });
+  auto* cycle_command =
+      add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
+                  [&] { return cycle(a); });
   cycle_command->add_option("table", a.input, "CSV file, see README")->required();
   with_output(cycle_command, "JSON file to write; default standard output");
   cycle_command->add_option("--harmonics", a.harmonics, "highest harmonic of the forces put out")
       ->check(CLI::Range(1, largest_harmonic))
       ->capture_default_str();
-  with_scene(add_command(app, a, chosen, "converge", "what accuracy costs (not available in this version)",
-                         []() -> int {
-                           throw SceneError("converge is not available in this version; "
-                                            "share/scripts/mesh_convergence.py varies the mesh");
+  with_scene(add_command(app, a, chosen, "converge",
+                         "what accuracy costs (not available in this version)", []() -> int {
+                           throw SceneError(
+                               "converge is not available in this version; "
+                               "share/scripts/mesh_convergence.py varies the mesh");
                          }));
-  auto* report_command = add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
-                                     [&] { return report_study(a.input); });
+  auto* report_command =
+      add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
+                  [&] { return report_study(a.input); });
   report_command->add_option("folder", a.input, "run folder")->required();
 }
 
 void print_json_line(const Arguments& arguments, int code, const std::string& message) {
-  nlohmann::ordered_json line{{"program", "microslip"},     {"version", MICROSLIP_VERSION},
+  nlohmann::ordered_json line{{"program", "microslip"},       {"version", MICROSLIP_VERSION},
                               {"command", arguments.command}, {"exit_code", code},
-                              {"input", arguments.input},   {"output", arguments.output}};
+                              {"input", arguments.input},     {"output", arguments.output}};
   if (!message.empty()) line["message"] = message;
   std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
             << std::endl;
@@ -261,10 +264,11 @@ int guarded(Arguments& arguments, const Action& action) {
 int main(int argc, char** argv) {
   Arguments arguments;
   Action chosen;
-  CLI::App app("Vibration of friction-damped turbine blades: geometry, modes, forced response, "
-               "contact maps.\nExit codes: 0 complete, 1 bad input, 2 refused on physical grounds, "
-               "3 incomplete, 4 out of time, memory or disk, 5 internal error.",
-               "microslip");
+  CLI::App app(
+      "Vibration of friction-damped turbine blades: geometry, modes, forced response, "
+      "contact maps.\nExit codes: 0 complete, 1 bad input, 2 refused on physical grounds, "
+      "3 incomplete, 4 out of time, memory or disk, 5 internal error.",
+      "microslip");
   app.set_version_flag("--version", "microslip " MICROSLIP_VERSION);
   app.require_subcommand(1);
   add_global_options(app, arguments);

@@ -84,21 +84,17 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
   std::vector<std::string> columns(names.begin(), names.end());
   std::vector<double> values;
   for (const toml::node& entry : list) {
-    for (const std::string& column : columns) values.push_back(inline_value(section, entry, column));
+    for (const std::string& column : columns)
+      values.push_back(inline_value(section, entry, column));
   }
   return CsvTable::from_rows(section.file() + ": modal.points", std::move(columns),
                              std::move(values), std::move(places));
 }
 
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
-  std::vector<std::string> names{"id",
-                                 "weight",
-                                 "tangential_stiffness",
-                                 "normal_stiffness",
-                                 "friction_coefficient",
-                                 "preload",
-                                 "p",
-                                 "r"};
+  std::vector<std::string> names{
+      "id", "weight", "tangential_stiffness", "normal_stiffness", "friction_coefficient", "preload",
+      "p",  "r"};
   for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
     for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
   }
@@ -110,8 +106,7 @@ void refuse_unknown_columns(const CsvTable& table, Eigen::Index n_modes) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   for (const std::string& column : table.columns()) {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
-    throw SceneError(unknown_column(table, column, views) +
-                     fmt::format(" ({} modes)", n_modes));
+    throw SceneError(unknown_column(table, column, views) + fmt::format(" ({} modes)", n_modes));
   }
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +15,7 @@
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
 #include "pipelines/units.hpp"
+#include "pipelines/write_scene.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -42,8 +42,7 @@ struct Reading {
 
   SectionReader section(std::string_view name, std::string_view spec) {
     const auto [position, added] = complete.insert_or_assign(name, toml::table{});
-    return {table(name), section_spec(spec), std::string(name), file,
-            *position->second.as_table()};
+    return {table(name), section_spec(spec), std::string(name), file, *position->second.as_table()};
   }
 };
 
@@ -62,11 +61,10 @@ void check_sections(const Reading& reading, std::string_view kind) {
   for (const auto& [key, node] : reading.given) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
     const std::string near = nearest_name(key.str(), known);
-    throw SceneError(fmt::format(
-        "{}: {}: unknown in a scene of kind \"{}\"; {}", place_of(&node, reading.file), key.str(),
-        kind,
-        near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
-                     : fmt::format("did you mean \"{}\"?", near)));
+    throw SceneError(fmt::format("{}: {}: unknown in a scene of kind \"{}\"; {}",
+                                 place_of(&node, reading.file), key.str(), kind,
+                                 near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                                              : fmt::format("did you mean \"{}\"?", near)));
   }
 }
 
@@ -115,8 +113,8 @@ MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folde
   const std::filesystem::path file = s.text("file");
   model.file = file.is_absolute() ? file : folder / file;
   if (file.extension() != ".msh") {
-    s.fail("file", fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version",
-                               file.string()),
+    s.fail("file",
+           fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version", file.string()),
            s.node("file"));
   }
   s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
@@ -176,9 +174,10 @@ ModesDescription read_modes(const SectionReader& s) {
     std::vector<double> ratios;
     for (const toml::node& entry : *list) ratios.push_back(damping_in(s, entry));
     if (static_cast<int>(ratios.size()) != modes.count) {
-      s.fail("damping_ratio",
-             fmt::format("{} values for {} modes; give one, or one each", ratios.size(), modes.count),
-             &damping);
+      s.fail(
+          "damping_ratio",
+          fmt::format("{} values for {} modes; give one, or one each", ratios.size(), modes.count),
+          &damping);
     }
     modes.damping = ratios;
   } else {
@@ -203,9 +202,10 @@ double read_friction(const SectionReader& s) {
     try {
       static_cast<void>(to_si(*node.value<std::string>(), "1"));
     } catch (const UnitError& error) {
-      s.fail("friction_coefficient",
-             fmt::format("{}; expressions in p and r are not available in this version", error.what()),
-             &node);
+      s.fail(
+          "friction_coefficient",
+          fmt::format("{}; expressions in p and r are not available in this version", error.what()),
+          &node);
     }
   }
   return s.number("friction_coefficient");
@@ -229,8 +229,8 @@ ContactDescription read_contact(const SectionReader& s) {
     if (*word != "auto" && *word != "none") {
       s.fail("fit", "expected a degree, \"auto\" or \"none\"", &fit);
     }
-    contact.fit = *word == "auto" ? ContactDescription::Fit::automatic
-                                  : ContactDescription::Fit::none;
+    contact.fit =
+        *word == "auto" ? ContactDescription::Fit::automatic : ContactDescription::Fit::none;
   } else {
     const auto degree = fit.value<std::int64_t>();
     if (!fit.is_integer() || *degree < 0 || *degree > 30) {
@@ -252,8 +252,8 @@ std::vector<ForceDescription> read_forces(SectionReader& s) {
     if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
     toml::table complete;
     complete.is_inline(true);
-    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces", s.file(),
-                              complete);
+    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces",
+                              s.file(), complete);
     ForceDescription description;
     description.at = force.text("at");
     description.direction = force.direction("direction");
@@ -300,7 +300,8 @@ void read_range(const SectionReader& s, ResponseDescription& response) {
 void read_maps(const SectionReader& s, ResponseDescription& response) {
   const toml::node& node = *s.node("maps");
   const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("maps", "expected a list of \"peak\", \"folds\" or frequencies", &node);
+  if (list == nullptr)
+    s.fail("maps", "expected a list of \"peak\", \"folds\" or frequencies", &node);
   for (const toml::node& entry : *list) {
     const auto word = entry.is_string() ? entry.value<std::string>() : std::nullopt;
     if (word && (*word == "peak" || *word == "folds")) {
@@ -355,7 +356,8 @@ ResponseDescription read_response(const SectionReader& s) {
   if (s.given("optimum_range")) {
     const toml::node& node = *s.node("optimum_range");
     const toml::array* list = node.as_array();
-    if (list == nullptr || list->size() != 2) s.fail("optimum_range", "expected [low, high]", &node);
+    if (list == nullptr || list->size() != 2)
+      s.fail("optimum_range", "expected [low, high]", &node);
     const std::array<double, 2> range{s.number_in(*list->get(0), "optimum_range"),
                                       s.number_in(*list->get(1), "optimum_range")};
     if (!(range[0] > 0.0 && range[0] < range[1])) {
@@ -482,9 +484,7 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   }
   const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
   scene.effects = read_effects(reading.section("effects", "effects"), has_residual);
-  std::ostringstream complete;
-  complete << reading.complete << '\n';
-  scene.complete_toml = complete.str();
+  scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }
 

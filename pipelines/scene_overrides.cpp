@@ -69,9 +69,7 @@ toml::table value_of(const std::string& text, const std::string& assignment) {
 
 /// Moves, because a copy would forget its source.
 void assign(toml::table& table, const std::string& key, toml::node& value) {
-  value.visit([&](auto& content) {
-    table.insert_or_assign(key, std::move(content));
-  });
+  value.visit([&](auto& content) { table.insert_or_assign(key, std::move(content)); });
 }
 
 /// The table one step down, made when it is not there.

@@ -44,7 +44,10 @@ std::string place_of(const toml::node* node, const std::string& file) {
 
 SectionReader::SectionReader(const toml::table* table, SectionSpec spec, std::string path,
                              std::string file, toml::table& complete)
-    : spec_(spec), given_(table), path_(std::move(path)), file_(std::move(file)),
+    : spec_(spec),
+      given_(table),
+      path_(std::move(path)),
+      file_(std::move(file)),
       complete_(complete) {
   std::vector<std::string_view> names;
   for (const KeySpec& key : spec_.keys) names.push_back(key.name);
@@ -85,9 +88,9 @@ const toml::node* SectionReader::node(std::string_view key) const {
   if (given(key)) return given_->get(key);
   const KeySpec& spec = spec_of(key);
   if (spec.preset.empty() && !spec.optional) {
-    fail(key, fmt::format("is missing: {}{}", spec.meaning,
-                          spec.unit.empty() || spec.unit == "1" ? ""
-                                                                : fmt::format(" [{}]", spec.unit)));
+    fail(key,
+         fmt::format("is missing: {}{}", spec.meaning,
+                     spec.unit.empty() || spec.unit == "1" ? "" : fmt::format(" [{}]", spec.unit)));
   }
   return complete_.get(key);
 }
@@ -119,8 +122,9 @@ double SectionReader::number_in(const toml::node& node, std::string_view key) co
   const bool too_low = spec.above_low ? value <= spec.low : value < spec.low;
   const bool ranged = spec.low != 0.0 || spec.high != 0.0;  // both zero: no range in the table
   if (ranged && (too_low || value > spec.high)) {
-    fail(key, fmt::format("{:g} is out of range; expected {}{}", value, range_text(spec),
-                          spec.unit == "1" ? "" : fmt::format(" {}", spec.unit)),
+    fail(key,
+         fmt::format("{:g} is out of range; expected {}{}", value, range_text(spec),
+                     spec.unit == "1" ? "" : fmt::format(" {}", spec.unit)),
          &node);
   }
   return value;
@@ -132,17 +136,16 @@ double SectionReader::number_or_word_in(const toml::node& node, std::string_view
   constexpr std::string_view number_begins = "0123456789.+- \t";
   if (text && (text->empty() || number_begins.find(text->front()) == std::string_view::npos)) {
     const std::string near = nearest_name(*text, words);
-    fail(key, fmt::format("\"{}\" is not known; expected {} or a number [{}]{}", *text,
-                          fmt::join(words, ", "), spec_of(key).unit,
-                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+    fail(key,
+         fmt::format("\"{}\" is not known; expected {} or a number [{}]{}", *text,
+                     fmt::join(words, ", "), spec_of(key).unit,
+                     near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
          &node);
   }
   return number_in(node, key);
 }
 
-double SectionReader::number(std::string_view key) const {
-  return number_in(required(key), key);
-}
+double SectionReader::number(std::string_view key) const { return number_in(required(key), key); }
 
 int SectionReader::integer(std::string_view key) const {
   const toml::node& found = required(key);
@@ -167,8 +170,9 @@ std::string SectionReader::word(std::string_view key,
                                 std::span<const std::string_view> allowed) const {
   std::string value = text(key);
   if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-    fail(key, fmt::format("\"{}\" is not available; expected one of: {}", value,
-                          fmt::join(allowed, ", ")),
+    fail(key,
+         fmt::format("\"{}\" is not available; expected one of: {}", value,
+                     fmt::join(allowed, ", ")),
          &required(key));
   }
   return value;

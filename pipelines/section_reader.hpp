@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include <Eigen/Core>
 #include <toml++/toml.h>
+#include <Eigen/Core>
 
 #include "pipelines/scene_keys.hpp"
 

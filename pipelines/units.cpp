@@ -60,7 +60,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// "5-2 mm" minus ten, "kg^0.5" five. Whole powers and "1/s" are all a unit may hold.
 bool has_stray_number(std::string_view unit) {
   constexpr std::string_view not_first = "0123456789.,+-*^";
-  if (not_first.find(unit.front()) != std::string_view::npos && !unit.starts_with("1/")) return true;
+  if (not_first.find(unit.front()) != std::string_view::npos && !unit.starts_with("1/"))
+    return true;
   for (std::size_t i = 0; i + 1 < unit.size(); ++i) {
     if ((unit[i] == '.' || unit[i] == ',') && is_digit(unit[i + 1])) return true;
     if (unit[i] == ' ' && is_digit(unit[i + 1])) return true;
@@ -95,19 +96,20 @@ std::string expected_text(const std::string& unit) {
 Converter converter_between(const std::string& given, const std::string& unit) {
   const Unit expected = parse_unit(unit);
   if (!expected || (unit != "1" && has_stray_number(unit))) {  // roots of units are beyond UDUNITS
-    throw UnitError(fmt::format("unit \"{}\" is not understood here; give a plain number [{}]", given,
-                                unit));
+    throw UnitError(
+        fmt::format("unit \"{}\" is not understood here; give a plain number [{}]", given, unit));
   }
   const Unit found = has_stray_number(given) ? Unit() : parse_unit(given);
   if (!found) {
     throw UnitError(fmt::format("unknown unit \"{}\"; expected {}", given, expected_text(unit)));
   }
   if (dimension_of(found) != dimension_of(expected)) {
-    throw UnitError(
-        fmt::format("unit \"{}\" measures something else; expected {}", given, expected_text(unit)));
+    throw UnitError(fmt::format("unit \"{}\" measures something else; expected {}", given,
+                                expected_text(unit)));
   }
   Converter converter(ut_get_converter(found.get(), expected.get()));
-  if (!converter) throw UnitError(fmt::format("unit \"{}\" cannot be converted to {}", given, unit));
+  if (!converter)
+    throw UnitError(fmt::format("unit \"{}\" cannot be converted to {}", given, unit));
   return converter;
 }
 

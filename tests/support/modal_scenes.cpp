@@ -122,48 +122,6 @@ std::unique_ptr<contact::PatchForce> copied_patch(const solver::Scene& scene, do
 
 }  // namespace
 
-contact::ForceAndJacobian CubicSpring::evaluate(const contact::Harmonics& q,
-                                                double /*frequency*/) const {
-  const double b = q.rows()(0, 0);
-  const double s = q.rows()(1, 0);
-  const double c = q.rows()(2, 0);
-  const double square = s * s + c * c;
-  const double g = gamma_;
-  contact::ForceAndJacobian result;
-  result.force = contact::Harmonics(1, 1);
-  result.force.vector() << g * (b * b * b + 1.5 * square * b),
-      g * (0.75 * square + 3.0 * b * b) * s, g * (0.75 * square + 3.0 * b * b) * c;
-  result.jacobian.resize(3, 3);
-  result.jacobian << g * (3.0 * b * b + 1.5 * square), 3.0 * g * s * b, 3.0 * g * c * b,
-      6.0 * g * b * s, g * (0.75 * square + 3.0 * b * b + 1.5 * s * s), 1.5 * g * s * c,
-      6.0 * g * b * c, 1.5 * g * s * c, g * (0.75 * square + 3.0 * b * b + 1.5 * c * c);
-  result.frequency_derivative = Eigen::VectorXd::Zero(3);
-  return result;
-}
-
-contact::CycleReport CubicSpring::report(const contact::Harmonics& /*q*/,
-                                         double /*frequency*/) const {
-  return {};
-}
-
-Eigen::MatrixXd CubicSpring::stuck_stiffness() const { return Eigen::MatrixXd::Zero(1, 1); }
-
-solver::Scene Duffing::scene() const {
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
-  solver::Scene result = linear_scene(frequency * one, damping_ratio, one, force * one);
-  result.contact = std::make_unique<CubicSpring>(gamma);
-  return result;
-}
-
-std::pair<double, double> Duffing::frequencies(double amplitude) const {
-  // z = ω²: z² − 2pz + p² − (F/a)² = 0 with k = ω₀² + ¾γa², p = k − 2ζ²ω₀².
-  const double k = frequency * frequency + 0.75 * gamma * amplitude * amplitude;
-  const double p = k - 2.0 * damping_ratio * damping_ratio * frequency * frequency;
-  const double load = force / amplitude;
-  const double root = std::sqrt(p * p - k * k + load * load);
-  return {std::sqrt(p + root), std::sqrt(p - root)};
-}
-
 solver::Scene chain_scene(double preload) {
   // (k₂ − ω²) y₂ = k₂ y₁ gives each mode, then ΦᵀΦ = 1.
   const Eigen::VectorXd frequency = chain_frequencies();

@@ -1,0 +1,346 @@
+/// The built program as a user meets it: exit codes, messages, and nothing half-written.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace microslip {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+const std::string table_header =
+    "tangential_stiffness,normal_stiffness,friction_coefficient,preload,u_sin,u_cos,v_mean,v_sin,"
+    "v_cos\n";
+
+constexpr const char* scene_text = R"([model]
+kind = "modal"
+[modal]
+frequency = [15.9, 41.4]
+damping_ratio = 0.01
+force_sine = [0.0, 0.3]
+output = [0.9, 0.35]
+points = [ { weight = 1, tangential_stiffness = 1e4, normal_stiffness = 1e4, friction_coefficient = 0.3, preload = 2, phi_u_1 = 0.8, phi_u_2 = -0.5, phi_v_1 = 0.1 } ]
+[response]
+frequency = [10, 30]
+)";
+
+/// A folder to work in, and the program run inside it.
+class Program : public testing::Test {
+ protected:
+  /// @param arguments  as typed in a shell.
+  [[nodiscard]] Outcome run(const std::string& arguments,
+                            const std::string& environment = "") const {
+    std::string command = "cd '";
+    command.append(folder()).append("' && ").append(environment);
+    command.append(" '" MICROSLIP_PROGRAM "' ").append(arguments).append(" > .out 2> .err");
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path(".out")),
+            content_of(path(".err"))};
+  }
+
+  /// The exit code, what standard error must hold, and that nothing looks like a crash.
+  void expect(const std::string& arguments, int code, const std::vector<std::string>& parts) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << arguments << "\n" << outcome.err;
+    for (const std::string& part : parts) {
+      EXPECT_NE(outcome.err.find(part), std::string::npos)
+          << arguments << ": \"" << outcome.err << "\" lacks " << part;
+    }
+    for (const char* crash : {"terminate called", "what():", "internal error", "Aborted"}) {
+      EXPECT_EQ(outcome.err.find(crash), std::string::npos) << arguments << "\n" << outcome.err;
+    }
+  }
+
+  [[nodiscard]] std::string folder() const { return folder_.path().string(); }
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+    return folder_.path() / name;
+  }
+  [[nodiscard]] bool exists(const std::string& name) const {
+    return std::filesystem::exists(path(name));
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+Json last_line(const std::string& out) {
+  const std::string text = out.substr(0, out.find_last_not_of('\n') + 1);
+  const auto begin = text.rfind('\n');
+  return Json::parse(begin == std::string::npos ? text : text.substr(begin + 1));
+}
+
+// ---- help and misuse
+
+TEST_F(Program, ExplainsEveryCommandAndOption) {
+  const Outcome help = run("--help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* name : {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report",
+                           "--set", "--resume", "--jobs", "--tolerance", "--budget", "--dry-run",
+                           "--quiet", "--verbose", "--json", "--version"}) {
+    EXPECT_NE(help.out.find(name), std::string::npos) << name;
+  }
+  for (const char* command :
+       {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report"}) {
+    EXPECT_EQ(run(std::string(command) + " --help").code, 0) << command;
+  }
+}
+
+TEST_F(Program, TellsItsVersionBeforeAndAfterACommand) {
+  for (const char* arguments : {"--version", "run --version"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.out, std::string("microslip ") + MICROSLIP_VERSION + "\n");
+  }
+}
+
+TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
+  expect("", 1, {"subcommand"});
+  expect("rnu scene.toml", 1, {"unknown command \"rnu\"", "did you mean \"run\"?"});
+  expect("run", 1, {"scene"});
+  expect("run scene.toml --tollerance 1%", 1, {"--tollerance", "did you mean --tolerance?"});
+  expect("run scene.toml -j 0", 1, {"--jobs"});
+  expect("run scene.toml -j many", 1, {"--jobs"});
+  expect("run scene.toml -q -v", 1, {"--quiet"});
+  expect("check a.toml b.toml", 1, {"b.toml"});
+  expect("mesh scene.toml", 1, {"--output"});
+  expect("check scene.toml --set", 1, {"--set"});
+}
+
+TEST_F(Program, RefusesOptionsOfLaterVersionsByName) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml --resume", 1, {"--resume", "not available in this version"});
+  expect("--tolerance 1% run scene.toml", 1, {"--tolerance", "not available in this version"});
+  expect("run --budget 60s scene.toml", 1, {"--budget", "not available in this version"});
+  expect("converge scene.toml", 1, {"converge", "not available in this version"});
+  EXPECT_FALSE(exists("runs"));
+}
+
+TEST_F(Program, RefusesOptionsThatSayNothingToACommand) {
+  write(path("t.csv"), table_header);
+  expect("cycle t.csv --set modes.count=3", 1, {"--set", "cycle reads no scene"});
+  expect("init modal --set modes.count=3", 1, {"--set"});
+  expect("init modal --dry-run", 1, {"--dry-run"});
+}
+
+TEST_F(Program, EndsStandardOutputWithOneJsonObject) {
+  write(path("scene.toml"), scene_text);
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
+  const auto line = [&](const std::string& arguments) { return last_line(run(arguments).out); };
+  const Json good = line("run scene.toml --json");
+  EXPECT_EQ(good["exit_code"], 0);
+  EXPECT_EQ(good["command"], "run");
+  EXPECT_EQ(good["output"], "runs/scene");
+  EXPECT_FALSE(good.contains("message"));
+  EXPECT_EQ(line("--json cycle t.csv")["exit_code"], 0);
+  const Json bad = line("check none.toml --json");
+  EXPECT_EQ(bad["exit_code"], 1);
+  EXPECT_NE(bad["message"].get<std::string>().find("none.toml"), std::string::npos);
+  EXPECT_EQ(line("check --json")["exit_code"], 1);
+  EXPECT_EQ(line("chekc --json")["exit_code"], 1);
+}
+
+// ---- init, check
+
+TEST_F(Program, ChecksItsOwnTemplates) {
+  EXPECT_EQ(run("init modal -o modal.toml").code, 0);
+  const Outcome checked = run("check modal.toml");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("2 modes"), std::string::npos);
+  EXPECT_EQ(run("init modal").out, content_of(path("modal.toml")));
+  EXPECT_EQ(run("init").out, run("init blade").out);
+}
+
+TEST_F(Program, InitOverwritesNothing) {
+  write(path("mine.toml"), "precious");
+  expect("init modal -o mine.toml", 1, {"mine.toml", "exists"});
+  EXPECT_EQ(content_of(path("mine.toml")), "precious");
+  expect("init step", 1, {"step", "blade, mesh, modal"});
+}
+
+TEST_F(Program, NamesBadScenes) {
+  write(path("scene.toml"), scene_text);
+  expect("check ''", 1, {"no such file"});
+  expect("check none.toml", 1, {"none.toml: no such file"});
+  expect("check .", 1, {"not a file"});
+  expect(std::string("check ").append(4200, 'x'), 1, {"too long"});
+  expect("check scene.toml --set modal.frequncy=1", 1, {"--set modal.frequncy=1", "\"frequency\""});
+  write(path("broken.toml"), std::string(scene_text) + "density = 1e\n");
+  expect("check broken.toml", 1, {"broken.toml:11:"});
+  write(path("mesh.toml"), run("init mesh").out);
+  expect("check mesh.toml", 1, {"blade.msh", "no such file"});
+}
+
+TEST_F(Program, ReadsPathsWithSpacesAndLetters) {
+  std::filesystem::create_directory(path("my scénes"));
+  write(path("my scénes/a b.toml"), scene_text);
+  EXPECT_EQ(run("check 'my scénes/a b.toml'").code, 0);
+}
+
+// ---- cycle
+
+TEST_F(Program, WritesCyclesToStandardOutputOrAFile) {
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,1,0.5,1,1,0,0,2,0\n");
+  const Outcome shown = run("cycle t.csv");
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_EQ(Json::parse(shown.out).size(), 2U);
+  EXPECT_EQ(shown.err, "");
+  EXPECT_EQ(run("cycle t.csv -o t.json").out, "");
+  EXPECT_EQ(content_of(path("t.json")), shown.out);
+  EXPECT_EQ(Json::parse(run("cycle t.csv --harmonics 3").out)[0]["friction"]["sin"].size(), 3U);
+  expect("cycle t.csv --harmonics 0", 1, {"--harmonics"});
+}
+
+TEST_F(Program, WritesNothingWhenARowIsBad) {
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,-1,0.5,1,1,0,0,2,0\n");
+  write(path("old.json"), "old");
+  expect("cycle t.csv -o old.json", 1, {"t.csv:3: normal_stiffness: -1 is negative"});
+  EXPECT_EQ(content_of(path("old.json")), "old");
+  EXPECT_EQ(run("cycle t.csv").out, "");
+  expect("cycle t.csv -o new.json", 1, {"t.csv:3"});
+  EXPECT_FALSE(exists("new.json"));
+  expect("cycle none.csv", 1, {"none.csv: no such file"});
+}
+
+TEST_F(Program, DryRunWritesNothing) {
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
+  write(path("scene.toml"), scene_text);
+  EXPECT_EQ(run("cycle t.csv -o t.json --dry-run").code, 0);
+  EXPECT_EQ(run("run scene.toml --dry-run").code, 0);
+  EXPECT_FALSE(exists("t.json"));
+  EXPECT_FALSE(exists("runs"));
+}
+
+TEST_F(Program, NumbersHaveAPointInAnyLocale) {
+  write(path("t.csv"), table_header + "1.5,1,0.5,1,3,0,0,0.2,0\n");
+  const std::string plain = run("cycle t.csv").out;
+  for (const char* locale : {"LC_ALL=de_DE.UTF-8", "LC_ALL=fr_FR.UTF-8", "LC_ALL=nonsense"}) {
+    EXPECT_EQ(run("cycle t.csv", locale).out, plain) << locale;
+  }
+}
+
+TEST_F(Program, AFullDiskIsExitFour) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  std::string command = "'" MICROSLIP_PROGRAM "' init modal > /dev/full 2> '";
+  command.append(path("err").string()).append("'");
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
+}
+
+TEST_F(Program, AnOutputThatCannotBeMadeIsExitFour) {
+  write(path("scene.toml"), scene_text);
+  write(path("t.csv"), table_header);
+  expect("run scene.toml -o scene.toml/below", 4, {"scene.toml/below"});
+  expect("cycle t.csv -o no/such/folder/t.json", 4, {"no/such/folder"});
+}
+
+// ---- run on a modal scene
+
+TEST_F(Program, RunsAModalSceneIntoAFolderOfWholeFiles) {
+  write(path("scene.toml"), scene_text);
+  const Outcome outcome = run("run scene.toml -o out --set response.preload_scale=[0.5,2]");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* name : {"scene.toml", "summary.json", "modes.csv", "model.h5", "log.txt",
+                           "curves/scale_0.5.csv", "curves/scale_2.states.csv"}) {
+    EXPECT_TRUE(exists(std::string("out/") + name)) << name;
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+  const Json summary = Json::parse(content_of(path("out/summary.json")));
+  EXPECT_EQ(summary["exit_code"], 0);
+  EXPECT_EQ(summary["curves"].size(), 2U);
+}
+
+/// The scene written into the run folder is a scene: run again, it gives the same curve bit for bit.
+TEST_F(Program, RunsTheSceneOfARunFolderToTheSameCurve) {
+  write(path("scene.toml"), scene_text);
+  ASSERT_EQ(run("run scene.toml -o one --set modal.damping_ratio='0.7 %'").code, 0);
+  ASSERT_EQ(run("run one/scene.toml -o two").code, 0);
+  EXPECT_EQ(content_of(path("one/curves/scale_1.csv")), content_of(path("two/curves/scale_1.csv")));
+  EXPECT_EQ(content_of(path("one/scene.toml")), content_of(path("two/scene.toml")));
+}
+
+TEST_F(Program, ABadSceneLeavesNoRunFolder) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml --set modal.damping_ratio=-1", 1, {"damping_ratio", "negative"});
+  EXPECT_FALSE(exists("runs"));
+}
+
+TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
+         {"rigid-body"});
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
+}
+
+TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
+  std::string scales = "[1";
+  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));  // work for minutes
+  write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
+  const std::string scene = path("scene.toml").string();
+  const std::string out = path("out").string();
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl(MICROSLIP_PROGRAM, "microslip", "run", scene.c_str(), "-o", out.c_str(), "-q", nullptr);
+    ::_exit(127);
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto patience = Clock::now() + std::chrono::seconds(20);
+  while (!exists("out/curves/scale_1.csv") && Clock::now() < patience) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const auto asked = Clock::now();
+  ASSERT_EQ(::kill(child, SIGINT), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_LT(Clock::now() - asked, std::chrono::milliseconds(1500));  // a second, and a busy machine
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 3);
+  EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+}
+
+TEST_F(Program, TwoRunsDoNotShareAFolder) {
+  write(path("scene.toml"), scene_text);
+  ASSERT_EQ(run("run scene.toml -o out").code, 0);
+  const std::string before = content_of(path("out/summary.json"));
+  const Outcome outcome = run("run scene.toml -o out", "flock out/.lock");
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("another run"), std::string::npos) << outcome.err;
+  EXPECT_EQ(content_of(path("out/summary.json")), before);
+}
+
+}  // namespace
+}  // namespace microslip
