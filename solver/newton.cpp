@@ -48,7 +48,7 @@ class Iteration {
   }
 
  private:
-  NewtonResult evaluated(BranchVector point) const {
+  [[nodiscard]] NewtonResult evaluated(BranchVector point) const {
     NewtonResult result;
     result.point = std::move(point);
     result.evaluation = system_(result.point.x, result.point.parameter);

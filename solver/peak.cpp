@@ -142,6 +142,7 @@ Optimum minimise_peak(const std::function<Scene(double)>& family, const Continua
   const double low = std::log(options.lower);
   const double spacing = (std::log(options.upper) - low) / (options.n_scan - 1);
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(options.n_scan));
   for (int i = 0; i < options.n_scan; ++i) values.push_back(peak(low + spacing * i));
   const auto least = std::min_element(values.begin(), values.end());
   const auto index = static_cast<int>(least - values.begin());
