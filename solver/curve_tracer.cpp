@@ -13,8 +13,8 @@
 namespace microslip::solver {
 namespace {
 
-// Bounds of a step in frequency, as shares of the range: ten points are the least a curve has, and a
-// resonance narrower than the lower bound cannot be told from its neighbours in double precision.
+// Bounds of a step in frequency, as shares of the range: ten points are the least a curve has, and
+// a resonance narrower than the lower bound cannot be told from its neighbours in double precision.
 constexpr double widest = 0.1;
 constexpr double narrowest = 1e-7;
 
@@ -49,8 +49,7 @@ StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
 
 Scaling CurveTracer::scaling_at(const NewtonResult& at) {
   Scaling scaling = natural_scaling(balance_, at.point.x, at.point.parameter);
-  scaling.parameter =
-      std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
+  scaling.parameter = std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
   return scaling;
 }
 
@@ -126,7 +125,8 @@ ResponseCurve CurveTracer::run() {
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
   if (!start.solution) {
-    stop("no-start", at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
+    stop("no-start",
+         at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
     return std::move(curve_);
   }
   const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {

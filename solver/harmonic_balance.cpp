@@ -43,8 +43,7 @@ HarmonicBalance::HarmonicBalance(const Scene& scene, int n_harmonics)
   excitation_ = excitation.vector();
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
-  stuck_stiffness_ =
-      scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
+  stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
 }
 
 Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
@@ -109,8 +108,7 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
   Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
   add_stiffness(stiffness, 1.0, linear);
   const Eigen::VectorXd linear_force = linear * x;
-  result.residual =
-      share * result.contact_force + (1.0 - share) * linear_force - excitation_;
+  result.residual = share * result.contact_force + (1.0 - share) * linear_force - excitation_;
   result.jacobian = share * contact.jacobian + (1.0 - share) * linear;
   result.parameter_derivative = Eigen::VectorXd::Zero(size());
   add_linear_part(x, frequency, result);

@@ -48,7 +48,7 @@ class Iteration {
   }
 
  private:
-  NewtonResult evaluated(BranchVector point) const {
+  [[nodiscard]] NewtonResult evaluated(BranchVector point) const {
     NewtonResult result;
     result.point = std::move(point);
     result.evaluation = system_(result.point.x, result.point.parameter);
@@ -82,8 +82,8 @@ class Iteration {
 
   [[nodiscard]] NewtonResult stepped(const BranchVector& step, double length) {
     ++now_.evaluations;
-    return evaluated({now_.point.x + length * step.x,
-                      now_.point.parameter + length * step.parameter});
+    return evaluated(
+        {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter});
   }
 
   /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step

@@ -12,7 +12,8 @@ namespace {
 
 // Of a segment, which is at most a fifth of a resonance wide: below it are rounding errors only.
 constexpr double finest_share = 1e-13;
-constexpr int max_cuts = 90;  // bisection alone needs 44 for the finest share, and a third are bisections
+constexpr int max_cuts =
+    90;  // bisection alone needs 44 for the finest share, and a third are bisections
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
 
@@ -73,8 +74,8 @@ class Segment {
                             point.tangent.parameter * point.scaling.parameter};
     const double length = scaled_length(step);
     if (kind_ == PointMark::fold) return {point.solution.point.parameter, step.parameter / length};
-    const auto amplitude = output_amplitude(balance_.harmonics(point.solution.point.x),
-                                            balance_.scene().output);
+    const auto amplitude =
+        output_amplitude(balance_.harmonics(point.solution.point.x), balance_.scene().output);
     return {amplitude.half_peak_to_peak, amplitude.gradient.dot(step.x) / length};
   }
 
@@ -125,7 +126,8 @@ class Segment {
 
 }  // namespace
 
-std::vector<SpecialPoint> special_points(const BranchWalker& walker, const HarmonicBalance& balance) {
+std::vector<SpecialPoint> special_points(const BranchWalker& walker,
+                                         const HarmonicBalance& balance) {
   std::vector<SpecialPoint> found = Segment(walker, balance, PointMark::peak).search();
   for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
     found.push_back(std::move(fold));

@@ -73,8 +73,8 @@ Scaling natural_scaling(const HarmonicBalance& balance, const Eigen::VectorXd& x
     const double stiffness = balance.scene().natural_frequency.cwiseAbs2().maxCoeff();
     scaling.x = stiffness > 0.0 ? scaling.residual / stiffness : 1.0;
   }
-  scaling.rounding = std::numeric_limits<double>::epsilon() *
-                     balance.largest_terms(x, frequency) / scaling.residual;
+  scaling.rounding = std::numeric_limits<double>::epsilon() * balance.largest_terms(x, frequency) /
+                     scaling.residual;
   if (!std::isfinite(scaling.rounding)) scaling.rounding = 0.0;
   return scaling;
 }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "duffing.hpp"
+#include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -57,8 +61,8 @@ TEST(Continuation, ThePeakIsWhereTheForceMeetsTheDampingAlone) {
   const double A = peaks[0].amplitude;
   const double omega = peaks[0].frequency;
   // ∂F²/∂ω = 0: (1 − ω² + ¾αA²) = 2ζ²
-  EXPECT_NEAR(1.0 - omega * omega + 0.75 * duffing.alpha * A * A,
-              2.0 * duffing.zeta * duffing.zeta, 1e-8);
+  EXPECT_NEAR(1.0 - omega * omega + 0.75 * duffing.alpha * A * A, 2.0 * duffing.zeta * duffing.zeta,
+              1e-8);
 }
 
 TEST(Continuation, BetweenFoldsAndNowhereElseThePointsAreUnstable) {
@@ -82,8 +86,7 @@ TEST(Continuation, FindsPeaksAMillionTimesNarrowerThanTheRange) {
   const auto curve = trace_response(duffing.scene(), from_to(0.5, 1.5));
   const auto peaks = marked(curve, PointMark::peak);
   ASSERT_EQ(peaks.size(), 1U);
-  EXPECT_NEAR(peaks[0].amplitude, duffing.force / (2.0 * duffing.zeta),
-              1e-6 * peaks[0].amplitude);
+  EXPECT_NEAR(peaks[0].amplitude, duffing.force / (2.0 * duffing.zeta), 1e-6 * peaks[0].amplitude);
 }
 
 TEST(Continuation, ReversedAndForwardSweepsMeetTheSameMarks) {
@@ -158,6 +161,92 @@ TEST(Continuation, RefusesFrequenciesThatAreNone) {
                std::invalid_argument);
   EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), from_to(1.0, std::nan("")))),
                std::invalid_argument);
+}
+
+/// Frequencies where ω(A) turns beyond the peak, ascending: a scan of dω²/dA of the closed form, then
+/// bisection. ω² = p + √(p² − k² + (F/A)²) with k = 1 + ¾αA², p = k − 2ζ².
+std::vector<double> closed_form_folds(const Duffing& d, double highest) {
+  const double drop = 2.0 * d.zeta * d.zeta;
+  const auto k = [&](double A) { return 1.0 + 0.75 * d.alpha * A * A; };
+  const auto root = [&](double A) {
+    return std::sqrt(drop * (drop - 2.0 * k(A)) + std::pow(d.force / A, 2));
+  };
+  const auto slope = [&](double A) {
+    const double dk = 1.5 * d.alpha * A;
+    return dk - (drop * dk + d.force * d.force / (A * A * A)) / root(A);
+  };
+  std::vector<double> folds;
+  constexpr int n = 2000;
+  for (int i = 1; i < n; ++i) {
+    double low = highest * i / n;
+    double high = std::min(highest * (i + 1) / n, highest * (1.0 - 1e-10));
+    const bool rises = slope(low) < 0.0;
+    if (rises == (slope(high) < 0.0)) continue;
+    for (int j = 0; j < 100; ++j) {
+      const double middle = 0.5 * (low + high);
+      ((slope(middle) < 0.0) == rises ? low : high) = middle;
+    }
+    folds.push_back(std::sqrt(k(low) - drop + root(low)));
+  }
+  std::sort(folds.begin(), folds.end());
+  return folds;
+}
+
+TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), from_to(0.5, 2.5));
+  const auto expected = closed_form_folds(duffing, marked(curve, PointMark::peak).at(0).amplitude);
+  const auto folds = marked(curve, PointMark::fold);
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(folds.size(), 2U);
+  // The frequency is flat at a fold: an error of the amplitude counts by its square.
+  EXPECT_NEAR(folds[0].frequency, expected[1], 1e-12);
+  EXPECT_NEAR(folds[1].frequency, expected[0], 1e-12);
+}
+
+TEST(Continuation, NamesACurveThatDoesNotEnd) {
+  ContinuationOptions options = from_to(0.5, 2.5);
+  options.max_points = 20;
+  const auto curve = trace_response(Duffing{}.scene(), options);
+  EXPECT_FALSE(curve.complete);
+  EXPECT_EQ(curve.diagnosis, "loop");
+  EXPECT_FALSE(curve.message.empty());
+}
+
+TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), from_to(0.8, 0.8));
+  ASSERT_TRUE(curve.complete);
+  ASSERT_EQ(curve.points.size(), 1U);
+  EXPECT_LT(std::abs(duffing.defect(curve.points[0].amplitude, 0.8)), 1e-12);
+}
+
+TEST(TraceLinear, HasTheLimitsOfTheContact) {
+  const Scene scene = tests::chain_scene(30.0);
+  const ContinuationOptions options = from_to(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
+  const Eigen::MatrixXd stuck = scene.contact->stuck_stiffness();
+  for (const LinearLimit limit : {LinearLimit::free, LinearLimit::stuck}) {
+    const ResponseCurve curve = trace_linear(scene, limit, options);
+    ASSERT_TRUE(curve.complete);
+    EXPECT_EQ(marked(curve, PointMark::peak).size(), 2U);
+    const double share = limit == LinearLimit::stuck ? 1.0 : 0.0;
+    for (const ResponsePoint& point : curve.points) {
+      Eigen::Matrix2cd matrix = (share * stuck).cast<std::complex<double>>();
+      for (Eigen::Index n = 0; n < 2; ++n) {
+        const double natural = scene.natural_frequency[n];
+        matrix(n, n) +=
+            std::complex<double>(natural * natural - point.frequency * point.frequency,
+                                 2.0 * scene.damping_ratio[n] * natural * point.frequency);
+      }
+      const Eigen::Vector2cd force =
+          scene.excitation.rows().row(1).transpose().cast<std::complex<double>>();
+      const Eigen::Vector2cd motion = matrix.inverse() * force;
+      const std::complex<double> y = motion[0] * scene.output[0] + motion[1] * scene.output[1];
+      EXPECT_NEAR(point.amplitude, std::abs(y), 1e-12 * motion.norm());
+      EXPECT_LT(point.energy_imbalance, 1e-10);
+      EXPECT_EQ(point.report.stick_share, share);
+    }
+  }
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "solver/harmonic_balance.hpp"
 
 #include <cmath>
+#include <complex>
+#include <memory>
 
 #include <gtest/gtest.h>
 
+#include "solver/linear_force.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -31,9 +34,9 @@ TEST(HarmonicBalance, JacobianIsTheDifferenceOfResiduals) {
     Eigen::Index far = 0;
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), j);
-      const Eigen::VectorXd difference =
-          (balance.evaluate(x + step, omega).residual - balance.evaluate(x - step, omega).residual) /
-          (2.0 * h);
+      const Eigen::VectorXd difference = (balance.evaluate(x + step, omega).residual -
+                                          balance.evaluate(x - step, omega).residual) /
+                                         (2.0 * h);
       // A kink of one of the points inside the step shows as h times its curvature at most.
       if ((difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() > 1e-5 * scale) ++far;
     }
@@ -48,7 +51,8 @@ TEST(HarmonicBalance, FrequencyDerivativeIsTheDifferenceOfResiduals) {
   const Eigen::VectorXd x = some_motion(balance, omega);
   const double h = 1e-5 * omega;
   const Eigen::VectorXd difference =
-      (balance.evaluate(x, omega + h).residual - balance.evaluate(x, omega - h).residual) / (2.0 * h);
+      (balance.evaluate(x, omega + h).residual - balance.evaluate(x, omega - h).residual) /
+      (2.0 * h);
   const auto at = balance.evaluate(x, omega);
   EXPECT_LT((difference - at.parameter_derivative).norm(), 1e-9 * at.parameter_derivative.norm());
 }
@@ -79,6 +83,63 @@ TEST(HarmonicBalance, RefusesScenesWhoseSizesDiffer) {
   auto random = tests::random_scene(1);
   random.scene.output.conservativeResize(random.scene.n_modes() + 1);
   EXPECT_THROW(HarmonicBalance(random.scene, 1), std::invalid_argument);
+}
+
+/// Numbers of order one on no symmetry.
+Eigen::VectorXd wave(Eigen::Index size) {
+  Eigen::VectorXd x(size);
+  for (Eigen::Index i = 0; i < size; ++i) x[i] = std::cos(2.3 * static_cast<double>(i) + 0.4);
+  return x;
+}
+
+/// A linear scene with two harmonics.
+Scene two_harmonics() {
+  Scene scene;
+  scene.natural_frequency = Eigen::Vector3d(1.0, 2.5, 0.0);
+  scene.damping_ratio = Eigen::Vector3d(0.01, 0.2, 0.3);
+  scene.output = Eigen::Vector3d(1.0, 0.5, -0.3);
+  scene.excitation = Harmonics(2, 3);
+  scene.excitation.vector() = wave(15);
+  Eigen::Matrix3d stiffness;
+  stiffness << 2.0, 0.3, 0.1, 0.3, 1.0, -0.2, 0.1, -0.2, 0.5;
+  scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+  return scene;
+}
+
+TEST(HarmonicBalance, JacobianOfTwoHarmonicsIsTheDifferenceOfResiduals) {
+  const Scene scene = two_harmonics();
+  const HarmonicBalance balance(scene, 2);
+  const Eigen::VectorXd x = wave(balance.size());
+  const auto at = balance.evaluate(x, 0.8);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(x.size(), i);  // linear: any step is exact
+    const Eigen::VectorXd difference = balance.evaluate(x + step, 0.8).residual - at.residual;
+    EXPECT_LT((difference - at.jacobian.col(i)).norm(), 1e-13 * at.jacobian.norm());
+  }
+  const double h = 1e-6;
+  const Eigen::VectorXd difference =
+      (balance.evaluate(x, 0.8 + h).residual - balance.evaluate(x, 0.8 - h).residual) / (2.0 * h);
+  EXPECT_LT((difference - at.parameter_derivative).norm(), 1e-8 * at.parameter_derivative.norm());
+}
+
+TEST(HarmonicBalance, LinearPartIsTheComplexImpedanceOfEachHarmonic) {
+  const Scene scene = two_harmonics();
+  const HarmonicBalance balance(scene, 2);
+  const double omega = 1.3;
+  const Eigen::VectorXd x = wave(balance.size());
+  const Harmonics q = balance.harmonics(x);
+  const Harmonics force = balance.harmonics(balance.linear_operator(omega) * x);
+  using Complex = std::complex<double>;
+  for (int k = 1; k <= 2; ++k) {
+    for (Eigen::Index n = 0; n < 3; ++n) {
+      const double natural = scene.natural_frequency[n];
+      const Complex impedance(natural * natural - k * k * omega * omega,
+                              2.0 * scene.damping_ratio[n] * natural * k * omega);
+      const Complex expected = impedance * Complex(q.sine(k)[n], q.cosine(k)[n]);
+      EXPECT_NEAR(force.sine(k)[n], expected.real(), 1e-14 * std::abs(impedance));
+      EXPECT_NEAR(force.cosine(k)[n], expected.imag(), 1e-14 * std::abs(impedance));
+    }
+  }
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ TEST(BranchWalker, GoesRoundACircle) {
     return scalar(x[0] * x[0] + p * p - 1.0, 2.0 * x[0], 2.0 * p);
   };
   auto start = solve_newton(circle, at(1.0, 0.0), Scaling{}, {});
-  BranchWalker walker(circle, [](const NewtonResult&) { return Scaling{}; }, start, 1.0);
+  BranchWalker walker(
+      circle, [](const NewtonResult&) { return Scaling{}; }, start, 1.0);
   double turned = 0.0;
   double before = 0.0;
   for (int i = 0; i < 500 && turned < 2.0 * M_PI; ++i) {
@@ -70,10 +71,12 @@ TEST(BranchWalker, GoesRoundACircle) {
 /// fold without a vertical tangent, as where slip begins.
 TEST(BranchWalker, TurnsBackAtASharpKink) {
   const ParametricSystem kink = [](const Eigen::VectorXd& x, double p) {
-    return x[0] <= 1.0 ? scalar(p - x[0], -1.0, 1.0) : scalar(p - 1.0 + 3.0 * (x[0] - 1.0), 3.0, 1.0);
+    return x[0] <= 1.0 ? scalar(p - x[0], -1.0, 1.0)
+                       : scalar(p - 1.0 + 3.0 * (x[0] - 1.0), 3.0, 1.0);
   };
   auto start = solve_newton(kink, at(0.0, 0.0), Scaling{}, {});
-  BranchWalker walker(kink, [](const NewtonResult&) { return Scaling{}; }, start, 1.0);
+  BranchWalker walker(
+      kink, [](const NewtonResult&) { return Scaling{}; }, start, 1.0);
   for (int i = 0; i < 200 && walker.now().solution.point.x[0] < 1.3; ++i) {
     ASSERT_TRUE(walker.advance());
   }
@@ -89,6 +92,44 @@ TEST(NullVector, KeepsTheOrientation) {
   EXPECT_NEAR(2.0 * forward->x[0] + forward->parameter, 0.0, 1e-15);
   EXPECT_NEAR(forward->x[0] + backward->x[0], 0.0, 1e-15);
   EXPECT_GT(2.0 * forward->parameter - forward->x[0], 0.0);  // det [2 1; x p]
+}
+
+TEST(Newton, PolishesToRounding) {
+  const ParametricSystem system = [](const Eigen::VectorXd& x, double p) {
+    return scalar(x[0] * x[0] * x[0] - p, 3.0 * x[0] * x[0], -1.0);
+  };
+  const auto result = solve_newton(system, at(2.0, 3.0), Scaling{}, {});
+  ASSERT_TRUE(result.converged);
+  EXPECT_NEAR(result.point.x[0], std::cbrt(3.0), 1e-15);
+  EXPECT_EQ(result.point.parameter, 3.0);
+}
+
+TEST(Newton, AsksNoResidualBelowItsRounding) {
+  // A residual that never falls below 1e-8, with the tolerance at 1e-11.
+  const ParametricSystem system = [](const Eigen::VectorXd& x, double) {
+    return scalar(x[0] + (x[0] > 0.0 ? 1e-8 : -1e-8), 1.0, 0.0);
+  };
+  EXPECT_FALSE(solve_newton(system, at(1.0, 0.0), Scaling{}, {}).converged);
+  Scaling noisy;
+  noisy.rounding = 2e-8;
+  const auto result = solve_newton(system, at(1.0, 0.0), noisy, {});
+  EXPECT_TRUE(result.converged);
+  EXPECT_LE(result.residual, 2e-8);
+}
+
+TEST(Newton, StaysOnThePlaneOfItsConstraint) {
+  const ParametricSystem circle = [](const Eigen::VectorXd& x, double p) {
+    return scalar(x[0] * x[0] + p * p - 1.0, 2.0 * x[0], 2.0 * p);
+  };
+  Scaling scaling;
+  scaling.x = 0.5;
+  scaling.parameter = 2.0;
+  const auto result = solve_newton(circle, at(0.7, 0.9), at(0.6, 0.8), scaling, {});
+  ASSERT_TRUE(result.converged);
+  const double x = result.point.x[0];
+  const double p = result.point.parameter;
+  EXPECT_NEAR(std::hypot(x, p), 1.0, 1e-15);
+  EXPECT_NEAR(0.6 * (x - 0.7) / 0.5 + 0.8 * (p - 0.9) / 2.0, 0.0, 1e-14);
 }
 
 }  // namespace

@@ -37,13 +37,39 @@ TEST(Stability, OfThreeCoexistingSolutionsTheMiddleOneIsUnstable) {
     if (point.mark == PointMark::fold) folds.push_back(point.frequency);
   }
   ASSERT_GE(folds.size(), 2U);
-  const auto points =
-      points_at_frequency(scene, curve, 0.5 * (folds[0] + folds[1]), options);
+  const auto points = points_at_frequency(scene, curve, 0.5 * (folds[0] + folds[1]), options);
   ASSERT_EQ(points.size(), 3U);
   EXPECT_EQ(points[0].stability, Stability::stable);
   EXPECT_EQ(points[1].stability, Stability::unstable);
   EXPECT_EQ(points[2].stability, Stability::stable);
   EXPECT_LT(points[1].determinant_sign, 0.0);
+}
+
+TEST(Stability, DeterminantAndGrowthJudgeAlike) {
+  // Theory section 20.4 at all three preloads that jump: each on its own finds the middle motion
+  // unstable.
+  ContinuationOptions options;
+  options.frequency_begin = 2.0 * std::numbers::pi * 18.0;
+  options.frequency_end = 2.0 * std::numbers::pi * 28.0;
+  for (const double preload : {25.0, 30.0, 50.0}) {
+    const Scene scene = tests::three_dof_scene(preload);
+    const HarmonicBalance balance(scene, 1);
+    for (const auto& point : trace_response(scene, options).points) {
+      if (point.mark == PointMark::fold) continue;  // neutral
+      const auto at = balance.evaluate(point.q.vector(), point.frequency);
+      const StabilityReport report = assess_stability(balance, at.jacobian, point.frequency);
+      EXPECT_EQ(report.growth > 0.0, report.determinant_sign < 0.0) << preload;
+    }
+  }
+}
+
+TEST(Stability, NegativeDampingIsUnstable) {
+  tests::Duffing linear;
+  linear.alpha = 0.0;
+  linear.zeta = -0.01;
+  const auto curve = solve_at_frequency(linear.scene(), 0.9, {});
+  ASSERT_TRUE(curve.complete);
+  EXPECT_EQ(curve.points[0].stability, Stability::unstable);
 }
 
 }  // namespace

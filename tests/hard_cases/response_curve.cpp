@@ -1,0 +1,259 @@
+// What is hard: curves with vanishing damping, forces or contact, jumps either way, and parameters
+// many decades apart (rows 33, 35, 38–42, 45, 47, 51 and 52 of the project's list of hard cases).
+// Met in: paper A (jumps of low preloads and of gaps), paper B figure 9, random modal scenes.
+// Right: every curve complete, every point with its energy balance, limits met.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/modal_scenes.hpp"
+
+namespace microslip {
+namespace {
+
+using solver::PointMark;
+using solver::ResponseCurve;
+using solver::ResponsePoint;
+
+constexpr double certificate = 1e-10;  // energy balance and dissipation of every written point
+
+solver::ContinuationOptions range(double begin, double end) {
+  solver::ContinuationOptions options;
+  options.frequency_begin = begin;
+  options.frequency_end = end;
+  return options;
+}
+
+std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
+  std::vector<ResponsePoint> list;
+  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(list),
+               [&](const ResponsePoint& point) { return point.mark == mark; });
+  return list;
+}
+
+void expect_proven(const ResponseCurve& curve, const std::string& what) {
+  ASSERT_TRUE(curve.complete) << what << ": " << curve.diagnosis << ", " << curve.message;
+  for (const ResponsePoint& point : curve.points) {
+    ASSERT_TRUE(point.q.vector().allFinite()) << what;
+    ASSERT_LE(point.energy_imbalance, certificate) << what << " at " << point.frequency;
+    ASSERT_LE(point.dissipation_mismatch, certificate) << what << " at " << point.frequency;
+  }
+}
+
+/// One mode of 1 rad/s, one point; the normal motion follows from phi_v.
+tests::SinglePoint oscillator(const contact::PointParameters& point, double phi_v = 0.0) {
+  tests::SinglePoint single;
+  single.point = point;
+  single.phi_v = phi_v;
+  return single;
+}
+
+TEST(ResponseCurveHard, FindsTheNarrowPeakOfADampingRatioOfAMillionth) {
+  // Row 33. Full stick: the peak of a linear oscillator, F / (2ζ ω₀ √(1 + k) √(1 − ζ²/(1 + k))).
+  tests::SinglePoint single = oscillator({2.0, 0.0, 0.5, 1e9});
+  single.damping_ratio = 1e-6;
+  const ResponseCurve curve =
+      solver::trace_response(tests::single_point_scene(single), range(0.5, 3.0));
+  expect_proven(curve, "stuck");
+  const auto peaks = marked(curve, PointMark::peak);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_NEAR(peaks[0].frequency, std::sqrt(3.0), 1e-10);
+  // The damping force itself is a difference of terms 1e6 times larger.
+  EXPECT_NEAR(peaks[0].amplitude, 1.0 / (2e-6 * std::sqrt(3.0)), 1e-9 * peaks[0].amplitude);
+}
+
+TEST(ResponseCurveHard, FrictionAloneBoundsTheResonanceWithoutDamping) {
+  // Row 33. The limit μn₀ is above πF/4: friction eats what the force brings, at any amplitude.
+  tests::SinglePoint single = oscillator({5.0, 0.0, 0.5, 4.0});
+  single.damping_ratio = 0.0;
+  const ResponseCurve curve =
+      solver::trace_response(tests::single_point_scene(single), range(0.5, 2.2));
+  expect_proven(curve, "friction alone");
+  EXPECT_EQ(marked(curve, PointMark::peak).size(), 1U);
+}
+
+TEST(ResponseCurveHard, OffResonanceNeedsNoDamping) {
+  // Row 33.
+  tests::SinglePoint single = oscillator({2.0, 0.0, 0.5, 1e9});
+  single.damping_ratio = 0.0;
+  const auto curve = solver::solve_at_frequency(tests::single_point_scene(single), 1.2, {});
+  ASSERT_TRUE(curve.complete);
+  EXPECT_NEAR(curve.points[0].amplitude, 1.0 / (3.0 - 1.44), 1e-13);
+  EXPECT_EQ(curve.points[0].energy_imbalance, 0.0);
+}
+
+TEST(ResponseCurveHard, AModeThatNothingMovesChangesNothing) {
+  // Row 35. The same scene with a third mode that has neither force nor patch motion nor output.
+  const solver::Scene two = tests::chain_scene(30.0);
+  solver::Scene three = tests::chain_scene(30.0);
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(*two.contact);
+  three.natural_frequency =
+      Eigen::Vector3d(two.natural_frequency[0], two.natural_frequency[1], 200.0);
+  three.damping_ratio = Eigen::Vector3d::Constant(0.02);
+  three.output = Eigen::Vector3d(two.output[0], two.output[1], 0.0);
+  three.excitation = contact::Harmonics(1, 3);
+  three.excitation.rows().leftCols(2) = two.excitation.rows();
+  contact::ModalShapes shapes{Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Zero(1, 3), {}};
+  shapes.u.leftCols(2) = patch.shapes().u;
+  three.contact = std::make_unique<contact::PatchForce>(patch.patch(), shapes);
+  for (const double hertz : {18.0, 22.0, 24.0, 28.0}) {
+    const double omega = 2.0 * M_PI * hertz;
+    const auto without = solver::solve_at_frequency(two, omega, {});
+    const auto with = solver::solve_at_frequency(three, omega, {});
+    ASSERT_TRUE(without.complete && with.complete);
+    EXPECT_NEAR(with.points[0].amplitude, without.points[0].amplitude,
+                1e-12 * without.points[0].amplitude);
+    EXPECT_EQ(with.points[0].q.rows().col(2).norm(), 0.0);
+  }
+}
+
+TEST(ResponseCurveHard, SweepsExactlyThroughNaturalFrequencies) {
+  // Row 38: begin, end and one point exactly at the mode.
+  const solver::Scene scene = tests::single_point_scene(oscillator({2.0, 0.0, 0.5, 1.0}));
+  expect_proven(solver::trace_response(scene, range(1.0, 2.0)), "from the mode");
+  expect_proven(solver::trace_response(scene, range(0.5, 1.0)), "to the mode");
+  expect_proven(solver::solve_at_frequency(scene, 1.0, {}), "at the mode");
+}
+
+TEST(ResponseCurveHard, AlmostStuckAndAlmostFreeTendToTheLimits) {
+  // Row 39. At 1.5 rad/s the stuck amplitude is 1/|3 − 2.25| = 1.33: slip begins at μn₀ = 2.67.
+  const double omega = 1.5;
+  const auto amplitude = [&](double preload) {
+    const auto curve = solver::solve_at_frequency(
+        tests::single_point_scene(oscillator({2.0, 0.0, 0.5, preload})), omega, {});
+    EXPECT_TRUE(curve.complete) << preload;
+    return curve.points.at(0).amplitude;
+  };
+  const double stuck = 1.0 / std::hypot(3.0 - omega * omega, 0.02 * omega);
+  const double free = 1.0 / std::hypot(1.0 - omega * omega, 0.02 * omega);
+  const double limit = 2.0 * stuck / 0.5;  // preload at which slip begins
+  EXPECT_NEAR(amplitude(1.000001 * limit), stuck, 1e-13);
+  for (const double below : {1e-2, 1e-4, 1e-6}) {
+    // The force turns linearly in the excess (f_c) and leaves the amplitude by its square or 3/2
+    // power.
+    const double change = std::abs(amplitude((1.0 - below) * limit) - stuck);
+    EXPECT_GT(change, 0.0);
+    EXPECT_LT(change, 20.0 * below);
+  }
+  for (const double preload : {1e-2, 1e-4, 1e-6}) {
+    EXPECT_NEAR(amplitude(preload), free, 2.0 * preload);
+  }
+}
+
+TEST(ResponseCurveHard, LowPreloadSoftensAndJumps) {
+  // Row 40: the load opens while the point moves; both folds are solved for, unstable between them.
+  const auto curve = solver::trace_response(tests::three_dof_scene(30.0),
+                                            range(2.0 * M_PI * 18.0, 2.0 * M_PI * 28.0));
+  expect_proven(curve, "30 N");
+  const auto folds = marked(curve, PointMark::fold);
+  ASSERT_EQ(folds.size(), 2U);
+  const bool between = std::any_of(curve.points.begin(), curve.points.end(), [](const auto& point) {
+    return point.stability == solver::Stability::unstable;
+  });
+  EXPECT_TRUE(between);
+}
+
+TEST(ResponseCurveHard, AGapHardensAndJumps) {
+  // Row 40: impact on a spring behind a gap of 2; the free peak is at 1, the bonded one at √3.
+  tests::SinglePoint single = oscillator({0.0, 2.0, 0.0, -4.0}, 1.0);
+  single.force = 0.2;
+  const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.7, 1.6));
+  expect_proven(curve, "gap");
+  const auto folds = marked(curve, PointMark::fold);
+  const auto peaks = marked(curve, PointMark::peak);
+  ASSERT_EQ(folds.size(), 2U);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_GT(peaks[0].frequency, 1.02);
+  EXPECT_GT(std::max(folds[0].frequency, folds[1].frequency), peaks[0].frequency * (1.0 - 1e-9));
+}
+
+TEST(ResponseCurveHard, BothOfTwoEqualPeaksAreReported) {
+  // Row 45: two uncoupled modes with F/(2ζω²) alike; no point of contact moves.
+  solver::Scene scene = tests::chain_scene(1e9);
+  scene.natural_frequency = Eigen::Vector2d(1.0, 2.0);
+  scene.output = Eigen::Vector2d(1.0, 1.0);
+  scene.excitation.rows().row(1) << 1.0, 4.0;
+  scene.contact = nullptr;
+  const auto peaks = marked(solver::trace_response(scene, range(0.5, 3.0)), PointMark::peak);
+  ASSERT_EQ(peaks.size(), 2U);
+  EXPECT_NEAR(peaks[0].frequency, 1.0, 0.02);
+  EXPECT_NEAR(peaks[1].frequency, 2.0, 0.02);
+}
+
+TEST(ResponseCurveHard, NoForceIsNoMotion) {
+  // Row 51, with and without damping.
+  for (const double damping : {0.01, 0.0}) {
+    tests::SinglePoint single = oscillator({2.0, 2.0, 0.5, 1.0}, 0.5);
+    single.force = 0.0;
+    single.damping_ratio = damping;
+    const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.5, 2.0));
+    expect_proven(curve, "no force");
+    for (const ResponsePoint& point : curve.points) {
+      EXPECT_EQ(point.amplitude, 0.0);
+      EXPECT_EQ(point.energy_imbalance, 0.0);
+    }
+  }
+}
+
+TEST(ResponseCurveHard, AForceTimesABillionTendsToTheFreeResponse) {
+  // Row 52. Friction is 1e-9 of the force then.
+  tests::SinglePoint single = oscillator({2.0, 0.0, 0.5, 1.0});
+  single.force = 1e9;
+  const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.5, 2.0));
+  expect_proven(curve, "1e9 N");
+  const auto peaks = marked(curve, PointMark::peak);
+  ASSERT_EQ(peaks.size(), 1U);
+  const double free = 1e9 / (0.02 * std::sqrt(1.0 - 1e-4));
+  EXPECT_NEAR(peaks[0].amplitude, free, 1e-8 * free);
+}
+
+TEST(ResponseCurveHard, AStuckPeakMayBeTheHigherOne) {
+  // Row 47: y of the chain with the force on it; nothing assumes an order of the limits.
+  solver::Scene scene = tests::chain_scene(30.0);
+  scene.excitation.rows().row(1) << 0.2, 8.0;
+  const auto options = range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
+  const auto highest = [&](const ResponseCurve& curve) {
+    double value = 0.0;
+    for (const ResponsePoint& point : marked(curve, PointMark::peak)) {
+      value = std::max(value, point.amplitude);
+    }
+    return value;
+  };
+  const double free = highest(solver::trace_linear(scene, solver::LinearLimit::free, options));
+  const double stuck = highest(solver::trace_linear(scene, solver::LinearLimit::stuck, options));
+  EXPECT_GT(stuck, free);
+  expect_proven(solver::trace_response(scene, options), "stuck above free");
+}
+
+TEST(ResponseCurveHard, WildScenesEndInACompleteCurveOrANamedDiagnosis) {
+  // Damping down to 1e-5, stiffness ratios to 1e3, modes 1 % apart. Energies then come out of terms
+  // that cancel to K/(2ζΩ) of their size, 1e8 and more: eps times that is the accuracy there is.
+  constexpr int n_scenes = 200;
+  constexpr double inherent = 2e-8;
+  std::map<std::string, int> outcomes;
+  double imbalance = 0.0;
+  std::size_t n_points = 0;
+  for (int seed = 0; seed < n_scenes; ++seed) {
+    const auto wild = tests::wild_scene(static_cast<std::uint64_t>(seed));
+    const ResponseCurve curve = solver::trace_response(wild.scene, wild.options);
+    ++outcomes[curve.complete ? "complete" : curve.diagnosis];
+    ASSERT_EQ(curve.complete, curve.diagnosis.empty()) << seed;
+    n_points += curve.points.size();
+    for (const ResponsePoint& point : curve.points) {
+      ASSERT_TRUE(point.q.vector().allFinite()) << seed;
+      imbalance = std::max({imbalance, point.energy_imbalance, point.dissipation_mismatch});
+    }
+  }
+  for (const auto& [name, count] : outcomes) std::printf("%-14s %d\n", name.c_str(), count);
+  std::printf("%zu points, largest imbalance or mismatch %.1e\n", n_points, imbalance);
+  EXPECT_GE(outcomes["complete"], 97 * n_scenes / 100);
+  EXPECT_LE(imbalance, inherent);
+}
+
+}  // namespace
+}  // namespace microslip
