@@ -206,9 +206,13 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
   };
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
-      const solver::Scene problem = solver_scene(model, *load);
-      const auto points = solver::points_at_frequency(
-          problem, result.curve, two_pi * *frequency, continuation_options(*scene.response));
+      const ResponseDescription& range = *scene.response;
+      const bool solved_there = *frequency == range.frequency_begin_hz &&
+                                *frequency == range.frequency_end_hz;
+      const auto points =
+          solved_there ? result.curve.points
+                       : solver::points_at_frequency(solver_scene(model, *load), result.curve,
+                                                     two_pi * *frequency, continuation_options(range));
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }
