@@ -10,13 +10,14 @@
 /// Points are taken in blocks: motion of a block by dense products, one cycle per point, then the
 /// modal Jacobian by dense products again, mode pair by mode pair. Blocks in which nothing slips or
 /// separates leave out what is zero there. The cost of a point is about that of its Jacobian entries:
-/// 22 products for each pair of modes.
+/// 22 products for each pair of modes. Points proved stuck or open cost nothing (sleeping_points.hpp).
 #pragma once
 
 #include <vector>
 
 #include "contact/contact_patch.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/sleeping_points.hpp"
 
 namespace microslip::contact {
 
@@ -28,7 +29,9 @@ class PatchForce final : public ModalForce {
   PatchForce(ContactPatch patch, ModalShapes shapes);
 
   [[nodiscard]] Eigen::Index n_modes() const override;
-  /// H = 1; equal input gives equal bits. The force does not depend on the frequency.
+  /// H = 1. The force does not depend on the frequency. Which points sleep depends on the motions seen
+  /// before, so that equal input gives equal numbers to rounding, and equal bits after equal histories.
+  /// Not for two threads at a time.
   /// @throws std::invalid_argument  another number of harmonics or modes.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
   /// @throws std::invalid_argument  as evaluate().
@@ -42,7 +45,9 @@ class PatchForce final : public ModalForce {
  private:
   ContactPatch patch_;
   ModalShapes shapes_;
-  std::vector<double> blocks_;  // [block][u, v][mode][point of the block], padded with zeros
+  mutable SleepingPoints sleep_;
+  // In the order of sleep_: [block][u, v][mode][point of the block], padded with zeros.
+  mutable std::vector<double> blocks_;
 };
 
 }  // namespace microslip::contact
