@@ -1,13 +1,13 @@
 /// @file
-/// Proof that a patch answers every motion of a set like a linear spring (theory section 4.1): all points
-/// stuck, or all of them open, throughout the period.
+/// Proof that a patch answers every motion of a set like a linear spring through the origin: all points
+/// stuck, or all of them open, throughout the period (theory section 4.1), and none of them with a mean
+/// force beyond that of its springs:
 ///
-///   stuck   n₀' ≥ 0,  n₀ ≥ B,  L₁ + L₂ ≤ 2q,  L₂ − q ≤ k_u u₀ ≤ q − L₁      force k_u u, k_v v, means too
-///   open    n₀' ≤ 0,  n₀ + B ≤ 0                                            force 0
+///   stuck   n₀' ≥ 0 and as in sleeping_points.hpp (1)      force k_u u, k_v v, means too
+///   open    n₀' ≤ 0 and as in sleeping_points.hpp (2)      force 0
 ///
-/// n₀ = n₀' + k_v v₀. Amplitudes are bounded by the triangle inequality, |Σ φ_n A_n| ≤ |Σ φ_n Ã_n| +
-/// Σ |φ_n| r_n, with Ã the centre of the set and r its radii. A point without friction (μ = 0 or k_u = 0)
-/// needs the conditions on the load only, one without normal stiffness as well none at all.
+/// A preload that the mean motion takes away, or a gap that it closes, leaves a constant force: unknown.
+/// Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not count.
 #pragma once
 
 #include "contact/contact_patch.hpp"
@@ -17,9 +17,9 @@ namespace microslip::contact {
 
 /// For the closed-form law of one tangential direction.
 /// @param centre  one harmonic [m√kg].
-/// @param radius  of the complex amplitude of every mode [m√kg], n_modes, ≥ 0; the means are exact.
+/// @param radius  the set: ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
 /// @throws std::invalid_argument  another number of harmonics or modes.
 [[nodiscard]] LinearState linear_state(const ContactPatch& patch, const ModalShapes& shapes,
-                                       const Harmonics& centre, const Eigen::VectorXd& radius);
+                                       const Harmonics& centre, double radius);
 
 }  // namespace microslip::contact
