@@ -10,6 +10,7 @@
 #include "contact/block_kernels.hpp"
 #include "contact/cycle_report.hpp"
 #include "contact/friction_cycle.hpp"
+#include "contact/linear_proof.hpp"
 #include "contact/point_motions.hpp"
 
 namespace microslip::contact {
@@ -233,6 +234,10 @@ Eigen::MatrixXd PatchForce::stuck_stiffness() const {
   }
   return shapes_.u.transpose() * k_u.asDiagonal() * shapes_.u +
          shapes_.v.transpose() * k_v.asDiagonal() * shapes_.v;
+}
+
+LinearState PatchForce::linear_state(const Harmonics& centre, double radius) const {
+  return contact::linear_state(patch_, shapes_, centre, radius);
 }
 
 }  // namespace microslip::contact

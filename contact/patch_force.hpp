@@ -38,6 +38,8 @@ class PatchForce final : public ModalForce {
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ) dA; a point without friction (μ = 0) resists normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  /// See linear_proof.hpp.
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }
   [[nodiscard]] const ModalShapes& shapes() const { return shapes_; }
