@@ -61,13 +61,15 @@ TEST(TrigonometricMoments, SamplesAddUpAsPiecesDo) {
   TrigonometricMoments piece;
   samples.reset(4);
   piece.reset(4);
+  std::vector<double> sums(9, 0.0);
   piece.set_piece(0.2, 1.0);
   std::vector<double> b;
   constexpr int n = 4000;
   for (int k = 0; k < n; ++k) {  // midpoint rule: errs by (4/n)²/24
     set_basis(0.2 + (k + 0.5) / n, 4, b);
-    samples.add_sample(1.0 / n, b);
+    for (std::size_t i = 0; i < 9; ++i) sums[i] += b[i] / n;
   }
+  samples.set_sums(sums.data());
   for (int i = 0; i <= 4; ++i) {
     for (int j = 0; j <= 4; ++j) EXPECT_NEAR(samples.product(i, j), piece.product(i, j), 1e-7);
   }
