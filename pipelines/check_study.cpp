@@ -101,17 +101,22 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
     load += std::max(preload, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
     if (preload < 0.0) ++n_gaps;
   }
+  if (modal.load_measure == LoadMeasure::force) {
+    fmt::print(out, "{} contact points\n", modal.points.size());
+    return;
+  }
   fmt::print(out, "{} contact points: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
              modal.points.size(), modal.weights.sum(), load, n_gaps);
 }
 
 void check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
-  fmt::print(out, "modal scene: {} modes\n", modal.frequency_hz.size());
+  fmt::print(out, "{} modes\n", modal.frequency_hz.size());
   const ReducedModel model = reduced_model(modal);
   require_held(model);
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
+    require_loads(model, scene);
     const ResponseDescription& response = *scene.response;
     const std::size_t n_curves = curve_requests(scene).size();
     fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,

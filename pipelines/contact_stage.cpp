@@ -257,6 +257,8 @@ ReducedModel reduced_model(const ModalModel& modal) {
   model.output = modal.output;
   model.weights = modal.weights;
   model.shapes = modal.shapes;
+  model.load_measure = modal.load_measure;
+  model.preload_offset = modal.preload_offset;
   const auto n = static_cast<Eigen::Index>(modal.points.size());
   model.points = Eigen::MatrixX3d::Zero(n, 3);
   if (modal.positions.rows() == n) {

@@ -41,7 +41,8 @@ std::string setting_of(const SceneDescription& scene, const std::string& name) {
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene) {
   const ContactFacts facts = facts_of(scene);
-  const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  const ResidualKind residual = modal != nullptr ? modal->residual : scene.modes.residual;
   const bool normal = facts.has_normal_stiffness;
   std::vector<EffectRecord> effects;
   const auto add = [&](const char* name, bool simulated, const char* why, const char* why_not) {
@@ -53,9 +54,10 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene) {
       "no normal stiffness: the load is constant");
   add("separation", normal, "the contact is one-sided", "the load is constant");
   add("mean_coupling", normal, "the mean approach changes the load", "the load is constant");
-  add("residual", meshed && facts.has_contact && scene.modes.residual == ResidualKind::stiffness,
+  add("residual", facts.has_contact && residual == ResidualKind::stiffness,
       "flexibility of the omitted modes stands in series with the contact stiffness",
-      meshed ? "modes.residual = \"none\", or no contact" : "the given stiffness is used as it is");
+      modal == nullptr ? "modes.residual = \"none\", or no contact"
+                       : "the given stiffness is used as it is");
   add("stability", facts.has_contact, "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add("second_direction", false, "", "friction acts along the slip direction only in this version");

@@ -200,7 +200,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                       : std::string()));
   CurveSummary summary = summarise(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
-      scale != nullptr && model.vertices.rows() == 0 && model.weights.size() > 0) {
+      scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }

@@ -32,7 +32,9 @@ struct ReducedModel {
   Eigen::VectorXd tangential_stiffness;  ///< [N/m³], residual part included
   Eigen::VectorXd normal_stiffness;
   Eigen::VectorXd friction_coefficient;
-  Eigen::VectorXd preload;        ///< [Pa] at unit scale: total 1 N for mesh kinds, as given for modal ones
+  Eigen::VectorXd preload;        ///< [Pa] at unit load: total 1 N, or as given where the load is a scale
+  LoadMeasure load_measure = LoadMeasure::force;
+  Eigen::VectorXd preload_offset; ///< [Pa] added under every load: what moments give; empty: none
   int fit_degree = -1;            ///< −1: no fit
   Eigen::VectorXd fit_error;      ///< per mode; empty without a fit
   /// Cells of the patch for pictures: cell c belongs to point c. No cells: points only.

@@ -28,7 +28,13 @@ struct MeshFileModel {
   double length_unit = 1.0;    ///< metres per unit of the file
 };
 
-/// Modes and contact points given directly (interfaces.md, modal scenes).
+enum class ResidualKind { none, stiffness };
+
+/// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
+enum class LoadMeasure { scale, force };
+
+/// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
+/// `bar` and `chain`.
 struct ModalModel {
   Eigen::VectorXd frequency_hz;
   Eigen::VectorXd damping_ratio;
@@ -38,14 +44,15 @@ struct ModalModel {
   std::vector<contact::PointParameters> points;
   contact::ModalShapes shapes;
   Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
+  LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
+  Eigen::VectorXd preload_offset;  ///< added under every load [Pa]: what moments give; empty: none
+  ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
 };
 
 struct RayleighDamping {
   double alpha = 0.0;  ///< [1/s]
   double beta = 0.0;   ///< [s]
 };
-
-enum class ResidualKind { none, stiffness };
 
 struct ModesDescription {
   int count = 10;

@@ -9,8 +9,11 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "pipelines/bar_scene.hpp"
+#include "pipelines/chain_scene.hpp"
 #include "pipelines/csv_table.hpp"
 #include "pipelines/modal_scene.hpp"
+#include "pipelines/modes_section.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
@@ -21,7 +24,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
-constexpr std::array<std::string_view, 3> kinds{"blade", "mesh", "modal"};
+constexpr std::array<std::string_view, 5> kinds{"blade", "mesh", "modal", "bar", "chain"};
 
 /// The scene while it is read: what was given, and the completed scene that grows beside it.
 struct Reading {
@@ -41,8 +44,12 @@ struct Reading {
   }
 
   SectionReader section(std::string_view name, std::string_view spec) {
+    return section(name, section_spec(spec));
+  }
+
+  SectionReader section(std::string_view name, SectionSpec spec) {
     const auto [position, added] = complete.insert_or_assign(name, toml::table{});
-    return {table(name), section_spec(spec), std::string(name), file, *position->second.as_table()};
+    return {table(name), spec, std::string(name), file, *position->second.as_table()};
   }
 };
 
@@ -149,39 +156,16 @@ std::vector<std::string> read_names(const SectionReader& s, std::string_view key
   return names;
 }
 
-double damping_in(const SectionReader& s, const toml::node& node) {
-  const double value = s.number_in(node, "damping_ratio");
-  if (value < 0.0) s.fail("damping_ratio", fmt::format("{:g} is negative", value), &node);
-  return value;
-}
-
 ModesDescription read_modes(const SectionReader& s) {
   ModesDescription modes;
   modes.count = s.integer("count");
-  const toml::node& damping = *s.node("damping_ratio");
-  if (const toml::table* table = damping.as_table()) {
-    RayleighDamping rayleigh;
-    for (const auto& [key, value] : *table) {
-      const bool alpha = key.str() == "alpha";
-      if (!alpha && key.str() != "beta") {
-        s.fail("damping_ratio", fmt::format("unknown key \"{}\"; known: alpha, beta", key.str()),
-               &value);
-      }
-      (alpha ? rayleigh.alpha : rayleigh.beta) = damping_in(s, value);
-    }
-    modes.damping = rayleigh;
-  } else if (const toml::array* list = damping.as_array()) {
-    std::vector<double> ratios;
-    for (const toml::node& entry : *list) ratios.push_back(damping_in(s, entry));
-    if (static_cast<int>(ratios.size()) != modes.count) {
-      s.fail(
-          "damping_ratio",
-          fmt::format("{} values for {} modes; give one, or one each", ratios.size(), modes.count),
-          &damping);
-    }
-    modes.damping = ratios;
-  } else {
-    modes.damping = std::vector<double>{damping_in(s, damping)};
+  modes.damping = read_damping(s);
+  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
+  const toml::node* given = s.node("damping_ratio");
+  if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
+    s.fail("damping_ratio",
+           fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
+           given);
   }
   constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
   modes.residual =
@@ -336,9 +320,9 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
   return s.number_or_word_in(entry, "preload", words);
 }
 
-ResponseDescription read_response(const SectionReader& s) {
+/// Range, method, preloads and maps: what scenes with a preload in newtons share.
+ResponseDescription read_loads(const SectionReader& s) {
   ResponseDescription response;
-  response.output = read_output(s);
   read_range(s, response);
   read_method(s, response);
   const toml::node& preload = *s.node("preload");
@@ -369,6 +353,13 @@ ResponseDescription read_response(const SectionReader& s) {
     response.optimum_range = range;
   }
   read_maps(s, response);
+  return response;
+}
+
+ResponseDescription read_response(const SectionReader& s) {
+  const OutputDescription output = read_output(s);
+  ResponseDescription response = read_loads(s);
+  response.output = output;
   return response;
 }
 
@@ -459,6 +450,24 @@ void read_modal_scene(Reading& reading, SceneDescription& scene) {
   }
 }
 
+/// The kinds that have formulas for their modes end in the same model as a modal scene.
+void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  const auto section = [&](std::string_view name) {
+    return reading.section(name, section_spec(name, kind));
+  };
+  const LeanSections sections{section("model"), section("modes"), section("contact"),
+                              section("excitation")};
+  std::string output;
+  if (reading.given.contains("response")) {
+    const SectionReader response = section("response");
+    scene.response = kind == "bar" ? read_modal_response(response) : read_loads(response);
+    if (kind == "chain") output = response.text("output");
+  }
+  const ModalModel model = kind == "bar" ? read_bar(sections) : read_chain(sections, output);
+  scene.modes.residual = model.residual;
+  scene.model = model;
+}
+
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::string& name,
@@ -479,6 +488,8 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   reading.complete.insert_or_assign("title", scene.title);
   if (kind == "modal") {
     read_modal_scene(reading, scene);
+  } else if (kind == "bar" || kind == "chain") {
+    read_lean_scene(reading, kind, scene);
   } else {
     read_meshed(reading, kind, scene);
   }

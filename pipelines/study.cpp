@@ -54,6 +54,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     require_response(scene);
     const ReducedModel model = reduce(scene, record);
     require_held(model);
+    require_loads(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.stage("maps");
