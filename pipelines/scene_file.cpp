@@ -428,6 +428,9 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
     if (kind == "chain") output = response.text("output");
   }
   const ModalModel model = kind == "bar" ? read_bar(sections) : read_chain(sections, output);
+  if (model.points.empty() && reading.given.contains("response")) {
+    refuse_contact_keys(section("response"));
+  }
   scene.modes.residual = model.residual;
   scene.model = model;
 }
