@@ -294,9 +294,9 @@ TEST(FrictionCycle, ForceOfAPointThatHardlySticksIsExactToTheForceNotToItsSpring
     const long double a = std::hypot(static_cast<long double>(motion.u_sin),
                                      static_cast<long double>(motion.u_cos));
     const long double psi = 2.0L * std::atan2(std::sqrt(1.0L), std::sqrt(a - 1.0L));
-    const long double pi = 3.14159265358979323846264338327950288L;
-    const long double in_phase = a / pi * (psi - 0.5L * std::sin(2.0L * psi));
-    const long double quadrature = 4.0L * (1.0L - 1.0L / a) / pi;
+    const long double half_turn = 3.14159265358979323846264338327950288L;
+    const long double in_phase = a / half_turn * (psi - 0.5L * std::sin(2.0L * psi));
+    const long double quadrature = 4.0L * (1.0L - 1.0L / a) / half_turn;
     const long double c = motion.u_sin / a;
     const long double s = motion.u_cos / a;
     const CycleForce force = cycle_force(point, motion);
