@@ -95,10 +95,14 @@ class Walk {
   void enter(bool first) {
     const PlanarInstant& now = interval_->grid.front();
     entry_ = PlanarEntry::continued;
-    if (interval_->touches_down) {
+    // Load that only grazes zero wipes the memory as well.
+    heading_.setZero();
+    if (interval_->touches_down || (!first && now.radius <= stick_slack)) {
       slider_ = now.position;
       entry_ = PlanarEntry::touch_down;
-      slipping_ = stiffness().cwiseProduct(now.velocity).norm() > now.radius_rate;
+      const Vector2d pull = stiffness().cwiseProduct(now.velocity);
+      slipping_ = pull.norm() > now.radius_rate;
+      if (slipping_) heading_ = returned_force(pull, stiffness(), now.radius_rate);
       return;
     }
     if (first) return_slider(now);
@@ -238,9 +242,13 @@ class Walk {
   [[nodiscard]] bool turns_slowly(const SlipStep& step) const {
     const Vector2d begin = motion_.compliance().cwiseInverse().cwiseProduct(
         motion_.at(step.begin).position - step.slider);
-    const double size = begin.norm();
     constexpr double has_direction = 1e-11;  // below it rounding turns the force
-    if (size > has_direction && begin.dot(step.direction.col(0)) < 0.5 * size) return false;
+    const bool touches = time_ == interval_->begin && begin.norm() <= has_direction;
+    const Vector2d along = touches ? heading_ : begin;
+    const double size = along.norm();
+    if ((touches || size > has_direction) && along.dot(step.direction.col(0)) < 0.5 * size) {
+      return false;
+    }
     for (int i = 1; i < n_stages; ++i) {
       if (step.direction.col(i - 1).dot(step.direction.col(i)) < 0.5) return false;
     }
@@ -336,6 +344,7 @@ class Walk {
   const PlanarInterval* interval_ = nullptr;
   double time_ = 0.0;
   Vector2d slider_ = Vector2d::Zero();
+  Vector2d heading_ = Vector2d::Zero();  // direction of slip, any length, where contact begins in slip
   PlanarEntry entry_ = PlanarEntry::continued;
   bool slipping_ = false;
 };

@@ -146,7 +146,9 @@ void set_factor(const PlanarMotion& motion, SlipStep& step) {
     for (int i = 0; i < n_stages; ++i) {
       A(i, j) = rule.derivative(i, j + 1) * across(step.direction.col(i)).dot(turn);
     }
-    A(j, j) -= step.direction.col(j).dot(step.travel.col(j));
+    // A stage with neither way nor radius keeps its direction.
+    constexpr double nothing = 1e-18;
+    A(j, j) -= step.direction.col(j).dot(step.travel.col(j)) + nothing;
   }
   step.factor.compute(A);
 }

@@ -17,6 +17,9 @@ constexpr int patience = 2;
 /// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
 constexpr int most_periods = 60;
 
+/// A slider of order one that moves by less in a period cannot be told from one that rests.
+constexpr double rounding = 4e-15;
+
 /// (I − M)⁻¹ b; a direction that the period leaves alone is left alone.
 Eigen::Matrix2Xd solve_fixed_point(const Matrix2d& M, const Eigen::Matrix2Xd& b) {
   Eigen::FullPivLU<Matrix2d> lu(Matrix2d::Identity() - M);
@@ -66,7 +69,8 @@ class FixedPoint {
           solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved);
-      if (steady.defect <= 0.1 * options_.tolerance || period >= most_periods) break;
+      if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
+      if (period >= most_periods) break;
       if (tried && !(size < 0.9 * smallest)) {
         slider = fallback;
         tried = false;
