@@ -30,8 +30,8 @@ Guard stick_guard(const PlanarInstant& now, const Vector2d& slider, const Vector
 }
 
 /// Length of a step for a tolerance. The share of the highest polynomial falls as εⁿ with its degree n,
-/// so that the error of a step, of degree nine, is its power 9/5; 8/5 leaves room.
-double allowed_top_term(double tolerance) { return std::pow(tolerance, 1.0 / 1.6); }
+/// so that the error of a step, of degree nine, is its power 9/5; 3/2 leaves room.
+double allowed_top_term(double tolerance) { return std::pow(tolerance, 1.0 / 1.5); }
 
 /// The rule of Radau integrates a wave of k oscillations per 2π over a length h with an error of about
 /// 1e-8 (kh/2)⁹; 2 is where the shape of a step would be lost.
