@@ -22,7 +22,7 @@ double pushing_end(const ContactSample& at, ContactState state) {
   return sign_of(state) * at.u - at.half_width;
 }
 
-// Where between j − 1 and j the state changes, as a share of the step.
+// Where the state of j − 1 becomes that of j, as a share of the step from j − 1.
 class Change {
  public:
   Change(const SampledMotion& motion, const SampledSlider& slider, int j)
@@ -49,14 +49,15 @@ class Change {
     return before + after > 0.0 ? std::clamp(before / (before + after), 0.0, 1.0) : 0.5;
   }
 
-  // The pushing end turns: its speed between j − 2 and j − 1, and that between j − 1 and j.
+  // The pushing end turns about the last sample of slip: its speed in the middle of the step before
+  // that and of the step after.
   [[nodiscard]] double end(ContactState slip) const {
     const double first = pushing_end(motion_[motion_.before(i_)], slip);
     const double middle = pushing_end(motion_[i_], slip);
     const double speed_before = middle - first;
     const double speed_after = pushing_end(motion_[j_], slip) - middle;
     const double fall = speed_before - speed_after;
-    return fall > 0.0 ? std::clamp(speed_before / fall - 0.5, 0.0, 1.0) : 0.0;
+    return fall > 0.0 ? std::clamp(speed_before / fall - 0.5, -0.5, 0.5) : 0.0;
   }
 
   const SampledMotion& motion_;

@@ -67,6 +67,12 @@ TEST(TrigonometricPolynomial, ValueSlopeAndDerivativeAreThoseOfItsSum) {
     EXPECT_NEAR(p.jet(x).value, value, 2e-14);
     EXPECT_NEAR(p.jet(x).slope, slope, 4e-14);
     EXPECT_NEAR(d.value(x), slope, 4e-14);
+    EXPECT_NEAR(p.taylor(x).value, value, 2e-14);
+    EXPECT_NEAR(p.taylor(x).slope, slope, 4e-14);
+    EXPECT_NEAR(p.taylor(x).second, d.jet(x).slope, 2e-13);
+    TrigonometricPolynomial second;
+    second.set_derivative(d);
+    EXPECT_NEAR(p.taylor(x).third, second.jet(x).slope, 6e-13);
   }
   EXPECT_EQ(p.order(), 3);
   EXPECT_DOUBLE_EQ(p.bound(2), 3.0 + 9.0 * 0.7);
@@ -168,13 +174,18 @@ TEST(SignChanges, HighHarmonicsAreServed) {
   for (const SignChange& change : changes) EXPECT_LT(std::abs(p.value(change.phase)), 1e-12);
 }
 
+double crossing_between(const TrigonometricPolynomial& p, double level, double low, double high) {
+  return crossing(p, level, low, high, p.value(low) - level, p.value(high) - level);
+}
+
 TEST(Crossing, IsTheRootOfTheLevel) {
   TrigonometricPolynomial p;
   p.reset(1);
   p.set(1, 2.0, 0.0);
-  EXPECT_NEAR(crossing(p, 1.0, -0.5 * pi, 0.5 * pi), pi / 6.0, 1e-15);
-  EXPECT_NEAR(crossing(p, 2.0 - 1e-12, -0.5 * pi, 0.5 * pi), 0.5 * pi - 1e-6, 1e-9);  // √1e-16/…
-  EXPECT_NEAR(crossing(p, -1.0, 0.5 * pi, 1.5 * pi), 7.0 * pi / 6.0, 1e-15);
+  EXPECT_NEAR(crossing_between(p, 1.0, -0.5 * pi, 0.5 * pi), pi / 6.0, 1e-15);
+  EXPECT_NEAR(crossing_between(p, 2.0 - 1e-12, -0.5 * pi, 0.5 * pi), 0.5 * pi - 1e-6,
+              1e-9);  // √1e-16/…
+  EXPECT_NEAR(crossing_between(p, -1.0, 0.5 * pi, 1.5 * pi), 7.0 * pi / 6.0, 1e-15);
 }
 
 }  // namespace
