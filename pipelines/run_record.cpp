@@ -68,7 +68,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.title = scene.title;
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
-  summary_.effects = effects_of(scene);
+  summary_.effects = effects_of(scene, nullptr);
   if (!writes_) return;
   make_folder(folder_);
   require_writable(folder_);
@@ -166,6 +166,11 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
 }
 
+void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
+  const std::lock_guard lock(mutex_);
+  summary_.effects = std::move(effects);
+}
+
 void RunRecord::keep_model(const ReducedModel& model) {
   const std::lock_guard lock(mutex_);
   Eigen::VectorXd residual(0);
@@ -200,7 +205,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                       : std::string()));
   CurveSummary summary = summarise(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
-      scale != nullptr && model.vertices.rows() == 0 && model.weights.size() > 0) {
+      scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }
