@@ -1,0 +1,269 @@
+#include "contact/height_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "contact/gauss_legendre.hpp"
+
+namespace microslip::contact {
+namespace {
+
+// Breaks closer than this are one: what lies between weighs less than rounding of the whole.
+constexpr double merge_distance = 1e-12;
+
+struct Crossing {
+  double eta;
+  int guard;
+};
+
+// The line ξ = const with all zeros on it, grouped by guard, ascending within a group.
+struct Column {
+  double xi;
+  double weight;
+  std::vector<Crossing> zeros;
+};
+
+using Columns = std::vector<Column>;
+
+class HeightRule {
+ public:
+  HeightRule(const std::vector<ChebyshevSurface>& surfaces, const std::vector<int>& crossing,
+             const std::vector<GuardLine>& lines, const FittedRuleOptions& options)
+      : surfaces_(surfaces),
+        crossing_(crossing),
+        lines_(lines),
+        tolerance_(options.line_tolerance),
+        line_rule_(gauss_legendre(options.order)),
+        // A graded rule needs degree 2 for its weights to sum to 1, degree 5 for those of a cell.
+        graded_rule_(gauss_legendre(std::max(options.order, 3))) {
+    find_events();
+  }
+
+  [[nodiscard]] std::size_t n_events() const { return events_.size(); }
+
+  [[nodiscard]] SquareRule rule() {
+    double begin = -1.0;
+    bool begin_is_event = false;
+    for (const double event : events_) {
+      add_interval(begin, event, {begin_is_event, true});
+      begin = event;
+      begin_is_event = true;
+    }
+    add_interval(begin, 1.0, {begin_is_event, false});
+    return std::move(rule_);
+  }
+
+ private:
+  [[nodiscard]] const ChebyshevSurface& surface(int guard) const {
+    return surfaces_[static_cast<std::size_t>(guard)];
+  }
+
+  [[nodiscard]] bool counts(int guard, double xi, double eta) const {
+    const GuardLine& line = lines_[static_cast<std::size_t>(guard)];
+    return line.domain < 0 || surface(line.domain).value(xi, eta) * line.domain_sign >= 0.0;
+  }
+
+  void add_event(double xi, double eta, int guard) {
+    if (std::abs(xi) < 1.0 - merge_distance && std::abs(eta) <= 1.0 && counts(guard, xi, eta)) {
+      events_.push_back(xi);
+    }
+  }
+
+  void find_events() {
+    for (const int guard : crossing_) {
+      const ChebyshevSurface& g = surface(guard);
+      const ChebyshevSurface turned = g.transposed();
+      for (const double side : {-1.0, 1.0}) {
+        for (const double xi : chebyshev_roots(turned.column(side))) {
+          add_event(xi, side, guard);
+        }
+      }
+      const ChebyshevSurface slope = g.derivative_y();
+      // A guard that does not depend on η has no turning points, only noise.
+      if (slope.coefficients().cwiseAbs().sum() > 1e-11 * g.coefficients().cwiseAbs().sum()) {
+        for (const Eigen::Vector2d& root : common_roots(g, slope)) {
+          add_event(root[0], root[1], guard);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < crossing_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (const Eigen::Vector2d& root :
+             common_roots(surface(crossing_[i]), surface(crossing_[j]))) {
+          add_event(root[0], root[1], crossing_[i]);
+        }
+      }
+    }
+    std::ranges::sort(events_);
+    const auto is_near = [](double a, double b) { return b - a < merge_distance; };
+    events_.erase(std::unique(events_.begin(), events_.end(), is_near), events_.end());
+  }
+
+  [[nodiscard]] std::vector<Crossing> zeros_at(double xi) const {
+    std::vector<Crossing> zeros;
+    for (const int guard : crossing_) {
+      for (const double eta : chebyshev_roots(surface(guard).column(xi))) {
+        if (std::abs(eta) < 1.0 - merge_distance && counts(guard, xi, eta)) {
+          zeros.push_back({eta, guard});
+        }
+      }
+    }
+    return zeros;
+  }
+
+  [[nodiscard]] Columns columns(double begin, double end, GradedEnds ends) const {
+    const bool is_graded = ends.begin || ends.end;
+    const LineRule rule = graded(is_graded ? graded_rule_ : line_rule_, ends);
+    Columns result;
+    for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
+      const double xi = begin + (end - begin) * rule.nodes[i];
+      result.push_back({xi, (end - begin) * rule.weights[i], zeros_at(xi)});
+    }
+    return result;
+  }
+
+  // ∫ η_k dξ and ∫ η_k² dξ of every line; none if the lines are not the same on all columns.
+  static std::optional<Eigen::ArrayXd> moments(const Columns& columns) {
+    const auto& first = columns.front().zeros;
+    const auto n = static_cast<Eigen::Index>(first.size());
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * n);
+    for (const Column& column : columns) {
+      if (column.zeros.size() != first.size()) {
+        return std::nullopt;
+      }
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const Crossing& zero = column.zeros[static_cast<std::size_t>(k)];
+        if (zero.guard != first[static_cast<std::size_t>(k)].guard) {
+          return std::nullopt;
+        }
+        sum[2 * k] += column.weight * zero.eta;
+        sum[2 * k + 1] += column.weight * zero.eta * zero.eta;
+      }
+    }
+    return sum;
+  }
+
+  void add_interval(double begin, double end, GradedEnds ends) {
+    if (end - begin < merge_distance) {
+      // Too narrow for a rule of its own; its weight must not be lost.
+      add_column({0.5 * (begin + end), end - begin, zeros_at(0.5 * (begin + end))});
+      return;
+    }
+    refine(begin, end, ends, columns(begin, end, ends), 0);
+  }
+
+  void refine(double begin, double end, GradedEnds ends, const Columns& whole, int depth) {
+    constexpr int max_halvings = 24;  // a cusp is given up where it is 1e-7 of the cell wide
+    const double middle = 0.5 * (begin + end);
+    const GradedEnds left_ends{ends.begin, false};
+    const GradedEnds right_ends{false, ends.end};
+    const Columns left = columns(begin, middle, left_ends);
+    const Columns right = columns(middle, end, right_ends);
+    const auto sum = moments(whole);
+    const auto sum_left = moments(left);
+    const auto sum_right = moments(right);
+    const bool same = sum && sum_left && sum_right && sum->size() == sum_left->size() &&
+                      sum->size() == sum_right->size();
+    // Of the square's area 4 each interval may err by its share; the difference only estimates the
+    // error, hence a quarter of that.
+    const double allowed = 0.5 * (end - begin) * tolerance_;
+    if (depth >= max_halvings ||
+        (same && (*sum - *sum_left - *sum_right).abs().sum() <= allowed)) {
+      std::ranges::for_each(whole, [this](const Column& column) { add_column(column); });
+      return;
+    }
+    refine(begin, middle, left_ends, left, depth + 1);
+    refine(middle, end, right_ends, right, depth + 1);
+  }
+
+  // Whether the integrand has a root at one of the breaks in [first, last) when seen from η = inside.
+  [[nodiscard]] bool is_rooted(std::vector<Crossing>::const_iterator first,
+                               std::vector<Crossing>::const_iterator last, double xi,
+                               double inside) const {
+    return std::any_of(first, last, [&](const Crossing& zero) {
+      return lines_[static_cast<std::size_t>(zero.guard)].is_graded &&
+             surface(zero.guard).value(xi, inside) > 0.0;
+    });
+  }
+
+  void add_piece(const Column& column, double begin, double end, GradedEnds ends) {
+    const bool is_graded = ends.begin || ends.end;
+    const LineRule rule = graded(is_graded ? graded_rule_ : line_rule_, ends);
+    for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
+      rule_.xi.push_back(column.xi);
+      rule_.eta.push_back(begin + (end - begin) * rule.nodes[i]);
+      rule_.weights.push_back(column.weight * (end - begin) * rule.weights[i]);
+    }
+  }
+
+  void add_column(Column column) {
+    auto& zeros = column.zeros;
+    std::ranges::sort(zeros, {}, &Crossing::eta);
+    auto first = zeros.cbegin();  // zeros that make the break at `begin`: [first, last)
+    auto last = first;
+    double begin = -1.0;
+    for (auto next = zeros.cbegin();; last = next) {
+      const double end = next == zeros.cend() ? 1.0 : next->eta;
+      auto next_last = next;
+      while (next_last != zeros.cend() && next_last->eta - end < merge_distance) {
+        ++next_last;
+      }
+      const double inside = 0.5 * (begin + end);
+      add_piece(column, begin, end,
+                {is_rooted(first, last, column.xi, inside),
+                 is_rooted(next, next_last, column.xi, inside)});
+      if (next == zeros.cend()) {
+        return;
+      }
+      begin = end;
+      first = next;
+      next = next_last;
+    }
+  }
+
+  const std::vector<ChebyshevSurface>& surfaces_;
+  const std::vector<int>& crossing_;
+  const std::vector<GuardLine>& lines_;
+  double tolerance_;
+  LineRule line_rule_;
+  LineRule graded_rule_;
+  std::vector<double> events_;
+  SquareRule rule_;
+};
+
+double total_slope(const std::vector<ChebyshevSurface>& surfaces, const std::vector<int>& crossing) {
+  double sum = 0.0;
+  for (const int guard : crossing) {
+    const ChebyshevSurface& g = surfaces[static_cast<std::size_t>(guard)];
+    sum += std::abs(g.coefficients()(0, 1)) / g.coefficients().cwiseAbs().sum();
+  }
+  return sum;
+}
+
+}  // namespace
+
+SquareRule height_rule(const std::vector<ChebyshevSurface>& surfaces,
+                       const std::vector<int>& crossing, const std::vector<GuardLine>& lines,
+                       const FittedRuleOptions& options) {
+  std::vector<ChebyshevSurface> turned;
+  turned.reserve(surfaces.size());
+  for (const ChebyshevSurface& surface : surfaces) {
+    turned.push_back(surface.transposed());
+  }
+  HeightRule upright(surfaces, crossing, lines, options);
+  HeightRule sideways(turned, crossing, lines, options);
+  const bool is_upright =
+      upright.n_events() != sideways.n_events()
+          ? upright.n_events() < sideways.n_events()
+          : total_slope(surfaces, crossing) >= total_slope(turned, crossing);
+  if (is_upright) {
+    return upright.rule();
+  }
+  SquareRule rule = sideways.rule();
+  std::swap(rule.xi, rule.eta);
+  return rule;
+}
+
+}  // namespace microslip::contact
