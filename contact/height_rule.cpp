@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -151,31 +152,66 @@ class HeightRule {
       add_column({0.5 * (begin + end), end - begin, zeros_at(0.5 * (begin + end))});
       return;
     }
-    refine(begin, end, ends, columns(begin, end, ends), 0);
+    refine(begin, end, ends);
   }
 
-  void refine(double begin, double end, GradedEnds ends, const Columns& whole, int depth) {
-    constexpr int max_halvings = 24;  // a cusp is given up where it is 1e-7 of the cell wide
+  // An interval with its rule and those of its halves; their difference estimates the error.
+  struct Interval {
+    double begin;
+    double end;
+    GradedEnds ends;
+    Columns whole;
+    Columns left;
+    Columns right;
+    double error;
+    [[nodiscard]] double middle() const { return 0.5 * (begin + end); }
+    bool operator<(const Interval& other) const { return error < other.error; }
+  };
+
+  [[nodiscard]] Interval interval(double begin, double end, GradedEnds ends, Columns whole) const {
     const double middle = 0.5 * (begin + end);
-    const GradedEnds left_ends{ends.begin, false};
-    const GradedEnds right_ends{false, ends.end};
-    const Columns left = columns(begin, middle, left_ends);
-    const Columns right = columns(middle, end, right_ends);
-    const auto sum = moments(whole);
-    const auto sum_left = moments(left);
-    const auto sum_right = moments(right);
-    const bool same = sum && sum_left && sum_right && sum->size() == sum_left->size() &&
-                      sum->size() == sum_right->size();
-    // Of the square's area 4 each interval may err by its share; the difference only estimates the
-    // error, hence a quarter of that.
+    Interval result{begin, end, ends, std::move(whole), columns(begin, middle, {ends.begin, false}),
+                    columns(middle, end, {false, ends.end}), 0.0};
+    const auto sum = moments(result.whole);
+    const auto left = moments(result.left);
+    const auto right = moments(result.right);
+    const bool same =
+        sum && left && right && sum->size() == left->size() && sum->size() == right->size();
+    // Lines that come and go inside: anything up to the whole strip.
+    result.error = same ? (*sum - *left - *right).abs().sum() : 2.0 * (end - begin);
+    return result;
+  }
+
+  // Halves the worst interval until all together are good enough.
+  void refine(double begin, double end, GradedEnds ends) {
+    // Enough for kinks and cusps; zeros that come and go by rounding would never end.
+    constexpr int max_halvings = 1000;
+    // Of the square's area 4 each part may err by its share; a quarter of it, since the difference of
+    // two rules only estimates the error.
     const double allowed = 0.5 * (end - begin) * tolerance_;
-    if (depth >= max_halvings ||
-        (same && (*sum - *sum_left - *sum_right).abs().sum() <= allowed)) {
-      std::ranges::for_each(whole, [this](const Column& column) { add_column(column); });
-      return;
+    std::vector<Interval> heap;
+    heap.push_back(interval(begin, end, ends, columns(begin, end, ends)));
+    double error = heap.front().error;
+    for (int k = 0; k < max_halvings && error > allowed; ++k) {
+      std::ranges::pop_heap(heap, std::less<>());
+      Interval worst = std::move(heap.back());
+      heap.pop_back();
+      const double middle = worst.middle();
+      for (Interval half :
+           {interval(worst.begin, middle, {worst.ends.begin, false}, worst.left),
+                      interval(middle, worst.end, {false, worst.ends.end}, worst.right)}) {
+        heap.push_back(std::move(half));
+        std::ranges::push_heap(heap, std::less<>());
+      }
+      error = 0.0;
+      for (const Interval& part : heap) {
+        error += part.error;
+      }
     }
-    refine(begin, middle, left_ends, left, depth + 1);
-    refine(middle, end, right_ends, right, depth + 1);
+    std::ranges::sort(heap, {}, &Interval::begin);  // the order of points does not depend on the heap's
+    for (const Interval& part : heap) {
+      std::ranges::for_each(part.whole, [this](const Column& column) { add_column(column); });
+    }
   }
 
   // Whether the integrand has a root at one of the breaks in [first, last) when seen from η = inside.
