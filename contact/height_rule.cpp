@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include "contact/gauss_legendre.hpp"
@@ -125,23 +124,34 @@ class HeightRule {
     return result;
   }
 
-  // ∫ η_k dξ and ∫ η_k² dξ of every line; none if the lines are not the same on all columns.
-  static std::optional<Eigen::ArrayXd> moments(const Columns& columns) {
-    const auto& first = columns.front().zeros;
-    const auto n = static_cast<Eigen::Index>(first.size());
-    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * n);
+  // ∫ sign(g) dη and ∫ sign(g) 2η dη of each guard over a column: what the lines do to a smooth integrand.
+  // A pair of zeros that appears changes them continuously, so that zeros lost to rounding do not count.
+  [[nodiscard]] Eigen::ArrayXd signed_moments(const Column& column) const {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * static_cast<Eigen::Index>(crossing_.size()));
+    auto zero = column.zeros.cbegin();
+    for (std::size_t k = 0; k < crossing_.size(); ++k) {
+      // A line that ends at its domain says nothing about the sign elsewhere.
+      const bool ends_inside = lines_[static_cast<std::size_t>(crossing_[k])].domain >= 0;
+      double sign = ends_inside || surface(crossing_[k]).value(column.xi, -1.0) > 0.0 ? 1.0 : -1.0;
+      double begin = -1.0;
+      const auto add_to = [&](double end) {
+        sum[2 * static_cast<Eigen::Index>(k)] += sign * (end - begin);
+        sum[2 * static_cast<Eigen::Index>(k) + 1] += sign * (end - begin) * (end + begin);
+        begin = end;
+        sign = -sign;
+      };
+      for (; zero != column.zeros.cend() && zero->guard == crossing_[k]; ++zero) {
+        add_to(zero->eta);
+      }
+      add_to(1.0);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::ArrayXd moments(const Columns& columns) const {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * static_cast<Eigen::Index>(crossing_.size()));
     for (const Column& column : columns) {
-      if (column.zeros.size() != first.size()) {
-        return std::nullopt;
-      }
-      for (Eigen::Index k = 0; k < n; ++k) {
-        const Crossing& zero = column.zeros[static_cast<std::size_t>(k)];
-        if (zero.guard != first[static_cast<std::size_t>(k)].guard) {
-          return std::nullopt;
-        }
-        sum[2 * k] += column.weight * zero.eta;
-        sum[2 * k + 1] += column.weight * zero.eta * zero.eta;
-      }
+      sum += column.weight * signed_moments(column);
     }
     return sum;
   }
@@ -172,27 +182,22 @@ class HeightRule {
     const double middle = 0.5 * (begin + end);
     Interval result{begin, end, ends, std::move(whole), columns(begin, middle, {ends.begin, false}),
                     columns(middle, end, {false, ends.end}), 0.0};
-    const auto sum = moments(result.whole);
-    const auto left = moments(result.left);
-    const auto right = moments(result.right);
-    const bool same =
-        sum && left && right && sum->size() == left->size() && sum->size() == right->size();
-    // Lines that come and go inside: anything up to the whole strip.
-    result.error = same ? (*sum - *left - *right).abs().sum() : 2.0 * (end - begin);
+    result.error = (moments(result.whole) - moments(result.left) - moments(result.right)).abs().sum();
     return result;
   }
 
   // Halves the worst interval until all together are good enough.
   void refine(double begin, double end, GradedEnds ends) {
-    // Enough for kinks and cusps; zeros that come and go by rounding would never end.
-    constexpr int max_halvings = 1000;
+    // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding, and
+    // halving would never end.
+    constexpr int max_halvings = 300;
     // Of the square's area 4 each part may err by its share; a quarter of it, since the difference of
     // two rules only estimates the error.
     const double allowed = 0.5 * (end - begin) * tolerance_;
     std::vector<Interval> heap;
     heap.push_back(interval(begin, end, ends, columns(begin, end, ends)));
     double error = heap.front().error;
-    for (int k = 0; k < max_halvings && error > allowed; ++k) {
+    for (; n_halvings_ < max_halvings && error > allowed; ++n_halvings_) {
       std::ranges::pop_heap(heap, std::less<>());
       Interval worst = std::move(heap.back());
       heap.pop_back();
@@ -266,6 +271,7 @@ class HeightRule {
   LineRule line_rule_;
   LineRule graded_rule_;
   std::vector<double> events_;
+  int n_halvings_ = 0;
   SquareRule rule_;
 };
 
