@@ -190,7 +190,7 @@ class HeightRule {
   void refine(double begin, double end, GradedEnds ends) {
     // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding, and
     // halving would never end.
-    constexpr int max_halvings = 300;
+    const auto max_halvings = static_cast<int>(2000 / line_rule_.nodes.size());
     // Of the square's area 4 each part may err by its share; a quarter of it, since the difference of
     // two rules only estimates the error.
     const double allowed = 0.5 * (end - begin) * tolerance_;
