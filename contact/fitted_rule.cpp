@@ -15,7 +15,7 @@
 namespace microslip::contact {
 namespace {
 
-constexpr std::array degrees = {4, 8, 16};
+constexpr std::array degrees = {4, 8, 16, 32};
 
 // A part of a cell: [ξ] × [η] = centre ± half.
 struct Box {
@@ -167,8 +167,8 @@ class FittedRule {
         continue;
       }
       result.crossing.push_back(guard);
-      // A hundredth of what the lines themselves may be off; below 1e-13 samples are rounding.
-      const double allowed = std::max(1e-2 * options_.line_tolerance, 1e-13);
+      // A tenth of what the lines themselves may be off; below 1e-13 samples are rounding.
+      const double allowed = std::max(0.1 * options_.line_tolerance, 1e-13);
       result.is_resolved =
           result.is_resolved && tail <= allowed * values.col(guard).cwiseAbs().maxCoeff();
     }

@@ -4,7 +4,7 @@
 /// function and Gauss converges exponentially instead of like a kink.
 ///
 /// The lines are zeros of guards, functions that are smooth themselves. Inside a cell (ξ, η) ∈ [−1, 1]²
-/// each guard is sampled into a Chebyshev surface, of degree 4, 8 or 16 as it needs; a cell in which a
+/// each guard is sampled into a Chebyshev surface, of degree 4, 8, 16 or 32 as it needs; a cell in which a
 /// guard that may vanish is not resolved by then is quartered. On the surfaces,
 ///
 ///   ∬ f dξ dη = Σ_intervals ∫ dξ Σ_pieces ∫_{η_k(ξ)}^{η_k+1(ξ)} f dη                                (1)
