@@ -181,6 +181,21 @@ std::array<ChebyshevSurface, 4> ChebyshevSurface::quarters() const {
           ChebyshevSurface(low * half[1].transpose()), ChebyshevSurface(high * half[1].transpose())};
 }
 
+ChebyshevSurface ChebyshevSurface::trimmed(double noise) const {
+  Eigen::Index n = c_.rows();
+  while (n > 3 && c_.row(n - 1).head(n).cwiseAbs().maxCoeff() <= noise &&
+         c_.col(n - 1).head(n).cwiseAbs().maxCoeff() <= noise) {
+    --n;
+  }
+  return ChebyshevSurface(c_.topLeftCorner(n, n));
+}
+
+ChebyshevSurface ChebyshevSurface::raised_to(int degree) const {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(degree + 1, degree + 1);
+  c.topLeftCorner(c_.rows(), c_.cols()) = c_;
+  return ChebyshevSurface(std::move(c));
+}
+
 double ChebyshevSurface::variation() const { return c_.cwiseAbs().sum() - std::abs(c_(0, 0)); }
 
 double ChebyshevSurface::tail() const {

@@ -45,6 +45,10 @@ class ChebyshevSurface {
   [[nodiscard]] ChebyshevSurface transposed() const { return ChebyshevSurface(c_.transpose()); }
   /// On the quarters of the square, each scaled to [−1, 1]²: (−,−), (+,−), (−,+), (+,+).
   [[nodiscard]] std::array<ChebyshevSurface, 4> quarters() const;
+  /// Without the highest degrees, as far as |c_ij| ≤ noise there; at least of degree 2.
+  [[nodiscard]] ChebyshevSurface trimmed(double noise) const;
+  /// Of a degree at least as high, filled with zeros.
+  [[nodiscard]] ChebyshevSurface raised_to(int degree) const;
   /// Σ |c_ij| without c₀₀.
   [[nodiscard]] double variation() const;
   /// Σ |c_ij| over the two highest degrees in x or y: about what the next ones would add.
@@ -56,7 +60,6 @@ class ChebyshevSurface {
 
 /// Isolated common zeros of f and g in [−1, 1]², each as (x, y). Where the zero lines run together
 /// along a stretch there is nothing isolated to find, and the search ends early with what it has.
-/// @param f, g  of the same degree.
 [[nodiscard]] std::vector<Eigen::Vector2d> common_roots(const ChebyshevSurface& f,
                                                         const ChebyshevSurface& g);
 

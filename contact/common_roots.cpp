@@ -117,7 +117,9 @@ std::vector<Eigen::Vector2d> common_roots(const ChebyshevSurface& f, const Cheby
   constexpr std::size_t too_many = 200;
   constexpr int levels = 14;
   std::vector<Eigen::Vector2d> roots;
-  std::vector<Box> open{{f, g, Eigen::Vector2d::Zero(), 1.0}};
+  const int degree = std::max(f.degree(), g.degree());
+  std::vector<Box> open{
+      {f.raised_to(degree), g.raised_to(degree), Eigen::Vector2d::Zero(), 1.0}};
   for (int level = 0; level < levels && !open.empty() && open.size() < too_many; ++level) {
     std::vector<Box> next;
     for (const Box& box : open) {

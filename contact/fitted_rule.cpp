@@ -168,9 +168,15 @@ class FittedRule {
       }
       result.crossing.push_back(guard);
       // A tenth of what the lines themselves may be off; below 1e-13 samples are rounding.
-      const double allowed = std::max(0.1 * options_.line_tolerance, 1e-13);
-      result.is_resolved =
-          result.is_resolved && tail <= allowed * values.col(guard).cwiseAbs().maxCoeff();
+      const double allowed = std::max(0.1 * options_.line_tolerance, 1e-13) *
+                             values.col(guard).cwiseAbs().maxCoeff();
+      result.is_resolved = result.is_resolved && tail <= allowed;
+    }
+    // Terms that do not count together only make the search for lines slower.
+    for (ChebyshevSurface& surface : result.surfaces) {
+      const double n_terms = static_cast<double>(surface.coefficients().size());
+      const double size = surface.variation() + std::abs(surface.coefficients()(0, 0));
+      surface = surface.trimmed(std::max(1e-2 * options_.line_tolerance, 1e-15) * size / n_terms);
     }
     return result;
   }

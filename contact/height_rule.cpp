@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "contact/gauss_legendre.hpp"
@@ -10,8 +11,8 @@
 namespace microslip::contact {
 namespace {
 
-// Breaks closer than this are one: what lies between weighs less than rounding of the whole.
-constexpr double merge_distance = 1e-12;
+// Breaks closer than this are one: what lies between weighs no more than rounding of the whole.
+constexpr double smallest_distance = 1e-12;
 
 struct Crossing {
   double eta;
@@ -35,6 +36,7 @@ class HeightRule {
         crossing_(crossing),
         lines_(lines),
         tolerance_(options.line_tolerance),
+        merge_distance_(std::max(smallest_distance, options.line_tolerance)),
         line_rule_(gauss_legendre(options.order)),
         // A graded rule needs degree 2 for its weights to sum to 1, degree 5 for those of a cell.
         graded_rule_(gauss_legendre(std::max(options.order, 3))) {
@@ -44,14 +46,21 @@ class HeightRule {
   [[nodiscard]] std::size_t n_events() const { return events_.size(); }
 
   [[nodiscard]] SquareRule rule() {
+    std::vector<Interval> intervals;
     double begin = -1.0;
     bool begin_is_event = false;
     for (const double event : events_) {
-      add_interval(begin, event, {begin_is_event, true});
+      const GradedEnds ends{begin_is_event, true};
+      intervals.push_back(interval(begin, event, ends, columns(begin, event, ends)));
       begin = event;
       begin_is_event = true;
     }
-    add_interval(begin, 1.0, {begin_is_event, false});
+    const GradedEnds ends{begin_is_event, false};
+    intervals.push_back(interval(begin, 1.0, ends, columns(begin, 1.0, ends)));
+    refine(intervals);
+    for (const Interval& part : intervals) {
+      std::ranges::for_each(part.whole, [this](const Column& column) { add_column(column); });
+    }
     return std::move(rule_);
   }
 
@@ -66,7 +75,7 @@ class HeightRule {
   }
 
   void add_event(double xi, double eta, int guard) {
-    if (std::abs(xi) < 1.0 - merge_distance && std::abs(eta) <= 1.0 && counts(guard, xi, eta)) {
+    if (std::abs(xi) < 1.0 - merge_distance_ && std::abs(eta) <= 1.0 && counts(guard, xi, eta)) {
       events_.push_back(xi);
     }
   }
@@ -97,7 +106,7 @@ class HeightRule {
       }
     }
     std::ranges::sort(events_);
-    const auto is_near = [](double a, double b) { return b - a < merge_distance; };
+    const auto is_near = [this](double a, double b) { return b - a < merge_distance_; };
     events_.erase(std::unique(events_.begin(), events_.end(), is_near), events_.end());
   }
 
@@ -105,7 +114,7 @@ class HeightRule {
     std::vector<Crossing> zeros;
     for (const int guard : crossing_) {
       for (const double eta : chebyshev_roots(surface(guard).column(xi))) {
-        if (std::abs(eta) < 1.0 - merge_distance && counts(guard, xi, eta)) {
+        if (std::abs(eta) < 1.0 - merge_distance_ && counts(guard, xi, eta)) {
           zeros.push_back({eta, guard});
         }
       }
@@ -156,15 +165,6 @@ class HeightRule {
     return sum;
   }
 
-  void add_interval(double begin, double end, GradedEnds ends) {
-    if (end - begin < merge_distance) {
-      // Too narrow for a rule of its own; its weight must not be lost.
-      add_column({0.5 * (begin + end), end - begin, zeros_at(0.5 * (begin + end))});
-      return;
-    }
-    refine(begin, end, ends);
-  }
-
   // An interval with its rule and those of its halves; their difference estimates the error.
   struct Interval {
     double begin;
@@ -186,37 +186,29 @@ class HeightRule {
     return result;
   }
 
-  // Halves the worst interval until all together are good enough.
-  void refine(double begin, double end, GradedEnds ends) {
+  // Halves the worst interval until all together are good enough, and leaves them in order.
+  void refine(std::vector<Interval>& heap) const {
     // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding, and
     // halving would never end.
     const auto max_halvings = static_cast<int>(2000 / line_rule_.nodes.size());
-    // Of the square's area 4 each part may err by its share; a quarter of it, since the difference of
-    // two rules only estimates the error.
-    const double allowed = 0.5 * (end - begin) * tolerance_;
-    std::vector<Interval> heap;
-    heap.push_back(interval(begin, end, ends, columns(begin, end, ends)));
-    double error = heap.front().error;
-    for (; n_halvings_ < max_halvings && error > allowed; ++n_halvings_) {
+    // A quarter of what the square, of area 4, may err: the difference of two rules is only an estimate.
+    const double allowed = tolerance_;
+    const auto total = [&heap] {
+      return std::accumulate(heap.begin(), heap.end(), 0.0,
+                             [](double sum, const Interval& part) { return sum + part.error; });
+    };
+    std::ranges::make_heap(heap, std::less<>());
+    for (int k = 0; k < max_halvings && total() > allowed; ++k) {
       std::ranges::pop_heap(heap, std::less<>());
       Interval worst = std::move(heap.back());
       heap.pop_back();
       const double middle = worst.middle();
-      for (Interval half :
-           {interval(worst.begin, middle, {worst.ends.begin, false}, worst.left),
-                      interval(middle, worst.end, {false, worst.ends.end}, worst.right)}) {
-        heap.push_back(std::move(half));
-        std::ranges::push_heap(heap, std::less<>());
-      }
-      error = 0.0;
-      for (const Interval& part : heap) {
-        error += part.error;
-      }
+      heap.push_back(interval(worst.begin, middle, {worst.ends.begin, false}, worst.left));
+      std::ranges::push_heap(heap, std::less<>());
+      heap.push_back(interval(middle, worst.end, {false, worst.ends.end}, worst.right));
+      std::ranges::push_heap(heap, std::less<>());
     }
-    std::ranges::sort(heap, {}, &Interval::begin);  // the order of points does not depend on the heap's
-    for (const Interval& part : heap) {
-      std::ranges::for_each(part.whole, [this](const Column& column) { add_column(column); });
-    }
+    std::ranges::sort(heap, {}, &Interval::begin);
   }
 
   // Whether the integrand has a root at one of the breaks in [first, last) when seen from η = inside.
@@ -248,7 +240,7 @@ class HeightRule {
     for (auto next = zeros.cbegin();; last = next) {
       const double end = next == zeros.cend() ? 1.0 : next->eta;
       auto next_last = next;
-      while (next_last != zeros.cend() && next_last->eta - end < merge_distance) {
+      while (next_last != zeros.cend() && next_last->eta - end < merge_distance_) {
         ++next_last;
       }
       const double inside = 0.5 * (begin + end);
@@ -268,10 +260,10 @@ class HeightRule {
   const std::vector<int>& crossing_;
   const std::vector<GuardLine>& lines_;
   double tolerance_;
+  double merge_distance_;  // lines are no better known than their tolerance
   LineRule line_rule_;
   LineRule graded_rule_;
   std::vector<double> events_;
-  int n_halvings_ = 0;
   SquareRule rule_;
 };
 

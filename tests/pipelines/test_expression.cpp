@@ -54,7 +54,7 @@ TEST(Expression, KnowsConstantsOfTheCaller) {
 TEST(Expression, NamesWhatItDoesNotKnow) {
   expect_words("0.3 + 0.1*x", {"here: ", "character 11", "\"x\" is not known", "known are p, r, e, pi",
                                "sqrt"});
-  expect_words("0.3 + sinn(p)", {"character 7", "did you mean \"sin\"?"});
+  expect_words("0.3 + sqr(p)", {"character 7", "did you mean \"sqrt\"?"});
 }
 
 TEST(Expression, TellsWhereTheSyntaxBreaks) {
@@ -95,7 +95,7 @@ TEST(Expression, MayBeUsedByManyThreads) {
     thread.join();
   }
   for (const double error : worst) {
-    EXPECT_EQ(error, 0.0);
+    EXPECT_LE(error, 1e-15);  // rounding of sums of order 5, in another order of terms
   }
 }
 
