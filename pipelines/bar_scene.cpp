@@ -54,19 +54,14 @@ std::vector<int> read_mode_numbers(const SectionReader& s) {
   return numbers;
 }
 
-/// The load as a formula. A text that is a quantity, "2 kN/m", is a constant.
-Expression load_formula(const SectionReader& s, const std::string& text) {
+/// Values of a formula in x and L, or of a quantity such as "2 kN/m".
+Eigen::VectorXd load_of_text(const SectionReader& s, const std::string& text,
+                             const Eigen::VectorXd& x, double length) {
   try {
-    return {fmt::format("{:.17g}", to_si(text, "N/m")), {"x", "L"}};
-  } catch (const UnitError& no_quantity) {
-    try {
-      return {text, {"x", "L"}};
-    } catch (const ExpressionError& no_formula) {
-      s.fail("load",
-             fmt::format("neither a quantity ({}) nor a formula ({})", no_quantity.what(),
-                         no_formula.what()),
-             s.node("load"));
-    }
+    return Eigen::VectorXd::Constant(x.size(), to_si(text, "N/m"));
+  } catch (const UnitError&) {  // then it is a formula, or the formula's message tells
+    const std::string place = place_of(s.node("load"), s.file()) + ": contact.load";
+    return Expression(text, place, {{"L", length}}, {"x", ""}).at(x, Eigen::VectorXd::Zero(x.size()));
   }
 }
 
@@ -75,8 +70,7 @@ Eigen::VectorXd read_load(const SectionReader& s, const Eigen::VectorXd& x, doub
   const toml::node& node = *s.node("load");
   Eigen::VectorXd load(x.size());
   if (node.is_string()) {
-    const Expression formula = load_formula(s, *node.value<std::string>());
-    for (Eigen::Index i = 0; i < x.size(); ++i) load[i] = formula(std::array{x[i], length});
+    load = load_of_text(s, *node.value<std::string>(), x, length);
   } else {
     load.setConstant(s.number_in(node, "load"));
   }
