@@ -2,15 +2,15 @@
 // seeds 0 … 139, 2 % above the first mode). The solution of harmonic balance is where integration
 // starts, so both speak of the same steady state.
 //
-//   closed form, H = 1, nothing changes state   both are exact: |Δ| ≤ 1e-7, the periodicity
-//   tolerance event by event, H = 15, slip or separation  |Δ| ≤ 0.2 % of the motion
+//   nothing changes state: closed form, H = 1; both are exact; 1e-7 is the periodicity tolerance
+//
+//   slip or separation: points event by event, H = 15, and H = 31 where 15 are not enough; the
+//   named tolerance is 0.2 % of the motion, and half of it is what must be met
 //
 // |Δ| is the difference of all harmonics of q up to H over the first, and that of the half
-// peak-to-peak value of the output. A force with kinks leaves harmonics like k⁻³ out, which sets no
-// tolerance by itself; 0.2 % is what is demanded of harmonic balance with enough harmonics, and |Δ|
-// must shrink to half or less from H = 3 to H = 15 unless it is below 1e-5 already. Scenes not
-// periodic with the period of the excitation within the cap (light damping) are left out and
-// counted.
+// peak-to-peak value of the output. It must shrink to half or less from H = 3 on unless it is below
+// 1e-5 already. Scenes not periodic with the period of the excitation within the cap (light
+// damping) are left out and counted.
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,11 @@ namespace microslip {
 namespace {
 
 constexpr double linear_tolerance = 1e-7;
-constexpr double named_tolerance = 2e-3;
+constexpr double named_tolerance = 0.5 * 2e-3;
 constexpr double settled = 1e-5;
 constexpr std::uint64_t n_seeds = 140;
 constexpr int many_harmonics = 15;
+constexpr int most_harmonics = 31;
 
 /// The same contact with every point cycled event by event: any number of harmonics.
 std::unique_ptr<contact::LawPatchForce> event_patch(const contact::ModalForce& force) {
@@ -59,9 +60,10 @@ double difference(const solver::ResponsePoint& balance, const solver::ResponsePo
 struct Campaign {
   int n_linear = 0;
   int n_nonlinear = 0;
+  int n_more = 0;  // that needed 31 harmonics
   int n_left_out = 0;
   double largest_linear = 0.0;
-  std::vector<double> differences;  // at H = 15
+  std::vector<double> differences;  // of those
 };
 
 solver::ResponsePoint balance_point(const tests::RandomScene& random, double frequency,
@@ -80,7 +82,7 @@ void compare(std::uint64_t seed, Campaign& campaign) {
   const solver::ResponsePoint closed = balance_point(random, frequency, 1);
   solver::TimeOptions options;
   options.max_periods = 200;
-  options.n_harmonics = many_harmonics;
+  options.n_harmonics = most_harmonics;
   if (closed.report.stick_share == 1.0 || closed.report.separated_share == 1.0) {
     const auto point = solver::steady_state_from(random.scene, frequency, closed.q, options);
     EXPECT_EQ(point.period_multiple, 1) << seed;
@@ -99,7 +101,11 @@ void compare(std::uint64_t seed, Campaign& campaign) {
     ++campaign.n_left_out;
     return;
   }
-  const double here = difference(many, point.response);
+  double here = difference(many, point.response);
+  if (here > named_tolerance) {  // 15 are not enough
+    here = difference(balance_point(random, frequency, most_harmonics), point.response);
+    ++campaign.n_more;
+  }
   EXPECT_LT(here, named_tolerance) << seed;
   EXPECT_LT(here, std::max(settled, 0.5 * difference(few, point.response))) << seed;
   campaign.differences.push_back(here);
@@ -117,6 +123,7 @@ TEST(TimeAgainstBalance, RandomScenesAgreeToTheNamedTolerance) {
   std::printf("%d that slip or separate, 15 harmonics: median difference %.1e, largest %.1e\n",
               campaign.n_nonlinear, campaign.differences[campaign.differences.size() / 2],
               campaign.differences.back());
+  std::printf("%d of them with 31 harmonics\n", campaign.n_more);
   std::printf("%d left out: not of the period of the excitation within %d periods\n",
               campaign.n_left_out, 200);
 }
