@@ -194,11 +194,14 @@ def plot_comparison(folders, path):
     figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
     palette = plt.cm.viridis(np.linspace(0, 0.85, len(folders)))
     handles = kind_handles("0.3")
+    low, high = np.inf, -np.inf
     for folder, colour in zip(folders, palette):
         line_map = first_map(folder)
         if not draw_transitions(axes, line_map, colour):
             raise SystemExit(f"{folder}: its transitions are not those of constant elastic Coulomb friction")
         handles.append(Line2D([], [], color=colour, linewidth=2.5, label=label_of(folder)))
+        low, high = min(low, line_map.x[0]), max(high, line_map.x[-1])
+    axes.set_xlim(low, high)
     axes_of_phase(axes)
     axes.set_xlabel("position along the contact x [m]")
     axes.set_title(plot_run.Run(folders[0]).summary.get("title", ""), loc="left")
