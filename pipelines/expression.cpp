@@ -15,7 +15,8 @@ namespace microslip::pipelines {
 namespace {
 
 using Function = double (*)(double);
-constexpr int deepest = 200;  // brackets within brackets: no formula needs more, a stack could not take any
+constexpr int deepest =
+    200;  // brackets within brackets: no formula needs more, a stack could not take any
 
 const std::array<std::pair<std::string_view, Function>, 7>& functions() {
   static const std::array<std::pair<std::string_view, Function>, 7> known{{
@@ -132,7 +133,8 @@ class ExpressionParser {
 
   void number() {
     double value = 0.0;
-    const auto [end, code] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    const auto [end, code] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (code != std::errc()) fail("not a number");
     at_ = static_cast<std::size_t>(end - text_.data());
     steps_.push_back({Operation::constant, value, 0, nullptr});
@@ -159,9 +161,10 @@ class ExpressionParser {
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const auto& entry) { return entry.first == word; });
     if (found == known.end()) {
-      fail(fmt::format("\"{}\" is not known here; known: {}, pi, and sqrt, exp, log, sin, cos, tan, "
-                       "abs of a bracket",
-                       word, fmt::join(variables_, ", ")));
+      fail(
+          fmt::format("\"{}\" is not known here; known: {}, pi, and sqrt, exp, log, sin, cos, tan, "
+                      "abs of a bracket",
+                      word, fmt::join(variables_, ", ")));
     }
     at_ += word.size();
     if (!take('(')) fail(fmt::format("expected \"(\" after {}", word));
@@ -182,35 +185,40 @@ Expression::Expression(std::string_view text, std::vector<std::string> variables
   ExpressionParser(text, variables, steps_).all();
 }
 
+double Expression::combined(Operation operation, double left, double right) {
+  switch (operation) {
+    case Operation::add:
+      return left + right;
+    case Operation::subtract:
+      return left - right;
+    case Operation::multiply:
+      return left * right;
+    case Operation::divide:
+      return left / right;
+    default:
+      return std::pow(left, right);
+  }
+}
+
 double Expression::operator()(std::span<const double> values) const {
   if (values.size() != n_variables_) {
     throw std::invalid_argument(
         fmt::format("expression: {} values for {} variables", values.size(), n_variables_));
   }
   std::vector<double> stack;
-  const auto pop = [&] {
-    const double value = stack.back();
-    stack.pop_back();
-    return value;
-  };
   for (const Step& step : steps_) {
     if (step.operation == Operation::constant) {
       stack.push_back(step.constant);
-      continue;
-    }
-    if (step.operation == Operation::variable) {
+    } else if (step.operation == Operation::variable) {
       stack.push_back(values[step.variable]);
-      continue;
-    }
-    const double right = pop();
-    switch (step.operation) {
-      case Operation::negate: stack.push_back(-right); break;
-      case Operation::call: stack.push_back(step.function(right)); break;
-      case Operation::add: stack.back() += right; break;
-      case Operation::subtract: stack.back() -= right; break;
-      case Operation::multiply: stack.back() *= right; break;
-      case Operation::divide: stack.back() /= right; break;
-      default: stack.back() = std::pow(stack.back(), right); break;
+    } else if (step.operation == Operation::negate) {
+      stack.back() = -stack.back();
+    } else if (step.operation == Operation::call) {
+      stack.back() = step.function(stack.back());
+    } else {
+      const double right = stack.back();
+      stack.pop_back();
+      stack.back() = combined(step.operation, stack.back(), right);
     }
   }
   return stack.back();

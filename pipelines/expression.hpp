@@ -44,6 +44,8 @@ class Expression {
     std::size_t variable = 0;
     Function function = nullptr;
   };
+  static double combined(Operation operation, double left, double right);
+
   std::vector<Step> steps_;  // in reverse Polish order
   std::size_t n_variables_ = 0;
 };

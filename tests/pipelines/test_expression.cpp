@@ -36,7 +36,8 @@ TEST(Expression, FollowsTheRulesOfArithmetic) {
 
 TEST(Expression, KnowsItsVariablesAndFunctions) {
   EXPECT_DOUBLE_EQ(value("2000*(0.2 + 0.8*(2*x/L - 1)^2)", 0.25, 1.0), 2000.0 * 0.4);
-  EXPECT_DOUBLE_EQ(value("sin(pi/6) + cos(0) + sqrt(x) + abs(-L)", 4.0, 3.0), 0.5 + 1.0 + 2.0 + 3.0);
+  EXPECT_DOUBLE_EQ(value("sin(pi/6) + cos(0) + sqrt(x) + abs(-L)", 4.0, 3.0),
+                   0.5 + 1.0 + 2.0 + 3.0);
   EXPECT_DOUBLE_EQ(value("exp(log(x))*tan(pi/4)", 7.0), 7.0);
   EXPECT_TRUE(std::isinf(value("1/x")));
   EXPECT_TRUE(std::isnan(value("sqrt(-1)")));
