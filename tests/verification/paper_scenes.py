@@ -162,8 +162,8 @@ class Bar(unittest.TestCase):
         angles = line_map.transitions()
         drawn = angles[plot_bar.POSITIVE, plot_bar.STICK]
         np.testing.assert_array_equal(~np.isnan(drawn), cycle.slips)
-        step = 360 / plot_bar.N_FINE  # the march knows a transition to one of its steps
-        self.assertLess(np.abs(drawn - cycle.angle)[cycle.slips].max(), step)
+        # A parabola through three instants of a sine errs by a step cubed: 2e-9 rad.
+        self.assertLess(np.abs(drawn - cycle.angle)[cycle.slips].max(), 1e-6)
         for point in np.flatnonzero(cycle.slips):  # the state written at 90° is the one drawn there
             slipping = angles[plot_bar.STICK, plot_bar.POSITIVE][point] < 90 < drawn[point]
             self.assertEqual(line_map.state[point, np.argmin(np.abs(line_map.phase - 90))], int(slipping))
