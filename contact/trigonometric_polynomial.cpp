@@ -93,6 +93,12 @@ class Cell {
     return low > error || high < -error;
   }
 
+  // Nothing but rounding.
+  [[nodiscard]] bool is_flat(double rounding) const {
+    const auto [low, high] = std::minmax({a_.value, inner_a_, inner_b_, b_.value});
+    return low > -rounding && high < rounding;
+  }
+
   // +1 convex, −1 concave, 0 not known.
   [[nodiscard]] int curvature() const {
     const double error = fourth_ * width_ * width_ / 12.0;
@@ -136,7 +142,11 @@ class Cell {
 class Isolation {
  public:
   Isolation(const TrigonometricPolynomial& p, std::vector<SignChange>& changes)
-      : p_(p), changes_(changes), fourth_(p.bound(4)) {}
+      : p_(p),
+        changes_(changes),
+        fourth_(p.bound(4)),
+        rounding_(4.0 * std::numeric_limits<double>::epsilon() *
+                  (std::abs(p.mean()) + p.bound(0))) {}
 
   void search(const Node& a, const Node& b, int depth = 0) {
     const Cell cell(a, b, fourth_);
@@ -152,7 +162,7 @@ class Isolation {
     const int curvature = cell.curvature();
     if (curvature != 0) {
       search_bowl(a, b, cell, curvature);
-    } else if (depth < deepest) {
+    } else if (depth < deepest && !cell.is_flat(rounding_)) {
       const Node middle = node(0.5 * (a.phase + b.phase));
       search(a, middle, depth + 1);
       search(middle, b, depth + 1);
@@ -208,6 +218,7 @@ class Isolation {
   const TrigonometricPolynomial& p_;
   std::vector<SignChange>& changes_;
   double fourth_;
+  double rounding_;
 };
 
 // Values and slopes on the grid by Horner's rule, all nodes side by side.
