@@ -1,8 +1,11 @@
 // Scenes of the kinds bar and chain: what their sections become, and what is refused.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include <Eigen/Eigenvalues>
 
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/response_stage.hpp"
@@ -130,6 +133,30 @@ TEST(BarScene, TheResidualStandsInSeries) {
   expect_complaint(bar_text, {"effects.residual=on"}, "no residual");
   expect_complaint(bar_text, {"modes.residual=stiffness", "contact.tangential_stiffness=1e13"},
                    "not positive");
+}
+
+/// First natural frequency with every point stuck [rad/s].
+double stuck_frequency(const Overrides& overrides) {
+  const ReducedModel model = reduced_model(model_of(bar_text, overrides));
+  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
+  K += solver_scene(model, 1.0).contact->stuck_stiffness();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0]);
+}
+
+TEST(BarScene, TheResidualStandsForTheModesLeftOut) {
+  // Many modes and a fine patch are the bar itself; the contact is stiff enough for the rest to matter.
+  const Overrides common{"contact.tangential_stiffness=1e8", "contact.points=400"};
+  const auto with = [&](const char* count, const char* residual) {
+    Overrides all = common;
+    all.emplace_back(std::string("modes.count=") + count);
+    all.emplace_back(std::string("modes.residual=") + residual);
+    return stuck_frequency(all);
+  };
+  const double exact = with("100", "none");
+  const double plain = std::abs(with("2", "none") - exact);
+  const double helped = std::abs(with("2", "stiffness") - exact);
+  EXPECT_GT(plain, 1e-4 * exact);
+  EXPECT_LT(helped, 0.5 * plain);
 }
 
 TEST(BarScene, AFreeBarIsHeldByItsContact) {
