@@ -76,7 +76,8 @@ Eigen::VectorXd read_load(const SectionReader& s, const Eigen::VectorXd& x, doub
   }
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (std::isfinite(load[i]) && load[i] >= 0.0) continue;
-    s.fail("load", fmt::format("{:g} N/m at x = {:g} m: must be finite and not negative", load[i], x[i]),
+    s.fail("load",
+           fmt::format("{:g} N/m at x = {:g} m: must be finite and not negative", load[i], x[i]),
            &node);
   }
   return load;
@@ -87,16 +88,17 @@ Eigen::VectorXd series_stiffness(const Bar& bar, const BarModes& modes, const Ei
                                  double local) {
   if (bar.end_stiffness == 0.0 && (modes.root.array() != 0.0).all()) {
     throw RefusedError(
-        "modes.which: a free bar without its rigid-body mode (number 1) has no residual flexibility; keep "
+        "modes.which: a free bar without its rigid-body mode (number 1) has no residual "
+        "flexibility; keep "
         "that mode, or residual = \"none\"");
   }
   if (local == 0.0) return Eigen::VectorXd::Zero(x.size());
-  const Eigen::ArrayXd flexibility =
-      bar_residual_flexibility(bar, modes, x).array() + 1.0 / local;
+  const Eigen::ArrayXd flexibility = bar_residual_flexibility(bar, modes, x).array() + 1.0 / local;
   if (flexibility.minCoeff() <= 0.0) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the contact stiffness not positive (smallest 1/k + c = {:.3g} "
-        "m^2/N): give a lower contact.tangential_stiffness, more modes, or modes.residual = \"none\"",
+        "m^2/N): give a lower contact.tangential_stiffness, more modes, or modes.residual = "
+        "\"none\"",
         flexibility.minCoeff()));
   }
   return flexibility.inverse();

@@ -164,9 +164,10 @@ ModesDescription read_modes(const SectionReader& s) {
   const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
   const toml::node* given = s.node("damping_ratio");
   if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
-    s.fail("damping_ratio",
-           fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
-           given);
+    s.fail(
+        "damping_ratio",
+        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
+        given);
   }
   constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
   modes.residual =
