@@ -113,7 +113,7 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
 void check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
   fmt::print(out, "{} modes\n", modal.frequency_hz.size());
   const ReducedModel model = reduced_model(modal);
-  require_held(model);
+  require_held(model, scene);
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
