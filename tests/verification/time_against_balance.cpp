@@ -148,15 +148,15 @@ double compare_sweeps(const char* name, solver::Scene scene) {
   solver::TimeOptions time_options;
   time_options.step_tolerance = 1e-8;
   time_options.periodicity_tolerance = 1e-6;
-  time_options.max_periods = 400;
+  time_options.max_periods = 3000;  // 10 N at 18 Hz takes 1800
   const auto sweep = solver::sweep(scene, frequencies, time_options);
   EXPECT_TRUE(sweep.complete) << sweep.message;
   double largest = 0.0;
   int n_left_out = 0;
   for (const auto& point : sweep.points) {
     if (point.period_multiple != 1) {
-      std::printf("  %s: left out %.1f Hz, no motion of the period of the excitation\n", name,
-                  point.response.frequency / (2.0 * M_PI));
+      std::printf("  %s: left out %.1f Hz, not of period one after %d periods\n", name,
+                  point.response.frequency / (2.0 * M_PI), point.n_periods);
       ++n_left_out;
       continue;
     }
@@ -164,7 +164,7 @@ double compare_sweeps(const char* name, solver::Scene scene) {
   }
   std::printf("%s: largest difference %.1e of the peak, %d of %zu left out\n", name, largest,
               n_left_out, sweep.points.size());
-  EXPECT_LE(n_left_out, 6) << name;
+  EXPECT_LE(n_left_out, 2) << name;  // theory section 20.4: there are such frequencies at 10 N
   return largest;
 }
 
@@ -176,7 +176,7 @@ TEST(TimeAgainstBalance, ChainOfPaperBAgreesOnTheWholeCurve) {
 }
 
 TEST(TimeAgainstBalance, ThreeDegreesOfFreedomAgreeOnEveryPartOfTheBranch) {
-  for (const double preload : {0.0, 10.0, 25.0, 30.0, 50.0, 100.0}) {
+  for (const double preload : {0.0, 10.0, 20.0, 25.0, 30.0, 50.0, 100.0}) {
     const std::string name =
         "three degrees of freedom, " + std::to_string(static_cast<int>(preload)) + " N";
     EXPECT_LT(compare_sweeps(name.c_str(), tests::three_dof_scene(preload)), named_tolerance)
