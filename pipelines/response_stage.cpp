@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "contact/patch_force.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -54,17 +54,21 @@ void make_unique(std::vector<CurveRequest>& requests) {
 
 NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double load,
                 const std::string& name, const solver::ResponsePoint& point) {
-  const double wear = scene.contact ? scene.contact->wear_coefficient : 0.0;
+  const double wear = scene.contact ? scene.contact->wear_coefficient : scene.wear_coefficient;
   const int phases = scene.response->map_phases;
   NamedMap map;
   map.name = name;
   map.frequency_hz = point.frequency / two_pi;
-  map.points = contact::contact_map(point_parameters(model, load, false), model.shapes, point.q,
-                                    phases, wear);
-  if (model.vertices.rows() > 0) {
-    map.vertices = contact::contact_map(point_parameters(model, load, true), model.vertex_shapes,
-                                        point.q, phases, wear);
-  }
+  const bool closed_form = model.effects.closed_form();
+  const auto draw = [&](bool on_vertices) {
+    const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
+    return closed_form ? contact::contact_map(point_parameters(model, load, on_vertices), shapes,
+                                              point.q, phases, wear)
+                       : contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
+                                              point.frequency, phases, wear);
+  };
+  map.points = draw(false);
+  if (model.vertices.rows() > 0) map.vertices = draw(true);
   return map;
 }
 
@@ -113,27 +117,27 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   solver::Scene scene;
   scene.natural_frequency = model.frequency;
   scene.damping_ratio = model.damping_ratio;
-  scene.excitation = excitation(model, 1);
+  scene.excitation = excitation(model, model.effects.n_harmonics);
   scene.output = model.output;
-  if (model.weights.size() > 0) {
-    scene.contact = std::make_unique<contact::PatchForce>(
-        contact::ContactPatch(model.weights, point_parameters(model, load, false)), model.shapes);
-  }
+  scene.contact = contact_force(model, load);
   return scene;
 }
 
-void require_held(const ReducedModel& model) {
+void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
-  const solver::Scene scene = solver_scene(model, 1.0);
+  const solver::Scene problem = solver_scene(model, 1.0);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
-  if (scene.contact) stuck += scene.contact->stuck_stiffness();
+  if (problem.contact) stuck += problem.contact->stuck_stiffness();
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
   if (factors.isInvertible()) return;
+  const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
       "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
-      "with every contact point stuck): name the clamped surfaces in [supports] clamped",
-      n_rigid, model.frequency.size(), factors.dimensionOfKernel()));
+      "with every contact point stuck): {}",
+      n_rigid, model.frequency.size(), factors.dimensionOfKernel(),
+      has_supports ? "name the clamped surfaces in [supports] clamped"
+                   : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
