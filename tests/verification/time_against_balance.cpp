@@ -1,5 +1,5 @@
 // Time integration against harmonic balance on random modal scenes (theory sections 8, 13, 18;
-// seeds 0 … 139, 2 % above the first mode). The solution of harmonic balance is where integration
+// seeds 0 … 119, 2 % above the first mode). The solution of harmonic balance is where integration
 // starts, so both speak of the same steady state.
 //
 //   nothing changes state: closed form, H = 1; both are exact; 1e-7 is the periodicity tolerance
@@ -36,7 +36,7 @@ namespace {
 constexpr double linear_tolerance = 1e-7;
 constexpr double named_tolerance = 0.5 * 2e-3;
 constexpr double settled = 1e-5;
-constexpr std::uint64_t n_seeds = 140;
+constexpr std::uint64_t n_seeds = 120;
 constexpr int many_harmonics = 15;
 constexpr int most_harmonics = 31;
 
@@ -85,6 +85,8 @@ void compare(std::uint64_t seed, Campaign& campaign) {
     return;
   }
   tests::use_event_cycles(random.scene);
+  options.step_tolerance = 1e-8;  // far below the named tolerance
+  options.periodicity_tolerance = 1e-6;
   const solver::ResponsePoint few = balance_point(random, frequency, 3);
   const solver::ResponsePoint many = balance_point(random, frequency, many_harmonics);
   const auto point = solver::steady_state_from(random.scene, frequency, many.q, options);
@@ -169,14 +171,14 @@ double compare_sweeps(const char* name, solver::Scene scene) {
 }
 
 TEST(TimeAgainstBalance, ChainOfPaperBAgreesOnTheWholeCurve) {
-  for (const double preload : {10.0, 20.0, 30.0, 50.0, 100.0}) {
+  for (const double preload : {10.0, 30.0, 100.0}) {
     const std::string name = "chain, " + std::to_string(static_cast<int>(preload)) + " N";
     EXPECT_LT(compare_sweeps(name.c_str(), tests::chain_scene(preload)), named_tolerance) << name;
   }
 }
 
 TEST(TimeAgainstBalance, ThreeDegreesOfFreedomAgreeOnEveryPartOfTheBranch) {
-  for (const double preload : {0.0, 10.0, 20.0, 25.0, 30.0, 50.0, 100.0}) {
+  for (const double preload : {0.0, 10.0, 25.0, 50.0}) {
     const std::string name =
         "three degrees of freedom, " + std::to_string(static_cast<int>(preload)) + " N";
     EXPECT_LT(compare_sweeps(name.c_str(), tests::three_dof_scene(preload)), named_tolerance)
