@@ -24,7 +24,7 @@ struct FoundPairs {
   Eigen::VectorXd beyond;  ///< lower estimates of the next eigenvalues, not converged [rad²/s²]
 };
 
-/// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-9 θ, θ = 1/(λ − shift), of every pair.
+/// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-10 θ, θ = 1/(λ − shift), of every pair.
 ///
 /// @param inverse    factorisation of K − shift M.
 /// @param shift      [rad²/s²], below every wanted eigenvalue.
