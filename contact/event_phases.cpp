@@ -50,9 +50,8 @@ struct Side {
   [[nodiscard]] bool ends_slip(std::size_t i) const {
     return extrema.is_maximum(i) == (sign > 0.0);
   }
-  [[nodiscard]] bool beyond(double phase) const {
-    return sign * (guard->value(phase) - level) > 0.0;
-  }
+  // How far beyond the level, in the direction of slip.
+  [[nodiscard]] double beyond(double phase) const { return sign * (guard->value(phase) - level); }
 };
 
 // Where stick ends, and the extremum at which the slip after it will end.
@@ -67,9 +66,14 @@ Onset onset(const Side& side, double from, double end) {
   }
   for (std::size_t i = side.next;; ++i) {
     const double to = std::min(side.extrema.phase(i), end);
-    if (side.ends_slip(i) && side.beyond(to)) {
-      const bool at_once = side.sign * (side.guard->value(from) - side.level) >= 0.0;
-      return {at_once ? from : crossing(*side.guard, side.level, from, to), i};
+    const double at_to = side.ends_slip(i) ? side.beyond(to) : 0.0;
+    if (at_to > 0.0) {
+      const double at_from = side.beyond(from);
+      if (at_from >= 0.0) {
+        return {from, i};
+      }
+      const double sign = side.sign;
+      return {crossing(*side.guard, side.level, from, to, sign * at_from, sign * at_to), i};
     }
     if (to >= end) {
       return {};

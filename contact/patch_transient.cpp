@@ -169,15 +169,14 @@ TransientForce::Guards PatchTransient::guards_at(Eigen::Index point, const Insta
   if (state == ContactState::stick) {
     const double spring = mu > 0.0 ? k_u : 0.0;
     const double friction = spring * (now.u - slider);
-    const double size = std::max(
-        smallest, spring * (u_size_[point] * scale.displacement + std::abs(slider)) +
-                      (mu > 0.0 ? mu : 1.0) * load_size);
+    const double size =
+        std::max(smallest, spring * (u_size_[point] * scale.displacement + std::abs(slider)) +
+                               (mu > 0.0 ? mu : 1.0) * load_size);
     const double limit = (mu > 0.0 ? mu : 1.0) * load;
     return {(limit - friction) / size, (limit + friction) / size};
   }
-  const double rate_size =
-      std::max(smallest, (k_u * u_size_[point] + mu * p.normal_stiffness * v_size_[point]) *
-                             scale.velocity);
+  const double rate_size = std::max(
+      smallest, (k_u * u_size_[point] + mu * p.normal_stiffness * v_size_[point]) * scale.velocity);
   const double sign = state == ContactState::positive_slip ? 1.0 : -1.0;
   const double rate = sign * k_u * now.u_rate - mu * p.normal_stiffness * now.v_rate;
   return {rate / rate_size, load / load_size};
@@ -191,8 +190,9 @@ Eigen::Matrix<double, Eigen::Dynamic, TransientForce::guards_per_point> PatchTra
   const Eigen::VectorXd v_rate = shapes_.v * motion.velocity;
   Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> result(n_points(), guards_per_point);
   for (Eigen::Index i = 0; i < n_points(); ++i) {
-    const Guards row = guards_at(i, {u[i], v[i], u_rate[i], v_rate[i]},
-                                 memory.state[static_cast<std::size_t>(i)], memory.slider[i], scale);
+    const Guards row =
+        guards_at(i, {u[i], v[i], u_rate[i], v_rate[i]}, memory.state[static_cast<std::size_t>(i)],
+                  memory.slider[i], scale);
     result(i, 0) = row[0];
     result(i, 1) = row[1];
   }
@@ -246,9 +246,8 @@ double PatchTransient::slip_power(const ModalMotion& motion, const TransientMemo
     const PointParameters& p = patch_.points()[static_cast<std::size_t>(i)];
     const Instant now = instant(i, motion);
     const double sign = state == ContactState::positive_slip ? 1.0 : -1.0;
-    const double slip_rate =
-        sign * now.u_rate -
-        p.friction_coefficient * p.normal_stiffness * now.v_rate / p.tangential_stiffness;
+    const double slip_rate = sign * now.u_rate - p.friction_coefficient * p.normal_stiffness *
+                                                     now.v_rate / p.tangential_stiffness;
     power += patch_.weights()[i] * p.friction_coefficient * signed_load(p, now.v) * slip_rate;
   }
   return power;

@@ -58,11 +58,11 @@ void TrigonometricMoments::add(double factor, const TrigonometricMoments& other)
   }
 }
 
-void TrigonometricMoments::add_sample(double weight, const std::vector<double>& basis) {
-  cos_[0] += weight;
+void TrigonometricMoments::set_sums(const double* sums) {
+  cos_[0] = sums[0];
   for (std::size_t m = 1; m < cos_.size(); ++m) {
-    sin_[m] += weight * basis[2 * m - 1];
-    cos_[m] += weight * basis[2 * m];
+    sin_[m] = sums[2 * m - 1];
+    cos_[m] = sums[2 * m];
   }
 }
 

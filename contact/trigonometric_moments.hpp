@@ -27,8 +27,8 @@ class TrigonometricMoments {
   void set_piece(double begin, double length);
   /// Adds `factor` times another one of the same size.
   void add(double factor, const TrigonometricMoments& other);
-  /// Adds `weight` times a sample; `basis` as of set_basis().
-  void add_sample(double weight, const std::vector<double>& basis);
+  /// From sums in the order of the basis, 2 highest + 1 of them: [C_0, S_1, C_1, S_2, …].
+  void set_sums(const double* sums);
 
   /// ∫ of one function of the basis.
   [[nodiscard]] double single(int i) const {

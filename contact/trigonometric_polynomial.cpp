@@ -47,24 +47,46 @@ const Grid& grid(int order) {
   return *grids[i];
 }
 
-// Newton's method from `x`, kept inside a bracket; p − level > 0 at its lower end if
-// `low_positive`.
-double refine(const TrigonometricPolynomial& p, double level, double low, double high,
-              bool low_positive, double x) {
+// Step to the root of the cubic of a Taylor expansion, by Newton's method from its linear part.
+struct TaylorStep {
+  TaylorStep(const TrigonometricPolynomial::Taylor& t, double rounding) : step(-t.value / t.slope) {
+    for (int i = 0; i < 6 && !converged; ++i) {
+      const double value =
+          t.value + step * (t.slope + step * (t.second / 2.0 + step * t.third / 6.0));
+      slope = t.slope + step * (t.second + step * t.third / 2.0);
+      const double correction = value / slope;
+      step -= correction;
+      converged = std::abs(correction) <= rounding;
+    }
+  }
+  double step;
+  double slope = 0.0;  // of the cubic near its root
+  bool converged = false;
+};
+
+// From `x` to the root of p − level, kept inside a bracket; positive at its lower end if
+// `low_positive`. One expansion leaves the error M step⁴/24 over the slope: two or three are
+// enough.
+double refine(const TrigonometricPolynomial& p, double fourth, double level, double low,
+              double high, bool low_positive, double x) {
   constexpr int most = 200;  // bisection alone takes 60
   for (int i = 0; i < most; ++i) {
-    const Jet now = p.jet(x);
-    const double value = now.value - level;
-    ((value > 0.0) == low_positive ? low : high) = x;
-    double next = x - value / now.slope;
-    if (!(next > low && next < high)) {
-      next = 0.5 * (low + high);
-    }
+    TrigonometricPolynomial::Taylor now = p.taylor(x);
+    now.value -= level;
+    ((now.value > 0.0) == low_positive ? low : high) = x;
     const double rounding = std::numeric_limits<double>::epsilon() * (1.0 + std::abs(x));
-    if (std::abs(next - x) <= rounding || high - low <= rounding) {
-      return next;
+    const TaylorStep taylor(now, rounding);
+    const double next = x + taylor.step;
+    if (taylor.converged && next >= low && next <= high) {
+      const double square = taylor.step * taylor.step;
+      if (fourth * square * square <= 24.0 * rounding * std::abs(taylor.slope)) {
+        return next;
+      }
     }
-    x = next;
+    if (high - low <= rounding) {
+      return 0.5 * (low + high);
+    }
+    x = next > low && next < high ? next : 0.5 * (low + high);
   }
   return x;
 }
@@ -91,6 +113,12 @@ class Cell {
     const double middle = 3.0 * (inner_b_ - inner_a_) / width_;
     const auto [low, high] = std::minmax({a_.slope, middle, b_.slope});
     return low > error || high < -error;
+  }
+
+  // Nothing but rounding.
+  [[nodiscard]] bool is_flat(double rounding) const {
+    const auto [low, high] = std::minmax({a_.value, inner_a_, inner_b_, b_.value});
+    return low > -rounding && high < rounding;
   }
 
   // +1 convex, −1 concave, 0 not known.
@@ -136,7 +164,13 @@ class Cell {
 class Isolation {
  public:
   Isolation(const TrigonometricPolynomial& p, std::vector<SignChange>& changes)
-      : p_(p), changes_(changes), fourth_(p.bound(4)) {}
+      : p_(p),
+        changes_(changes),
+        fourth_(p.bound(4)),
+        rounding_(4.0 * std::numeric_limits<double>::epsilon() *
+                  (std::abs(p.mean()) + p.bound(0))) {}
+
+  [[nodiscard]] double fourth() const { return fourth_; }
 
   void search(const Node& a, const Node& b, int depth = 0) {
     const Cell cell(a, b, fourth_);
@@ -152,7 +186,7 @@ class Isolation {
     const int curvature = cell.curvature();
     if (curvature != 0) {
       search_bowl(a, b, cell, curvature);
-    } else if (depth < deepest) {
+    } else if (depth < deepest && !cell.is_flat(rounding_)) {
       const Node middle = node(0.5 * (a.phase + b.phase));
       search(a, middle, depth + 1);
       search(middle, b, depth + 1);
@@ -202,39 +236,71 @@ class Isolation {
 
   void add(const Node& a, const Node& b, double start) {
     const bool positive = a.value > 0.0;
-    changes_.push_back({refine(p_, 0.0, a.phase, b.phase, positive, start), !positive});
+    changes_.push_back({refine(p_, fourth_, 0.0, a.phase, b.phase, positive, start), !positive});
   }
 
   const TrigonometricPolynomial& p_;
   std::vector<SignChange>& changes_;
   double fourth_;
+  double rounding_;
 };
 
-// Values and slopes on the grid by Horner's rule, all nodes side by side.
-void sample(const TrigonometricPolynomial& p, int order, std::vector<double>& value,
-            std::vector<double>& slope) {
-  const Grid& g = grid(order);
-  const std::size_t n = g.sin.size();
-  thread_local std::vector<double> work;
-  work.resize(2 * n);
-  value.resize(n);
-  slope.resize(n);
-  double* __restrict re = value.data();
-  double* __restrict im = work.data();
-  double* __restrict re_slope = slope.data();
-  double* __restrict im_slope = work.data() + n;
-  const double* __restrict sin = g.sin.data();
-  const double* __restrict cos = g.cos.data();
-  std::fill_n(re, n, 0.0);
-  std::fill_n(im, n, 0.0);
-  std::fill_n(re_slope, n, 0.0);
-  std::fill_n(im_slope, n, 0.0);
-  for (int h = order; h >= 1; --h) {
-    const double s = p.sin(h);
-    const double c = p.cos(h);
+// Values and slopes on the grid by Horner's rule, all nodes side by side; the first node stands
+// again at the end.
+class Samples {
+ public:
+  void take(const TrigonometricPolynomial& p, int order) {
+    const Grid& g = grid(order);
+    n_ = g.sin.size();
+    for (std::vector<double>* part : {&value_, &slope_, &re_, &im_slope_}) {
+      part->assign(n_ + 1, 0.0);
+    }
+    for (int h = order; h >= 1; --h) {
+      add_harmonic(g, h, p.sin(h), p.cos(h));
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      value_[i] += p.mean();
+    }
+    value_[n_] = value_[0];
+    slope_[n_] = slope_[0];
+  }
+
+  // Marks the cells on which the cubic and its error bound leave the sign open.
+  void mark_cells(double fourth) {
+    const double width = two_pi / static_cast<double>(n_);
+    const double third = width / 3.0;
+    const double error = fourth * width * width * width * width / 384.0;
+    open_.resize(n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double a = value_[i];
+      const double b = value_[i + 1];
+      const double inner_a = a + third * slope_[i];
+      const double inner_b = b - third * slope_[i + 1];
+      const double low = std::min(std::min(a, b), std::min(inner_a, inner_b));
+      const double high = std::max(std::max(a, b), std::max(inner_a, inner_b));
+      open_[i] = low > error || high < -error ? 0.0 : 1.0;
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return n_; }
+  [[nodiscard]] bool is_open(std::size_t cell) const { return open_[cell] != 0.0; }
+  [[nodiscard]] Node node(std::size_t i) const {
+    const double phase =
+        i < n_ ? two_pi / static_cast<double>(n_) * static_cast<double>(i) : two_pi;
+    return {phase, value_[i], slope_[i]};
+  }
+
+ private:
+  void add_harmonic(const Grid& g, int h, double s, double c) {
+    double* __restrict re = re_.data();
+    double* __restrict im = value_.data();
+    double* __restrict re_slope = slope_.data();
+    double* __restrict im_slope = im_slope_.data();
+    const double* __restrict sin = g.sin.data();
+    const double* __restrict cos = g.cos.data();
     const double hs = h * s;
     const double hc = h * c;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n_; ++i) {
       const double x = re[i] + s;
       const double y = im[i] + c;
       re[i] = x * cos[i] - y * sin[i];
@@ -245,10 +311,14 @@ void sample(const TrigonometricPolynomial& p, int order, std::vector<double>& va
       im_slope[i] = dx * sin[i] + dy * cos[i];
     }
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    re[i] = p.mean() + im[i];
-  }
-}
+
+  std::size_t n_ = 0;
+  std::vector<double> value_;  // imaginary part of the sum, then p
+  std::vector<double> slope_;  // real part of the sum with factors h
+  std::vector<double> re_;
+  std::vector<double> im_slope_;
+  std::vector<double> open_;
+};
 
 // Changes at one and the same phase are none.
 void drop_empty_pairs(std::vector<SignChange>& changes) {
@@ -331,6 +401,24 @@ Jet TrigonometricPolynomial::jet(double phase) const {
   return {mean_ + im, re_slope};
 }
 
+TrigonometricPolynomial::Taylor TrigonometricPolynomial::taylor(double phase) const {
+  const double s = std::sin(phase);
+  const double c = std::cos(phase);
+  double re[4] = {};
+  double im[4] = {};
+  for (std::size_t i = sin_.size(); i-- > 0;) {
+    double weight = 1.0;
+    for (int k = 0; k < 4; ++k) {
+      const double x = re[k] + weight * sin_[i];
+      const double y = im[k] + weight * cos_[i];
+      re[k] = x * c - y * s;
+      im[k] = x * s + y * c;
+      weight *= static_cast<double>(i + 1);
+    }
+  }
+  return {mean_ + im[0], re[1], -im[2], -re[3]};
+}
+
 void TrigonometricPolynomial::set_derivative(const TrigonometricPolynomial& other) {
   reset(other.degree());
   for (int h = 1; h <= degree(); ++h) {
@@ -344,28 +432,23 @@ void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>
   if (order == 0) {
     return;
   }
-  thread_local std::vector<double> value;
-  thread_local std::vector<double> slope;
-  sample(p, order, value, slope);
+  thread_local Samples samples;
+  samples.take(p, order);
   Isolation isolation(p, changes);
-  const std::size_t n = value.size();
-  const double width = two_pi / static_cast<double>(n);
-  Node a{0.0, value[0], slope[0]};
-  for (std::size_t i = 1; i <= n; ++i) {
-    const std::size_t j = i < n ? i : 0;
-    const Node b{i < n ? width * static_cast<double>(i) : two_pi, value[j], slope[j]};
-    isolation.search(a, b);
-    a = b;
+  samples.mark_cells(isolation.fourth());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples.is_open(i)) {
+      isolation.search(samples.node(i), samples.node(i + 1));
+    }
   }
   drop_empty_pairs(changes);
 }
 
-double crossing(const TrigonometricPolynomial& p, double level, double low, double high) {
-  const double at_low = p.value(low) - level;
-  const double at_high = p.value(high) - level;
+double crossing(const TrigonometricPolynomial& p, double level, double low, double high,
+                double at_low, double at_high) {
   const double start = low + (high - low) * (at_low / (at_low - at_high));
   const bool inside = start > low && start < high;
-  return refine(p, level, low, high, at_low > 0.0, inside ? start : 0.5 * (low + high));
+  return refine(p, p.bound(4), level, low, high, at_low > 0.0, inside ? start : 0.5 * (low + high));
 }
 
 }  // namespace microslip::contact

@@ -25,6 +25,14 @@ class TrigonometricPolynomial {
     double slope = 0.0;  ///< dp/dθ
   };
 
+  /// Value and derivatives at one phase.
+  struct Taylor {
+    double value = 0.0;
+    double slope = 0.0;
+    double second = 0.0;
+    double third = 0.0;
+  };
+
   TrigonometricPolynomial() = default;
 
   /// Zero of the given degree; storage is used again.
@@ -44,6 +52,7 @@ class TrigonometricPolynomial {
 
   [[nodiscard]] double value(double phase) const;
   [[nodiscard]] Jet jet(double phase) const;
+  [[nodiscard]] Taylor taylor(double phase) const;
   /// Becomes dp/dθ of another one.
   void set_derivative(const TrigonometricPolynomial& other);
 
@@ -65,8 +74,9 @@ struct SignChange {
 void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>& changes);
 
 /// Where p passes `level` on [low, high], given that it does: p − level > 0 at one end only.
+/// @param at_low, at_high  p − level at the ends.
 /// @return the phase, to rounding.
 [[nodiscard]] double crossing(const TrigonometricPolynomial& p, double level, double low,
-                              double high);
+                              double high, double at_low, double at_high);
 
 }  // namespace microslip::contact

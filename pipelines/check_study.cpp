@@ -12,6 +12,7 @@
 
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
 #include "pipelines/response_stage.hpp"
@@ -65,9 +66,9 @@ void forecast(const mesh::Mesh& mesh, const SceneDescription& scene, std::ostrea
   out << '\n';
 }
 
-void describe_effects(const SceneDescription& scene, std::ostream& out) {
+void describe_effects(const SceneDescription& scene, const ReducedModel* model, std::ostream& out) {
   out << "effects:\n";
-  for (const EffectRecord& effect : effects_of(scene)) {
+  for (const EffectRecord& effect : effects_of(scene, model)) {
     fmt::print(out, "  {:<17}{:<4} {}\n", effect.name, effect.simulated ? "yes" : "no",
                effect.reason);
   }
@@ -110,9 +111,10 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
              modal.points.size(), modal.weights.sum(), load, n_gaps);
 }
 
-void check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
+ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
   fmt::print(out, "{} modes\n", modal.frequency_hz.size());
-  const ReducedModel model = reduced_model(modal);
+  ReducedModel model = reduced_model(modal);
+  model.effects = contact_effects(model, scene);
   require_held(model, scene);
   describe_modes(modal, model, out);
   describe_points(modal, out);
@@ -124,13 +126,15 @@ void check_modal(const ModalModel& modal, const SceneDescription& scene, std::os
                n_curves == 1 ? "curve" : "curves", response.frequency_begin_hz,
                response.frequency_end_hz);
   }
+  return model;
 }
 
 }  // namespace
 
 int check_study(const SceneDescription& scene, std::ostream& out) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    check_modal(*modal, scene, out);
+    const ReducedModel model = check_modal(*modal, scene, out);
+    describe_effects(scene, &model, out);
   } else {
     const TemporaryFolder folder;
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
@@ -141,8 +145,8 @@ int check_study(const SceneDescription& scene, std::ostream& out) {
       out << "warning: nothing is clamped: `run` will refuse rigid-body modes that nothing holds\n";
     }
     forecast(mesh, scene, out);
+    describe_effects(scene, nullptr, out);
   }
-  describe_effects(scene, out);
   out << "the scene is complete and consistent\n";
   return static_cast<int>(ExitCode::complete);
 }

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "contact/patch_force.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -54,17 +54,21 @@ void make_unique(std::vector<CurveRequest>& requests) {
 
 NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double load,
                 const std::string& name, const solver::ResponsePoint& point) {
-  const double wear = scene.contact ? scene.contact->wear_coefficient : 0.0;
+  const double wear = scene.contact ? scene.contact->wear_coefficient : scene.wear_coefficient;
   const int phases = scene.response->map_phases;
   NamedMap map;
   map.name = name;
   map.frequency_hz = point.frequency / two_pi;
-  map.points = contact::contact_map(point_parameters(model, load, false), model.shapes, point.q,
-                                    phases, wear);
-  if (model.vertices.rows() > 0) {
-    map.vertices = contact::contact_map(point_parameters(model, load, true), model.vertex_shapes,
-                                        point.q, phases, wear);
-  }
+  const bool closed_form = model.effects.closed_form();
+  const auto draw = [&](bool on_vertices) {
+    const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
+    return closed_form ? contact::contact_map(point_parameters(model, load, on_vertices), shapes,
+                                              point.q, phases, wear)
+                       : contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
+                                              point.frequency, phases, wear);
+  };
+  map.points = draw(false);
+  if (model.vertices.rows() > 0) map.vertices = draw(true);
   return map;
 }
 
@@ -113,12 +117,9 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   solver::Scene scene;
   scene.natural_frequency = model.frequency;
   scene.damping_ratio = model.damping_ratio;
-  scene.excitation = excitation(model, 1);
+  scene.excitation = excitation(model, model.effects.n_harmonics);
   scene.output = model.output;
-  if (model.weights.size() > 0) {
-    scene.contact = std::make_unique<contact::PatchForce>(
-        contact::ContactPatch(model.weights, point_parameters(model, load, false)), model.shapes);
-  }
+  scene.contact = contact_force(model, load);
   return scene;
 }
 

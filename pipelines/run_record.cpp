@@ -69,7 +69,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.title = scene.title;
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
-  summary_.effects = effects_of(scene);
+  summary_.effects = effects_of(scene, nullptr);
   if (!writes_) return;
   make_folder(folder_);
   require_writable(folder_);
@@ -166,6 +166,11 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   write_modes_csv(folder_ / "modes.csv",
                   {modes.basis.frequency, modes.basis.residual, damping_ratio, {}});
   write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
+}
+
+void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
+  const std::lock_guard lock(mutex_);
+  summary_.effects = std::move(effects);
 }
 
 void RunRecord::keep_model(const ReducedModel& model) {

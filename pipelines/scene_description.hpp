@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 
 #include "contact/contact_patch.hpp"
+#include "contact/friction_law.hpp"
+#include "contact/rough_surface.hpp"
 #include "fem/material.hpp"
 #include "mesh/blade_geometry.hpp"
 
@@ -43,6 +45,7 @@ struct ModalModel {
   Eigen::VectorXd weights;
   std::vector<contact::PointParameters> points;
   contact::ModalShapes shapes;
+  Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
   Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
   LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
   Eigen::VectorXd preload_offset;  ///< added under every load [Pa]: what moments give; empty: none
@@ -69,7 +72,7 @@ struct ContactDescription {
   std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
   enum class Fit { automatic, degree, none } fit = Fit::automatic;
   int fit_degree = 0;
-  double wear_coefficient = 0.0;  ///< [m²/N]
+  double wear_coefficient = 0.0;  ///< Archard [m²/N]
   int n_points = 300;             ///< at least so many contact points
 };
 
@@ -106,6 +109,12 @@ struct ResponseDescription {
   int map_phases = 72;
 };
 
+/// What the constants of a point do not say about its contact.
+struct ContactLaws {
+  std::optional<contact::FrictionLaw> friction;      ///< in place of the coefficient of points that rub
+  std::optional<contact::RoughSurface> roughness;    ///< none: smooth
+};
+
 struct SceneDescription {
   std::string title;
   std::filesystem::path file;  ///< the scene file, "" for text
@@ -115,6 +124,8 @@ struct SceneDescription {
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   ModesDescription modes;
   std::optional<ContactDescription> contact;
+  ContactLaws laws;
+  double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml

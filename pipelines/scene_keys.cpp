@@ -149,17 +149,32 @@ constexpr std::array chain_force_keys{
     KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
 };
 
+constexpr KeySpec roughness_key{"roughness", other, "m", "", 0.0, unbounded, false,
+                                "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two", true};
+constexpr KeySpec wear_key{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
+                           "Archard: depth per (pressure × slip distance)"};
+
+constexpr std::array modal_contact_keys{
+    KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
+            "of all points that rub, in place of their coefficient: { law = \"exponential\", static = …, "
+            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }", true},
+    roughness_key,
+    wear_key,
+};
+
 constexpr std::array contact_keys{
     KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
     KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
-    KeySpec{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"},
+    KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
+            "μ, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "{ law = \"hyperbolic\", static = …, rate = … }"},
+    roughness_key,
     KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
             "local stiffness per area, or \"rigid\": the residual stiffness alone"},
     KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
     KeySpec{"fit", other, "", "\"auto\"", 0, 0, false,
             "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
-    KeySpec{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
-            "Archard: depth per (pressure × slip distance)"},
+    wear_key,
     KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
 };
 
@@ -182,7 +197,7 @@ constexpr std::array output_keys{
 constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
                                 "from, to (either order): a curve; a single value: the solution there"};
 constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false, "harmonic_balance"};
-constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 1, false, "highest harmonic"};
+constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
 constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};
@@ -250,7 +265,7 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
-constexpr std::array<SectionSpec, 26> sections{{
+constexpr std::array<SectionSpec, 27> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -258,6 +273,7 @@ constexpr std::array<SectionSpec, 26> sections{{
     {"supports", support_keys},
     {"modes", mode_keys},
     {"contact", contact_keys},
+    {"contact.modal", modal_contact_keys},
     {"excitation", excitation_keys},
     {"force", force_keys},
     {"output", output_keys},
@@ -281,7 +297,8 @@ constexpr std::array<SectionSpec, 26> sections{{
 
 constexpr std::array<std::string_view, 8> mesh_sections{
     "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
-constexpr std::array<std::string_view, 4> modal_sections{"model", "modal", "response", "effects"};
+constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
+                                                         "effects"};
 constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain
     "model", "modes", "contact", "excitation", "response", "effects"};
 

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "mesh/element_shape.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/curve_family.hpp"
+#include "pipelines/effects.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/run_record.hpp"
 #include "pipelines/structure_stage.hpp"
@@ -19,7 +21,9 @@ namespace {
 /// mesh → modes → contact: the finite-element half, or the numbers a modal scene gives.
 ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    const ReducedModel model = reduced_model(*modal);
+    ReducedModel model = reduced_model(*modal);
+    model.effects = contact_effects(model, scene);
+    record.keep_effects(effects_of(scene, &model));
     record.keep_model(model);
     return model;
   }
@@ -32,10 +36,12 @@ ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
   record.keep_modes(mesh, structure, damping_ratios(scene.modes, structure.basis.frequency));
   record.stage("contact");
   std::vector<std::string> warnings;
-  const ReducedModel model =
+  ReducedModel model =
       reduce_to_contact(mesh, scene, structure.basis,
                         structure.residual ? &*structure.residual : nullptr, warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
+  model.effects = contact_effects(model, scene);
+  record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);
   record.keep_structure(mesh, std::move(structure.basis));
   return model;

@@ -38,8 +38,8 @@ double PeriodicityTest::distance(std::size_t multiple) const {
   if (changes.back() == 0.0) return 0.0;
   const auto periods = static_cast<double>(changes.size() - 1);
   const double per_period = std::pow(changes.back() / changes.front(), 1.0 / periods);
-  const double decay = std::clamp(std::pow(per_period, static_cast<double>(multiple)), 0.0,
-                                  largest_factor);
+  const double decay =
+      std::clamp(std::pow(per_period, static_cast<double>(multiple)), 0.0, largest_factor);
   return changes.back() / (1.0 - decay);
 }
 

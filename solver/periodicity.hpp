@@ -17,9 +17,9 @@
 namespace microslip::solver {
 
 struct PeriodState {
-  Eigen::VectorXd q;              ///< [m√kg]
-  Eigen::VectorXd velocity;       ///< [m√kg/s]
-  Eigen::VectorXd contact_force;  ///< G [N/√kg]: sliders that moved show in it
+  Eigen::VectorXd q;               ///< [m√kg]
+  Eigen::VectorXd velocity;        ///< [m√kg/s]
+  Eigen::VectorXd contact_force;   ///< G [N/√kg]: sliders that moved show in it
   double displacement_size = 0.0;  ///< largest ‖q‖ of the period, > 0 unless all is at rest
   double velocity_size = 0.0;
   double force_size = 0.0;

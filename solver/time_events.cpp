@@ -12,8 +12,9 @@
 namespace microslip::solver {
 namespace {
 
-constexpr int default_longest_step = 64;  // of a period: guards are sampled at 256 instants at least
-constexpr double shortest_step = 1e-14;   // of a period
+constexpr int default_longest_step =
+    64;                                  // of a period: guards are sampled at 256 instants at least
+constexpr double shortest_step = 1e-14;  // of a period
 
 // Dormand & Prince 5(4): the last stage is the first of the next step.
 constexpr std::size_t n_stages = 7;
@@ -39,11 +40,10 @@ EventStepper::EventStepper(const TimeSystem& system, const TimeOptions& options)
   const int n_steps =
       options.steps_per_period > 0 ? options.steps_per_period : default_longest_step;
   // On the imaginary axis the pair is stable up to about 1, half of what is allowed to rk4.
-  const double needed = 2.0 * system.least_steps();
+  const long needed = 2L * system.least_steps();
   if (std::isinf(tolerance_) && n_steps < needed) {
     throw std::invalid_argument("time integration: " + std::to_string(n_steps) +
-                                " fixed steps per period at " +
-                                std::to_string(system.frequency()) +
+                                " fixed steps per period at " + std::to_string(system.frequency()) +
                                 " rad/s are too few: the stuck system goes up to " +
                                 std::to_string(system.largest_frequency()) +
                                 " rad/s and needs at least " + std::to_string(needed));
@@ -60,8 +60,7 @@ EventStepper::EventStepper(const TimeSystem& system, const TimeOptions& options)
 }
 
 contact::GuardScale EventStepper::scale() const {
-  const double displacement =
-      std::max(levels_.last.displacement, levels_.current.displacement);
+  const double displacement = std::max(levels_.last.displacement, levels_.current.displacement);
   return {displacement, std::max({levels_.last.velocity, levels_.current.velocity,
                                   system_.frequency() * displacement})};
 }
@@ -71,9 +70,8 @@ Eigen::VectorXd EventStepper::acceleration(double time, const ModalMotion& motio
   ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
-                              contact != nullptr
-                                  ? contact->held_force(motion.q, memory)
-                                  : Eigen::VectorXd::Zero(system_.n_modes()).eval());
+                              contact != nullptr ? contact->held_force(motion.q, memory)
+                                                 : Eigen::VectorXd::Zero(system_.n_modes()).eval());
 }
 
 EventStepper::Step EventStepper::try_step(double time, double length, const TimeState& state,
@@ -99,32 +97,28 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
   const contact::GuardScale size = scale();
   const double displacement_error = length * (velocity * weights).norm();
   const double velocity_error = length * (acceleration_of * weights).norm();
-  step.error = displacement_error == 0.0 && velocity_error == 0.0
-                   ? 0.0
-                   : std::max(displacement_error / size.displacement,
-                              velocity_error / size.velocity);
+  step.error =
+      displacement_error == 0.0 && velocity_error == 0.0
+          ? 0.0
+          : std::max(displacement_error / size.displacement, velocity_error / size.velocity);
   return step;
 }
 
-EventStepper::Step EventStepper::accepted_step(double time, double& length,
-                                               const TimeState& state,
+EventStepper::Step EventStepper::accepted_step(double time, double& length, const TimeState& state,
                                                const Eigen::VectorXd& acceleration_begin) {
   const double asked = length;
   while (true) {
     Step step = try_step(time, length, state, acceleration_begin);
     const double ratio = step.error / tolerance_;
-    const double factor =
-        ratio > 0.0 ? std::clamp(0.9 * std::pow(ratio, -0.2), 0.2, 5.0) : 5.0;
+    const double factor = ratio > 0.0 ? std::clamp(0.9 * std::pow(ratio, -0.2), 0.2, 5.0) : 5.0;
     if (ratio <= 1.0) {
       const bool cut_short = length == asked && asked < next_step_;  // by the end of the period
-      next_step_ =
-          std::min(longest_step_, std::max(factor * length, cut_short ? next_step_ : 0.0));
+      next_step_ = std::min(longest_step_, std::max(factor * length, cut_short ? next_step_ : 0.0));
       return step;
     }
     if (!(length > shortest_step * system_.period())) {
-      throw TimeError("out-of-range",
-                      "the error of a step stays at " + std::to_string(step.error) +
-                          " of the motion however short it is");
+      throw TimeError("out-of-range", "the error of a step stays at " + std::to_string(step.error) +
+                                          " of the motion however short it is");
     }
     length *= std::isfinite(factor) ? std::min(factor, 0.9) : 0.2;
   }

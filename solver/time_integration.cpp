@@ -58,8 +58,8 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
     if (point.period_multiple > 0) break;
   }
   point.periodic = point.period_multiple > 0;
-  const int n_recorded = point.periodic ? point.period_multiple
-                                        : static_cast<int>(PeriodicityTest::largest_multiple);
+  const int n_recorded =
+      point.periodic ? point.period_multiple : static_cast<int>(PeriodicityTest::largest_multiple);
   const long events_before = stepper.n_events();
   TimeRecorder recorder(system, options.n_harmonics, state.memory);
   for (int i = 0; i < n_recorded; ++i) stepper.advance_period(state, &recorder);
@@ -119,8 +119,7 @@ TimeCurve sweep(const Scene& scene, const std::vector<double>& frequencies,
     }
     curve.contact_evaluations += stepper->n_evaluations();
   }
-  curve.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  curve.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return curve;
 }
 

@@ -10,8 +10,7 @@ namespace microslip::solver {
 
 using contact::ContactState;
 
-TimeRecorder::TimeRecorder(const TimeSystem& system, int n_harmonics,
-                           const TransientMemory& before)
+TimeRecorder::TimeRecorder(const TimeSystem& system, int n_harmonics, const TransientMemory& before)
     : system_(system),
       integrals_(n_harmonics, system.n_modes()),
       highest_(-std::numeric_limits<double>::infinity()),
@@ -48,8 +47,7 @@ void TimeRecorder::add_integrals(const TimeSegment& segment, double end) {
 }
 
 void TimeRecorder::add_extremes(const TimeSegment& segment, double end) {
-  const Eigen::Matrix<double, 1, 6> y =
-      system_.scene().output.transpose() * segment.coefficients();
+  const Eigen::Matrix<double, 1, 6> y = system_.scene().output.transpose() * segment.coefficients();
   const auto value = [&](double x) {
     return y[0] + x * (y[1] + x * (y[2] + x * (y[3] + x * (y[4] + x * y[5]))));
   };
@@ -85,8 +83,7 @@ void TimeRecorder::add_states(double duration, const TransientMemory& memory) {
   report_.three_states_share =
       std::max(report_.three_states_share, std::min({share.stick, share.slip, share.separated}));
   for (std::size_t i = 0; i < state_.size(); ++i) {
-    const bool begins =
-        memory.state[i] == ContactState::stick && state_[i] != ContactState::stick;
+    const bool begins = memory.state[i] == ContactState::stick && state_[i] != ContactState::stick;
     stick_phases_[i] += begins ? 1 : 0;
     state_[i] = memory.state[i];
   }

@@ -14,11 +14,11 @@ int n_steps_of(const TimeSystem& system, int asked) {
   const int least = system.least_steps();
   if (asked == 0) return std::max(default_steps, 2 * std::min(least, 1'000'000'000));
   if (asked < least) {
-    throw std::invalid_argument(
-        "time integration: " + std::to_string(asked) + " steps per period at " +
-        std::to_string(system.frequency()) + " rad/s are too few: the stuck system goes up to " +
-        std::to_string(system.largest_frequency()) + " rad/s and needs at least " +
-        std::to_string(least));
+    throw std::invalid_argument("time integration: " + std::to_string(asked) +
+                                " steps per period at " + std::to_string(system.frequency()) +
+                                " rad/s are too few: the stuck system goes up to " +
+                                std::to_string(system.largest_frequency()) +
+                                " rad/s and needs at least " + std::to_string(least));
   }
   return asked;
 }
@@ -33,9 +33,8 @@ Eigen::VectorXd Rk4Stepper::acceleration(double time, const ModalMotion& motion,
   ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
-                              contact != nullptr
-                                  ? contact->trial_force(motion.q, memory)
-                                  : Eigen::VectorXd::Zero(system_.n_modes()).eval());
+                              contact != nullptr ? contact->trial_force(motion.q, memory)
+                                                 : Eigen::VectorXd::Zero(system_.n_modes()).eval());
 }
 
 void Rk4Stepper::step(double time, double length, TimeState& state,
@@ -50,8 +49,7 @@ void Rk4Stepper::step(double time, double length, TimeState& state,
   const ModalMotion m4{start.q + length * m3.velocity, start.velocity + length * a3};
   const Eigen::VectorXd a4 = acceleration(time + length, m4, state.memory);
   const Eigen::VectorXd displacement_step =
-      length / 6.0 *
-      (start.velocity + 2.0 * m2.velocity + 2.0 * m3.velocity + m4.velocity);
+      length / 6.0 * (start.velocity + 2.0 * m2.velocity + 2.0 * m3.velocity + m4.velocity);
   const Eigen::VectorXd velocity_step = length / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
   state.motion.q += displacement_step;
   state.motion.velocity += velocity_step;
@@ -65,9 +63,9 @@ void Rk4Stepper::step(double time, double length, TimeState& state,
   }
   const Eigen::VectorXd acceleration_end = acceleration(time + length, state.motion, state.memory);
   if (observer != nullptr) {
-    observer->take(TimeSegment(time, length, start, displacement_step, velocity_step, a1,
-                               acceleration_end),
-                   1.0, state.memory, work);
+    observer->take(
+        TimeSegment(time, length, start, displacement_step, velocity_step, a1, acceleration_end),
+        1.0, state.memory, work);
   }
   acceleration_begin = acceleration_end;
 }

@@ -16,9 +16,8 @@ void require(bool condition, const std::string& message) {
 }
 
 void check(const TimeOptions& options) {
-  require(options.steps_per_period >= 0, "steps_per_period = " +
-                                             std::to_string(options.steps_per_period) +
-                                             " must be at least 0");
+  require(options.steps_per_period >= 0,
+          "steps_per_period = " + std::to_string(options.steps_per_period) + " must be at least 0");
   require(options.step_tolerance > 0.0,
           "step_tolerance = " + std::to_string(options.step_tolerance) + " must be above 0");
   require(options.periodicity_tolerance > 0.0,

@@ -43,7 +43,10 @@ double spectral_radius(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
   first_order.topRightCorner(n, n).setIdentity();
   first_order.bottomLeftCorner(n, n) = -stiffness;
   first_order.bottomRightCorner(n, n).diagonal() = -damping;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false).eigenvalues().cwiseAbs().maxCoeff();
+  return Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
 }
 
 }  // namespace
