@@ -32,8 +32,9 @@ struct FoundPairs {
 ///                   smaller.
 /// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
 /// @throws EigenError  fewer converged: both numbers and the tolerance.
-[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
-                                      Eigen::Index n_wanted, const Eigen::MatrixXd& deflation);
+[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse,
+                                      double shift, Eigen::Index n_wanted,
+                                      const Eigen::MatrixXd& deflation);
 
 /// One step of subspace iteration and Rayleigh–Ritz over all columns: orders pairs that were found
 /// in several runs, and turns what is left of foreign modes far down.
