@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/branch_search.hpp"
 #include "solver/certificate.hpp"
 #include "solver/curve_tracer.hpp"
 #include "solver/linear_certificate.hpp"
@@ -126,6 +127,9 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     curve.contact_evaluations = evaluations;
   }
   note_boundary_peak(curve);
+  if (options.search_starts > 0 && curve.diagnosis != "interrupted") {
+    search_branches(scene, options, curve);
+  }
   curve.seconds = watch.seconds();
   return curve;
 }

@@ -215,6 +215,17 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
   return std::nullopt;
 }
 
+ResponseCurve CurveTracer::follow(NewtonResult start) {
+  entry_ = start.point;
+  if (!add(start)) return std::move(curve_);
+  BranchWalker walker = walker_from(std::move(start));
+  if (walk(walker)) {
+    stop(stall_name(walker.stall()), at_hertz("Newton's method stalled",
+                                              walker.now().solution.point.parameter));
+  }
+  return std::move(curve_);
+}
+
 ResponseCurve CurveTracer::run() {
   StartPoint start = find_start(balance_, options_.frequency_begin, options_.residual_tolerance);
   curve_.iterations = start.iterations;

@@ -20,6 +20,9 @@ class CurveTracer {
 
   /// The curve; never throws for one that cannot be completed.
   [[nodiscard]] ResponseCurve run();
+  /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
+  /// with the diagnosis "loop".
+  [[nodiscard]] ResponseCurve follow(NewtonResult start);
 
  private:
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);

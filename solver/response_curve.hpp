@@ -43,6 +43,12 @@ struct SolverEvent {
   std::string remedy;
 };
 
+/// A branch that the sweep does not meet: it coexists with the curve.
+struct DetachedBranch {
+  std::vector<ResponsePoint> points;  ///< in branch order
+  bool closed = false;  ///< an isola: the last point is next to the first; else both ends leave the range
+};
+
 struct ResponseCurve {
   std::vector<ResponsePoint> points;  ///< converged points only
   bool complete = false;
@@ -61,6 +67,8 @@ struct ResponseCurve {
   /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
   std::string certificate;
   std::vector<SolverEvent> log;       ///< remedies in the order they were needed
+  std::vector<DetachedBranch> detached;  ///< found by the search, if one was asked for
+  int n_starts = 0;                   ///< of the search: Newton iterations that looked for another solution
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;
