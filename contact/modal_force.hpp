@@ -28,8 +28,8 @@ struct CycleReport {
   double slip_share = 0.0;          ///< (0, 0, 0) when the force knows no contact
   double separated_share = 0.0;
   double three_states_share = 0.0;  ///< largest over the phase of the smallest area fraction
-  double awake_share = 1.0;         ///< fraction of the points that were evaluated one by one
   double slip_work = 0.0;           ///< ∬∮ μ n |ds| dA [J per period], from the slip phases
+  double awake_share = 1.0;         ///< fraction of the points that were evaluated one by one
 };
 
 /// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.
