@@ -30,8 +30,8 @@ class Search {
   void run() {
     for (int i = 0; i < n_frequencies; ++i) {
       const double share = (i + 0.5) / n_frequencies;
-      const double frequency = options_.frequency_begin +
-                               share * (options_.frequency_end - options_.frequency_begin);
+      const double frequency =
+          options_.frequency_begin + share * (options_.frequency_end - options_.frequency_begin);
       search_at(frequency);
     }
   }
@@ -42,7 +42,8 @@ class Search {
     for (int i = 0; i < options_.search_starts; ++i) {
       if (curve_.detached.size() >= most_branches) return;
       ++curve_.n_starts;
-      const std::optional<Eigen::VectorXd> found = deflated(start(i, frequency, known), frequency, known);
+      const std::optional<Eigen::VectorXd> found =
+          deflated(start(i, frequency, known), frequency, known);
       if (!found) continue;
       NewtonOptions newton;
       newton.tolerance = options_.residual_tolerance;
@@ -79,7 +80,8 @@ class Search {
     return known;
   }
 
-  [[nodiscard]] static bool near(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& known) {
+  [[nodiscard]] static bool near(const Eigen::VectorXd& x,
+                                 const std::vector<Eigen::VectorXd>& known) {
     return std::any_of(known.begin(), known.end(), [&](const Eigen::VectorXd& other) {
       return (x - other).norm() <= distinct * std::max(x.norm(), other.norm());
     });
@@ -93,10 +95,10 @@ class Search {
     const int n_bases = 2 + static_cast<int>(known.size());
     const int base = index % n_bases;
     const int round = index / n_bases;
-    Eigen::VectorXd x =
-        base == 0   ? balance_.linear_response(frequency, balance_.stuck_stiffness())
-        : base == 1 ? balance_.linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
-                    : known[static_cast<std::size_t>(base - 2)];
+    Eigen::VectorXd x = base == 0 ? balance_.linear_response(frequency, balance_.stuck_stiffness())
+                        : base == 1
+                            ? balance_.linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
+                            : known[static_cast<std::size_t>(base - 2)];
     if (!x.allFinite()) x = Eigen::VectorXd::Ones(x.size());
     Harmonics q = balance_.harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
     const double turn = 1.0 * round;  // rad: never the same twice
@@ -119,8 +121,8 @@ class Search {
   }
 
   /// g = ∇m/m
-  [[nodiscard]] static Eigen::VectorXd logarithmic_gradient(const Eigen::VectorXd& x, double size,
-                                                            const std::vector<Eigen::VectorXd>& known) {
+  [[nodiscard]] static Eigen::VectorXd logarithmic_gradient(
+      const Eigen::VectorXd& x, double size, const std::vector<Eigen::VectorXd>& known) {
     Eigen::VectorXd g = Eigen::VectorXd::Zero(x.size());
     for (const Eigen::VectorXd& other : known) {
       const Eigen::VectorXd d = x - other;

@@ -21,10 +21,9 @@ namespace {
 void check_range(const ContinuationOptions& options) {
   const auto bad = [](double frequency) { return !(frequency > 0.0) || !std::isfinite(frequency); };
   if (bad(options.frequency_begin) || bad(options.frequency_end)) {
-    throw std::invalid_argument("continuation: frequencies " +
-                                std::to_string(options.frequency_begin) + " and " +
-                                std::to_string(options.frequency_end) +
-                                " rad/s; both must be finite and above 0");
+    throw std::invalid_argument(
+        "continuation: frequencies " + std::to_string(options.frequency_begin) + " and " +
+        std::to_string(options.frequency_end) + " rad/s; both must be finite and above 0");
   }
 }
 

@@ -51,12 +51,12 @@ class CurveTracer {
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
-  Eigen::VectorXd last_x_;  ///< of last_stability_
+  Eigen::VectorXd last_x_;             ///< of last_stability_
   std::optional<BranchVector> entry_;  ///< where a jump entered the branch walked now
   std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
   long walker_evaluations_ = 0;        ///< of the walker, counted already
   long walker_iterations_ = 0;
-  long point_evaluations_ = 0;         ///< of the curve when the last point was added
+  long point_evaluations_ = 0;  ///< of the curve when the last point was added
   Clock::time_point last_time_ = Clock::now();
 };
 

@@ -122,13 +122,14 @@ class Search {
       static_cast<void>(peaks_.confirm(parameter));
       return peaks_.highest(parameter).amplitude;
     };
-    // A peak that only the curve at the optimum shows is followed from there and the search repeated;
-    // each round finds one more.
+    // A peak that only the curve at the optimum shows is followed from there and the search
+    // repeated; each round finds one more.
     constexpr int rounds = 4;
     for (int i = 0; i < rounds; ++i) {
       if (!refine(followed) || peaks_.confirm(result_.best.parameter)) return finished();
     }
-    result_.notes.emplace_back("peaks followed kept missing the highest one; search on whole curves");
+    result_.notes.emplace_back(
+        "peaks followed kept missing the highest one; search on whole curves");
     static_cast<void>(refine(on_whole_curves));
     return finished();
   }
@@ -151,9 +152,8 @@ class Search {
 
   static std::vector<PeakOfParameter>::const_iterator lowest(
       const std::vector<PeakOfParameter>& peaks) {
-    return std::min_element(peaks.begin(), peaks.end(), [](const auto& a, const auto& b) {
-      return a.amplitude < b.amplitude;
-    });
+    return std::min_element(peaks.begin(), peaks.end(),
+                            [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
   }
 
   using Place = std::vector<PeakOfParameter>::const_iterator;
@@ -190,8 +190,8 @@ class Search {
     constexpr double rival = 1.1;
     std::vector<Place> valleys;
     for (auto one = std::next(peaks.begin()); one != std::prev(peaks.end()); ++one) {
-      const bool lower = one->amplitude < std::prev(one)->amplitude &&
-                         one->amplitude < std::next(one)->amplitude;
+      const bool lower =
+          one->amplitude < std::prev(one)->amplitude && one->amplitude < std::next(one)->amplitude;
       if (lower && one->amplitude < rival * least->amplitude) valleys.push_back(one);
     }
     if (valleys.size() > 1) {

@@ -97,8 +97,7 @@ class Segment {
   /// through three places, as long as it may still pass zero.
   [[nodiscard]] std::optional<End> beyond_zero(double share) const {
     const double sign = begin_.slope > 0.0 ? 1.0 : -1.0;
-    const double hopeless =
-        hopeless_slope * std::min(std::abs(begin_.slope), std::abs(end_.slope));
+    const double hopeless = hopeless_slope * std::min(std::abs(begin_.slope), std::abs(end_.slope));
     End left{0.0, sign * begin_.slope};
     End right{1.0, sign * end_.slope};
     std::optional<End> least;
