@@ -86,8 +86,9 @@ void define(mu::Parser& parser, const std::string& place,
   }
 }
 
-// Variables are bound by address.
-void bind(mu::Parser& parser, const std::array<std::string, 2>& names, double& first, double& second) {
+// Variables are bound by address. (Not named bind: std::bind would be found first.)
+void set_coordinates(mu::Parser& parser, const std::array<std::string, 2>& names, double& first,
+                     double& second) {
   parser.DefineVar(names[0], &first);
   if (!names[1].empty()) {
     parser.DefineVar(names[1], &second);
@@ -119,7 +120,7 @@ Expression::Expression(const std::string& text, std::string place,
   double p = 0.0;
   double r = 0.0;
   try {
-    bind(parser, coordinates_, p, r);
+    set_coordinates(parser, coordinates_, p, r);
     parser.SetExpr(text);
     int n_values = 0;
     (void)parser.Eval(n_values);
@@ -141,7 +142,7 @@ Eigen::VectorXd Expression::at(const Eigen::VectorXd& p, const Eigen::VectorXd& 
   mu::Parser parser = parser_->parser;  // a copy of its own: variables are bound by address
   double p_here = 0.0;
   double r_here = 0.0;
-  bind(parser, coordinates_, p_here, r_here);
+  set_coordinates(parser, coordinates_, p_here, r_here);
   Eigen::VectorXd values(p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     p_here = p[i];

@@ -4,10 +4,9 @@ A: Cigeroglu, An & Menq 2007, section 4.1, the bar with end spring (figures 4 to
    Constant load: slip starts at the right end and spreads left. Quadratic load: it starts around the middle,
    reaches the right end first, then the left. One mode: all slip-to-stick angles are equal; three and ten modes
    nearly alike, one visibly different; several modes: a small phase spread of the slip-to-stick line.
-B: the paper on 3D contact of rough surfaces: chains of figures 8 to 10. With one harmonic 30 N and 50 N give
-   peaks equal within 0.1 %, the lowest of the loads listed; the higher harmonics, which lower the peak at 30 N
-   by a tenth, set them apart. Free and stuck exceed all others. With normal motion: jumps at 25, 30 and
-   50 N and only there, as two stable solutions over a band. With a preload moment: a higher peak at 50 N.
+B: the paper on 3D contact of rough surfaces: chains of figures 8 to 10. 30 N gives the lowest peak of the loads
+   listed; free and stuck exceed all others. With normal motion: jumps at 25, 30 and 50 N and only there, as
+   two stable solutions over a band. With a preload moment: a higher peak at 50 N.
 
 Everything is read from the run folders alone.
 
@@ -216,12 +215,9 @@ class Chains(unittest.TestCase):
             self.assertAlmostEqual(hz[0], 20.0, delta=0.05)  # printed with one decimal
             self.assertAlmostEqual(hz[1], 52.4, delta=0.05)
 
-    def test_lowest_peak_lies_at_30_to_50_N_and_the_limits_are_above_all(self):
+    def test_30_N_gives_the_lowest_peak_and_the_limits_are_above_all(self):
         peaks = {load: self.plain.highest(load) for load in self.plain.loads}
-        lowest = sorted(peaks, key=peaks.get)
-        self.assertEqual(set(lowest[:2]), {30, 50})
-        self.assertLess(abs(peaks[30] / peaks[50] - 1), 1e-3)
-        self.assertLess(max(peaks[30], peaks[50]), 0.7 * peaks[lowest[2]])
+        self.assertEqual(min(peaks, key=peaks.get), 30)
         for limit in ("free", "stuck"):
             for load in (10, 20, 30, 50, 100, 200):
                 self.assertGreater(self.plain.highest(limit), peaks[load])
@@ -229,6 +225,13 @@ class Chains(unittest.TestCase):
         self.assertTrue(optimum["found"])
         self.assertLess(30, optimum["preload_N"])
         self.assertLess(optimum["preload_N"], 50)
+
+    def test_peaks_are_those_of_time_integration(self):
+        """Half peak-to-peak of m2 by fourth-order Runge-Kutta with slider memory, 1000 steps a period, 50
+        periods, at 21.7 Hz and 23.0 Hz: an own integration outside of the program; the transient of 50
+        periods leaves exp(−2π·0.02·50) = 0.2 %."""
+        for load, expected in ((30, 0.0022331522566), (50, 0.0024531423257)):
+            self.assertAlmostEqual(self.plain.highest(load) / expected, 1, delta=2e-3)
 
     def test_600_N_never_slips(self):
         self.assertAlmostEqual(self.plain.highest(600) / self.plain.highest("stuck"), 1, places=9)
