@@ -5,8 +5,8 @@
 namespace microslip::contact {
 namespace {
 
-// The cycle is homogeneous of degree one in motion and preload: forces that would be subnormal are
-// found at an amplitude larger by a power of two.
+// The cycle is homogeneous of degree one in motion and preload: forces that would be subnormal, or
+// whose products would overflow, are found at another amplitude, by a power of two.
 constexpr double lift = 0x1p500;
 
 double scale_of(const PointParameters& point, const Harmonics& motion) {
@@ -14,7 +14,10 @@ double scale_of(const PointParameters& point, const Harmonics& motion) {
   const double v = motion.rows().col(1).cwiseAbs().sum();
   const double size =
       point.tangential_stiffness * u + point.normal_stiffness * v + std::abs(point.preload);
-  return size < 1e-250 && u < 1e100 && v < 1e100 ? lift : 1.0;
+  if (size < 1e-250 && u < 1e100 && v < 1e100) {
+    return lift;
+  }
+  return size > 1e140 ? 1.0 / lift : 1.0;
 }
 
 }  // namespace

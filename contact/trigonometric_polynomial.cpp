@@ -171,6 +171,7 @@ class Isolation {
                   (std::abs(p.mean()) + p.bound(0))) {}
 
   [[nodiscard]] double fourth() const { return fourth_; }
+  [[nodiscard]] double rounding() const { return rounding_; }
 
   void search(const Node& a, const Node& b, int depth = 0) {
     const Cell cell(a, b, fourth_);
@@ -320,18 +321,36 @@ class Samples {
   std::vector<double> open_;
 };
 
-// Changes at one and the same phase are none.
-void drop_empty_pairs(std::vector<SignChange>& changes) {
-  std::size_t n = 0;
-  for (const SignChange& next : changes) {
-    if (n > 0 && changes[n - 1].phase == next.phase) {
-      --n;
-    } else {
-      changes[n++] = next;
+// A pair between which p is nothing but rounding is none: p touches zero there.
+class PairFilter {
+ public:
+  PairFilter(const TrigonometricPolynomial& p, double rounding) : p_(p), rounding_(rounding) {}
+
+  void apply(std::vector<SignChange>& changes) const {
+    std::size_t n = 0;
+    for (const SignChange& next : changes) {
+      if (n > 0 && is_touch(changes[n - 1].phase, next.phase)) {
+        --n;
+      } else {
+        changes[n++] = next;
+      }
+    }
+    changes.resize(n);
+    while (changes.size() > 1 && is_touch(changes.back().phase, changes.front().phase + two_pi)) {
+      changes.pop_back();
+      changes.erase(changes.begin());
     }
   }
-  changes.resize(n);
-}
+
+ private:
+  [[nodiscard]] bool is_touch(double a, double b) const {
+    constexpr double close = 1e-3;  // above the fourth root of rounding
+    return b - a < close && std::abs(p_.value(0.5 * (a + b))) <= rounding_;
+  }
+
+  const TrigonometricPolynomial& p_;
+  double rounding_;
+};
 
 }  // namespace
 
@@ -429,7 +448,7 @@ void TrigonometricPolynomial::set_derivative(const TrigonometricPolynomial& othe
 void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>& changes) {
   changes.clear();
   const int order = p.order();
-  if (order == 0) {
+  if (order == 0 || !std::isfinite(p.bound(4))) {
     return;
   }
   thread_local Samples samples;
@@ -441,7 +460,7 @@ void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>
       isolation.search(samples.node(i), samples.node(i + 1));
     }
   }
-  drop_empty_pairs(changes);
+  PairFilter(p, isolation.rounding()).apply(changes);
 }
 
 double crossing(const TrigonometricPolynomial& p, double level, double low, double high,

@@ -70,7 +70,8 @@ struct SignChange {
 
 /// All phases at which the answer to p > 0 changes, in order; up and down alternate around the period.
 /// @param changes  written whole; storage is used again.
-/// @note To rounding of p: where p touches zero within that, a pair may be found or not.
+/// @note To rounding of p, 1e-15 of |p₀| + Σ |C_h|: where p only just passes zero within that, it touches
+///       and does not change. None for coefficients so large that Σ h⁴ |C_h| is not finite.
 void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>& changes);
 
 /// Where p passes `level` on [low, high], given that it does: p − level > 0 at one end only.

@@ -105,6 +105,29 @@ TEST(SignChanges, RootsAtNodesAreFoundOnce) {
   }
 }
 
+// 1 − cos hθ touches zero on nodes, one of them at the seam of the period.
+TEST(SignChanges, TouchingIsNotChanging) {
+  for (int h = 1; h <= 4; ++h) {
+    for (const double sign : {1.0, -1.0}) {
+      TrigonometricPolynomial p;
+      p.reset(h);
+      p.set_mean(sign);
+      p.set(h, 0.0, -sign);
+      EXPECT_TRUE(changes_of(p).empty()) << h;
+    }
+  }
+}
+
+TEST(SignChanges, WhatIsNotFiniteHasNone) {
+  TrigonometricPolynomial p;
+  p.reset(2);
+  p.set(1, std::nan(""), 1.0);
+  EXPECT_TRUE(changes_of(p).empty());
+  p.set(1, 1e308, 1e308);
+  p.set(2, 1e308, 1e308);
+  EXPECT_TRUE(changes_of(p).empty());
+}
+
 // A root of multiplicity one errs by rounding of p over its slope; the slope of a product of 2H
 // factors ≤ 1 with roots 0.1 apart or more is above 1e-10 for ten roots, and p is summed to 1e-16.
 TEST(SignChanges, AllRootsOfAProductAreFound) {
