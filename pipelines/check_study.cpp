@@ -10,6 +10,7 @@
 #include <fmt/ostream.h>
 #include <Eigen/Eigenvalues>
 
+#include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
@@ -139,6 +140,7 @@ int check_study(const SceneDescription& scene, std::ostream& out) {
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
+    for (const std::string& warning : mesh::shape_warnings(mesh)) out << "warning: " << warning << '\n';
     if (scene.clamped.empty() && scene.response) {
       out << "warning: nothing is clamped: `run` will refuse rigid-body modes that nothing holds\n";
     }

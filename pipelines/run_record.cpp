@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "fem/slepc_session.hpp"
+#include "mesh/element_shape.hpp"
 #include "pipelines/effects.hpp"
 #include "pipelines/exit_code.hpp"
 #include "pipelines/interrupt.hpp"
@@ -129,6 +130,7 @@ void RunRecord::stage(const std::string& name) {
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   progress_.info(describe_mesh(mesh, density));
+  for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
   summary_.mesh = MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(),
                               density * mesh.volume()};

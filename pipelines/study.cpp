@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/element_shape.hpp"
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/curve_family.hpp"
@@ -85,8 +86,9 @@ int modes_study(const SceneDescription& scene, const RunOptions& options) {
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {
   const mesh::Mesh mesh = obtain_mesh(scene, options.output);
   check_names(mesh, scene);
-  std::cout << describe_mesh(mesh, scene.material.density) << "\nwritten: " << options.output.string()
-            << '\n';
+  std::cout << describe_mesh(mesh, scene.material.density) << '\n';
+  for (const std::string& warning : mesh::shape_warnings(mesh)) std::cerr << "warning: " << warning << '\n';
+  std::cout << "written: " << options.output.string() << '\n';
   return static_cast<int>(ExitCode::complete);
 }
 
