@@ -39,10 +39,10 @@ void set_event_guards(const PointParameters& point, const Harmonics& motion, Eve
   guards.limit = point.friction_coefficient * guards.load.mean();
   guards.spring_mean = k_u * (scale * rows(0, 0));
   for (int h = 1; h <= degree; ++h) {
-    const double v_sin = scale * rows(2 * h - 1, 1);
-    const double v_cos = scale * rows(2 * h, 1);
-    const double sin = k_u * (scale * rows(2 * h - 1, 0));
-    const double cos = k_u * (scale * rows(2 * h, 0));
+    const double v_sin = scale * motion.sine(h)[1];
+    const double v_cos = scale * motion.cosine(h)[1];
+    const double sin = k_u * (scale * motion.sine(h)[0]);
+    const double cos = k_u * (scale * motion.cosine(h)[0]);
     guards.spring.set(h, sin, cos);
     guards.load.set(h, k_v * v_sin, k_v * v_cos);
     guards.positive.set(h, sin - mu_k_v * v_sin, cos - mu_k_v * v_cos);

@@ -71,7 +71,7 @@ double TrigonometricMoments::product(int i, int j) const {
   const auto b = static_cast<int>(index(j));
   const bool i_sine = i % 2 == 1;
   const bool j_sine = j % 2 == 1;
-  const auto sum = static_cast<std::size_t>(a + b);
+  const std::size_t sum = index(i) + index(j);
   const auto difference = static_cast<std::size_t>(std::abs(a - b));
   if (i_sine == j_sine) {
     return 0.5 * (i_sine ? cos_[difference] - cos_[sum] : cos_[difference] + cos_[sum]);
