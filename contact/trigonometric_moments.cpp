@@ -1,7 +1,9 @@
 #include "contact/trigonometric_moments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 namespace microslip::contact {
 
@@ -49,6 +51,12 @@ void TrigonometricMoments::set_piece(double begin, double length) {
     cos_[m] = cos * width;
     sin_[m] = sin * width;
   }
+}
+
+void TrigonometricMoments::set_period() {
+  std::fill(cos_.begin(), cos_.end(), 0.0);
+  std::fill(sin_.begin(), sin_.end(), 0.0);
+  cos_[0] = 2.0 * std::numbers::pi;
 }
 
 void TrigonometricMoments::add(double factor, const TrigonometricMoments& other) {
