@@ -64,6 +64,7 @@ CycleColumns::CycleColumns(const CsvTable& table) : table_(table) {
     const std::string& name = table.columns()[column];
     if (const std::optional<Coefficient> to = coefficient_of(name)) {
       places_.push_back({column, to->row, to->signal});
+      has_second_direction_ = has_second_direction_ || to->signal == 2;
       n_harmonics_ = std::max(n_harmonics_, static_cast<int>((to->row + 1) / 2));
     } else if (name != "id" &&
                std::find(constants.begin(), constants.end(), name) == constants.end()) {

@@ -28,6 +28,8 @@ class CycleColumns {
 
   /// Highest harmonic of any column, ≥ 1.
   [[nodiscard]] int n_harmonics() const { return n_harmonics_; }
+  /// Whether the table names w, be it 0.
+  [[nodiscard]] bool has_second_direction() const { return has_second_direction_; }
   /// @throws SceneError  a constant out of its range; with line and column.
   [[nodiscard]] contact::PointParameters point(std::size_t row) const;
   /// Signals u, v, w; n_harmonics() harmonics.
@@ -44,6 +46,7 @@ class CycleColumns {
   std::array<std::size_t, 4> constants_{};
   std::vector<Place> places_;
   int n_harmonics_ = 1;
+  bool has_second_direction_ = false;
 };
 
 }  // namespace microslip::pipelines
