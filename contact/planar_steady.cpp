@@ -71,12 +71,13 @@ class FixedPoint {
       const double size = force_of(motion_, moved);
       if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
-      if (tried && !(size < 0.9 * smallest)) {
+      if (tried && !(steady.defect < 0.9 * smallest)) {
         slider = fallback;
         tried = false;
+        smallest = INFINITY;
         continue;
       }
-      smallest = std::min(size, smallest);
+      smallest = steady.defect;
       fallback = steady.orbit.end;
       tried = period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;
       slider = tried ? Vector2d(slider + newton) : fallback;
