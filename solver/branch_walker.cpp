@@ -165,10 +165,13 @@ std::optional<WalkerPoint> BranchWalker::between(double share) const {
   chord.x /= size;
   chord.parameter /= size;
   const BranchVector start = moved(before_.solution.point, chord, share * size, scaling);
-  NewtonResult solution = solve_newton(system_, start, chord, scaling, {});
+  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
+  NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
-  if (!solution.converged) return std::nullopt;
+  const double tolerance = std::max(NewtonOptions{}.tolerance, scaling.rounding);
+  if (!(solution.residual <= tolerance)) return std::nullopt;
+  solution.converged = true;
   const Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
   return WalkerPoint{std::move(solution), tangent.direction, scaling};
 }

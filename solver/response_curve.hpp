@@ -39,6 +39,8 @@ struct ResponseCurve {
   bool complete = false;
   std::string diagnosis;              ///< empty when complete; else newton-stall, no-start, …
   std::string message;                ///< a sentence with the numbers
+  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
+  std::string certificate;
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;
