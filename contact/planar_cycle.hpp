@@ -34,8 +34,7 @@ class PlanarLaw final : public PointLaw {
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
-                                     const Eigen::VectorXd& phases,
-                                     int n_harmonics) const override;
+                                     const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
 

@@ -103,8 +103,8 @@ PlanarInstant PlanarMotion::at(double phase) const {
   now.radius_by_approach = mu * (y.load_by_approach - ratio * y.stiffness_ratio_by_approach) /
                            (y.stiffness_ratio * force_scale_);
   now.radius_by_rate = y.friction_coefficient_by_rate * ratio / force_scale_;
-  now.radius_rate = now.radius_by_approach * now.approach_rate +
-                    now.radius_by_rate * frequency_ * speed_rate;
+  now.radius_rate =
+      now.radius_by_approach * now.approach_rate + now.radius_by_rate * frequency_ * speed_rate;
   return now;
 }
 

@@ -70,8 +70,7 @@ class FixedPoint {
       steady.defect = 0.0;
       if (!steady.orbit.slips) break;
       const Vector2d moved = steady.orbit.end - slider;
-      const Vector2d newton =
-          solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved);
       if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;

@@ -23,8 +23,9 @@ namespace microslip::contact {
 struct SteadyOrbit {
   CycleRegime regime = CycleRegime::separated;
   PlanarOrbit orbit;
-  std::vector<PlanarOrbit> history;  ///< full stick: periods before the last, from the virgin slider
-  double defect = 0.0;               ///< estimated distance from the fixed point, in f / F₀
+  std::vector<PlanarOrbit>
+      history;          ///< full stick: periods before the last, from the virgin slider
+  double defect = 0.0;  ///< estimated distance from the fixed point, in f / F₀
 };
 
 [[nodiscard]] SteadyOrbit steady_orbit(const PlanarMotion& motion,

@@ -10,8 +10,8 @@
 namespace microslip::contact {
 namespace {
 
-// Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7 and by
-// the third derivative times 1e-10, which is large only beside events that appear or vanish.
+// Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7
+// and by the third derivative times 1e-10, which is large only beside events that appear or vanish.
 constexpr double step = 1e-5;
 constexpr double tight = 1e-12;
 
@@ -27,7 +27,8 @@ Eigen::VectorXd difference(const PlanarLaw& law, const Harmonics& motion, Eigen:
   return (right.force.vector() - left.force.vector()) / (2.0 * step);
 }
 
-double jacobian_error(const PlanarLaw& law, const Harmonics& motion, const PointTraction& traction) {
+double jacobian_error(const PlanarLaw& law, const Harmonics& motion,
+                      const PointTraction& traction) {
   double error = 0.0;
   for (Eigen::Index j = 0; j < motion.vector().size(); ++j) {
     const Eigen::VectorXd expected = difference(law, motion, j);
@@ -84,7 +85,8 @@ TEST(PlanarLawJacobian, OfAVirginStuckPointIsItsStiffness) {
   }
 }
 
-// A large mean drags the virgin slider: the point ends up stuck with a mean that depends on the motion.
+// A large mean drags the virgin slider: the point ends up stuck with a mean that depends on the
+// motion.
 TEST(PlanarLawJacobian, OfADraggedStuckPointMeetsDifferences) {
   const PlanarLaw law(SurfaceLaw({2.0, 1.0, 0.5, 1.0}, 3.0), tight);
   Harmonics motion = stuck_motion();

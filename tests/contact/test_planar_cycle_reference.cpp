@@ -1,5 +1,5 @@
-// The planar law against fixed-step marches in extended precision, on random orbits: several harmonics,
-// different stiffness along p and r, variable load, gaps, separation.
+// The planar law against fixed-step marches in extended precision, on random orbits: several
+// harmonics, different stiffness along p and r, variable load, gaps, separation.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -61,8 +61,8 @@ TEST(PlanarLawReference, AgreesWithMarchesOnRandomOrbits) {
                         std::abs(static_cast<double>(reference.second[row]) - force[2])});
     }
     const auto doubt = static_cast<double>(reference.doubt);
-    // The march is known to about its last extrapolation; events between its steps of 3e-3 leave about
-    // the square of a step, times a few tenths.
+    // The march is known to about its last extrapolation; events between its steps of 3e-3 leave
+    // about the square of a step, times a few tenths.
     EXPECT_LE(error, 3.0 * doubt + 3e-6 * scale) << "case " << i;
     EXPECT_LE(doubt, 5e-4 * scale) << "case " << i;
     if (doubt < 1e-6 * scale) tally.largest_sure = std::max(tally.largest_sure, error / scale);

@@ -176,8 +176,7 @@ PlanarReference planar_reference(const PlanarCase& c, int n_steps) {
     d.second[i] = extrapolate(a.second[i], b.second[i], d.second[i]);
   }
   d.doubt = doubt;
-  d.dissipated_energy =
-      extrapolate(a.dissipated_energy, b.dissipated_energy, d.dissipated_energy);
+  d.dissipated_energy = extrapolate(a.dissipated_energy, b.dissipated_energy, d.dissipated_energy);
   return d;
 }
 
