@@ -44,7 +44,7 @@ PlaneHull::PlaneHull(const Eigen::Ref<const Eigen::Matrix2Xd>& points) {
   std::ranges::sort(sorted, [](const auto& a, const auto& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
-  sorted.erase(std::ranges::unique(sorted).begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   const double extent =
       (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).cwiseAbs().maxCoeff();
   Points chain;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include "contact/plane_hull.hpp"
 
@@ -20,12 +20,11 @@ struct Problem {
   const ContactArea& area;
   const NormalLaw& law;
   double force;
-  Eigen::Vector2d middle;  // y, z [m]
-  double radius;           // [m]
-  Eigen::Matrix3Xd arms;   // (1, z', −y') of each cell
-  Eigen::Vector3d load;    // (1, M_y', M_z') asked for
-  Eigen::Matrix<double, 3, Eigen::Dynamic>
-      directions;  // tilts that the cells can tell, orthonormal
+  Eigen::Vector2d middle;                               // y, z [m]
+  double radius;                                        // [m]
+  Eigen::Matrix3Xd arms;                                // (1, z', −y') of each cell
+  Eigen::Vector3d load;                                 // (1, M_y', M_z') asked for
+  Eigen::Matrix<double, 3, Eigen::Dynamic> directions;  // tilts the cells can tell
 };
 
 // Imbalance and its derivative by (u₀, φ_y radius, φ_z radius) at the middle [1/m].
@@ -90,18 +89,26 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
 [[noreturn]] void refuse_unbalanced(const PreloadRequest& request, double imbalance) {
   std::ostringstream message;
   message << "preload of " << request.force << " N: an imbalance of " << imbalance
-          << " of it is left; does every normal law rise continuously and without bound?";
+          << " of it is left; normal laws must rise continuously and without bound, and the points "
+             "that carry must not be lighter than the others by many orders";
   const double none = std::numeric_limits<double>::quiet_NaN();
   throw PreloadError(message.str(), {request, -request.moment_z / request.force,
                                      request.moment_y / request.force, none, none});
 }
 
-// Tilts about a line on which all cells lie move nothing; only the others are unknowns.
+// Tilts that move the cells by one in the mean square, and no other: flat areas are as well
+// conditioned as square ones, and a tilt about a line on which all cells lie, which moves nothing,
+// is no unknown.
 Eigen::Matrix<double, 3, Eigen::Dynamic> visible_directions(const Eigen::Matrix3Xd& arms,
+                                                            const Eigen::VectorXd& weights,
                                                             Eigen::Index n_corners) {
-  if (n_corners >= 3) return Eigen::Matrix3d::Identity();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms * arms.transpose());
-  return axes.eigenvectors().rightCols(n_corners);
+  const Eigen::VectorXd loaded = (weights.array() > 0.0).cast<double>();
+  // Of the arms, not of their squares: an area may be flatter than the root of rounding.
+  const Eigen::JacobiSVD<Eigen::MatrixX3d> axes(loaded.asDiagonal() * arms.transpose(),
+                                                Eigen::ComputeThinV);
+  const Eigen::Index n = std::min<Eigen::Index>(n_corners, 3);
+  return axes.matrixV().leftCols(n) *
+         (std::sqrt(loaded.sum()) * axes.singularValues().head(n).cwiseInverse()).asDiagonal();
 }
 
 Problem without_units(const ContactArea& area, const NormalLaw& law, const PlaneHull& hull,
@@ -116,7 +123,7 @@ Problem without_units(const ContactArea& area, const NormalLaw& law, const Plane
   arms.row(2) = (middle.x() - cells.y.transpose().array()) / radius;
   const Eigen::Vector3d load(1.0, (request.moment_y / request.force - middle.y()) / radius,
                              (request.moment_z / request.force + middle.x()) / radius);
-  const auto directions = visible_directions(arms, hull.corners().cols());
+  const auto directions = visible_directions(arms, cells.weights, hull.corners().cols());
   return {area, law, request.force, middle, radius, arms, load, directions};
 }
 
@@ -206,7 +213,9 @@ PreloadEquilibrium with_units(const Problem& problem, const Eigen::Vector3d& til
     result.pressures[i] = problem.law(i, result.approaches[i]).load;
     if (result.pressures[i] > 0.0) ++result.n_loaded;
   }
-  result.imbalance = balance(problem, tilt).residual.cwiseAbs().maxCoeff();
+  const Eigen::Vector3d left = balance(problem, tilt).residual;
+  result.imbalance = std::max(left.cwiseAbs().maxCoeff(),
+                              (problem.directions.transpose() * left).cwiseAbs().maxCoeff());
   return result;
 }
 

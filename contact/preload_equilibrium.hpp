@@ -51,7 +51,8 @@ struct PreloadEquilibrium {
   double rotation_y = 0.0;     ///< φ_y [rad]
   double rotation_z = 0.0;     ///< φ_z [rad]
   Eigen::Index n_loaded = 0;   ///< cells with n_i > 0
-  double imbalance = 0.0;      ///< of (2), relative to F_N and F_N times the radius of the area
+  /// Of (2), relative to F_N and to F_N times the extent of the area, along its flat side too.
+  double imbalance = 0.0;
 };
 
 /// Why a request cannot be met; NaN where it makes no sense.
@@ -79,7 +80,8 @@ class PreloadError : public std::runtime_error {
 /// @throws PreloadError  a pull, a resultant outside or on the edge of the hull of the cell centres, or
 ///         an imbalance left above 1e-9.
 /// @throws std::invalid_argument  a value not finite; a law that does not reach the force.
-/// @note The imbalance is that of rounding, below 1e-12; it does not depend on units.
+/// @note The imbalance is that of rounding, below 1e-12 as a rule and in any units; it grows where cells of
+///       1e-6 of the weight of the others have to carry the load alone.
 [[nodiscard]] PreloadEquilibrium preload_equilibrium(const ContactArea& area, const NormalLaw& law,
                                                      const PreloadRequest& request);
 

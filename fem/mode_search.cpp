@@ -101,15 +101,19 @@ CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inv
     result.search_seconds += watch.lap();
     return more.beyond;
   };
+  const auto count = [&](double count_shift) {
+    result.count_shift = count_shift;
+    result.n_counted = count_below(system, count_shift);
+    result.inertia_seconds += watch.lap();
+  };
   result.pairs.vectors.resize(rigid.rows(), 0);
   Eigen::VectorXd beyond = search(std::max<Eigen::Index>(n, 1));
   std::optional<double> gap;
   for (int round = 0; round < max_rounds; ++round) {
     Eigen::Index n_missing = 1;  // none is, but the gap is not seen yet
-    if (!gap && (gap = shift_in_gap(result.pairs.values, beyond, n, space))) {
-      result.count_shift = *gap;
-      result.n_counted = count_below(system, *gap);
-      result.inertia_seconds += watch.lap();
+    if (!gap) {
+      gap = shift_in_gap(result.pairs.values, beyond, n, space);
+      if (gap) count(*gap);
     }
     if (gap) {
       result.n_below = (result.pairs.values.array() < *gap).count();

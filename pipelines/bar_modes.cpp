@@ -22,7 +22,8 @@ double bar_root(double kappa, int number) {
   double high = 0.5 * std::numbers::pi;
   if (std::isinf(kappa)) return base + high;
   if (kappa == 0.0) return base;
-  // z = kπ + y: z sin y − κ cos y grows from −κ to z on 0 < y < π/2. Halved until nothing lies between.
+  // z = kπ + y: z sin y − κ cos y grows from −κ to z on 0 < y < π/2. Halved until nothing lies
+  // between.
   for (double y = std::midpoint(low, high); y > low && y < high; y = std::midpoint(low, high)) {
     const bool below = (base + y) * std::sin(y) < kappa * std::cos(y);
     (below ? low : high) = y;
@@ -55,8 +56,9 @@ Eigen::VectorXd bar_residual_flexibility(const Bar& bar, const BarModes& modes,
                                          const Eigen::VectorXd& x) {
   if (bar.end_stiffness == 0.0) {
     if ((modes.root.array() != 0.0).all()) {
-      throw std::invalid_argument("bar: a free bar without its rigid-body mode has no residual "
-                                  "flexibility");
+      throw std::invalid_argument(
+          "bar: a free bar without its rigid-body mode has no residual "
+          "flexibility");
     }
     return Eigen::VectorXd::Zero(x.size());
   }

@@ -54,19 +54,14 @@ std::vector<int> read_mode_numbers(const SectionReader& s) {
   return numbers;
 }
 
-/// The load as a formula. A text that is a quantity, "2 kN/m", is a constant.
-Expression load_formula(const SectionReader& s, const std::string& text) {
+/// Values of a formula in x and L, or of a quantity such as "2 kN/m".
+Eigen::VectorXd load_of_text(const SectionReader& s, const std::string& text,
+                             const Eigen::VectorXd& x, double length) {
   try {
-    return {fmt::format("{:.17g}", to_si(text, "N/m")), {"x", "L"}};
-  } catch (const UnitError& no_quantity) {
-    try {
-      return {text, {"x", "L"}};
-    } catch (const ExpressionError& no_formula) {
-      s.fail("load",
-             fmt::format("neither a quantity ({}) nor a formula ({})", no_quantity.what(),
-                         no_formula.what()),
-             s.node("load"));
-    }
+    return Eigen::VectorXd::Constant(x.size(), to_si(text, "N/m"));
+  } catch (const UnitError&) {  // then it is a formula, or the formula's message tells
+    const std::string place = place_of(s.node("load"), s.file()) + ": contact.load";
+    return Expression(text, place, {{"L", length}}, {"x", ""}).at(x, Eigen::VectorXd::Zero(x.size()));
   }
 }
 
@@ -75,14 +70,14 @@ Eigen::VectorXd read_load(const SectionReader& s, const Eigen::VectorXd& x, doub
   const toml::node& node = *s.node("load");
   Eigen::VectorXd load(x.size());
   if (node.is_string()) {
-    const Expression formula = load_formula(s, *node.value<std::string>());
-    for (Eigen::Index i = 0; i < x.size(); ++i) load[i] = formula(std::array{x[i], length});
+    load = load_of_text(s, *node.value<std::string>(), x, length);
   } else {
     load.setConstant(s.number_in(node, "load"));
   }
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (std::isfinite(load[i]) && load[i] >= 0.0) continue;
-    s.fail("load", fmt::format("{:g} N/m at x = {:g} m: must be finite and not negative", load[i], x[i]),
+    s.fail("load",
+           fmt::format("{:g} N/m at x = {:g} m: must be finite and not negative", load[i], x[i]),
            &node);
   }
   return load;
@@ -93,16 +88,17 @@ Eigen::VectorXd series_stiffness(const Bar& bar, const BarModes& modes, const Ei
                                  double local) {
   if (bar.end_stiffness == 0.0 && (modes.root.array() != 0.0).all()) {
     throw RefusedError(
-        "modes.which: a free bar without its rigid-body mode (number 1) has no residual flexibility; keep "
+        "modes.which: a free bar without its rigid-body mode (number 1) has no residual "
+        "flexibility; keep "
         "that mode, or residual = \"none\"");
   }
   if (local == 0.0) return Eigen::VectorXd::Zero(x.size());
-  const Eigen::ArrayXd flexibility =
-      bar_residual_flexibility(bar, modes, x).array() + 1.0 / local;
+  const Eigen::ArrayXd flexibility = bar_residual_flexibility(bar, modes, x).array() + 1.0 / local;
   if (flexibility.minCoeff() <= 0.0) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the contact stiffness not positive (smallest 1/k + c = {:.3g} "
-        "m^2/N): give a lower contact.tangential_stiffness, more modes, or modes.residual = \"none\"",
+        "m^2/N): give a lower contact.tangential_stiffness, more modes, or modes.residual = "
+        "\"none\"",
         flexibility.minCoeff()));
   }
   return flexibility.inverse();

@@ -18,9 +18,9 @@ namespace {
 
 /// One contact of the scene before it becomes points.
 struct Contact {
-  Eigen::VectorXd slip, approach;  // u, v = slip · x, approach · x
-  contact::PointParameters whole;  // stiffness of all cells together [N/m]; preload is the share
-  int n_along = 1, n_across = 1;   // cells along p and r
+  Eigen::VectorXd slip, approach;    // u, v = slip · x, approach · x
+  contact::PointParameters whole;    // stiffness of all cells together [N/m]; preload is the share
+  int n_along = 1, n_across = 1;     // cells along p and r
   double length = 0.0, width = 0.0;  // along p and r [m]; 0: a point
   double moment_p = 0.0, moment_r = 0.0;  // [N·m]
 };
@@ -30,13 +30,15 @@ Eigen::Index coordinate(const SectionReader& s, std::string_view key, const std:
   const auto& names = system.coordinates;
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    s.fail(key, fmt::format("no coordinate \"{}\"; there are: {}", name, fmt::join(names, ", ")), at);
+    s.fail(key, fmt::format("no coordinate \"{}\"; there are: {}", name, fmt::join(names, ", ")),
+           at);
   }
   return found - names.begin();
 }
 
 /// A coordinate, or a sum { m1 = 1, m2 = -1 }, as factors on the coordinates.
-Eigen::VectorXd read_motion(const SectionReader& s, std::string_view key, const ChainSystem& system) {
+Eigen::VectorXd read_motion(const SectionReader& s, std::string_view key,
+                            const ChainSystem& system) {
   const toml::node& node = *s.node(key);
   Eigen::VectorXd factors = Eigen::VectorXd::Zero(system.shapes.rows());
   if (const auto name = node.is_string() ? node.value<std::string>() : std::nullopt) {
@@ -82,10 +84,12 @@ void read_area(const SectionReader& s, Contact& contact) {
     s.fail("size", "is missing: the cells divide an area [p, r] in m");
   }
   if (contact.moment_p != 0.0 && contact.n_across < 2) {
-    s.fail("preload_moment", "a moment about p needs several cells along r", s.node("preload_moment"));
+    s.fail("preload_moment", "a moment about p needs several cells along r",
+           s.node("preload_moment"));
   }
   if (contact.moment_r != 0.0 && contact.n_along < 2) {
-    s.fail("preload_moment", "a moment about r needs several cells along p", s.node("preload_moment"));
+    s.fail("preload_moment", "a moment about r needs several cells along p",
+           s.node("preload_moment"));
   }
 }
 
@@ -122,7 +126,8 @@ std::vector<Contact> read_contacts(SectionReader& s, const ChainSystem& system) 
     shares += contacts.back().whole.preload;
     completed.push_back(std::move(complete));
   }
-  if (!contacts.empty() && !(shares > 0.0)) s.fail("points", "every share of the preload is 0", &node);
+  if (!contacts.empty() && !(shares > 0.0))
+    s.fail("points", "every share of the preload is 0", &node);
   for (Contact& contact : contacts) contact.whole.preload /= shares;
   s.complete("points", std::move(completed));
   return contacts;

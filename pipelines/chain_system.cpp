@@ -6,10 +6,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "pipelines/modes_section.hpp"
 
@@ -69,8 +69,10 @@ ChainSystem from_masses(const SectionReader& s) {
   }
   if (springs.size() != n && springs.size() != n + 1) {
     s.fail("springs",
-           fmt::format("{} springs for {} masses; expected {} (ground–m1, m1–m2, …) or {} (mn–ground as "
-                       "well)", springs.size(), n, n, n + 1),
+           fmt::format(
+               "{} springs for {} masses; expected {} (ground–m1, m1–m2, …) or {} (mn–ground as "
+               "well)",
+               springs.size(), n, n, n + 1),
            s.node("springs"));
   }
   return checked_modes(s, "masses", chain_stiffness(n, springs), masses.asDiagonal());
@@ -142,7 +144,8 @@ ChainSystem modes_of_matrices(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M
     throw std::invalid_argument("the mass matrix is not positive definite");
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, M);
-  if (pairs.info() != Eigen::Success) throw std::invalid_argument("the eigenvalues do not converge");
+  if (pairs.info() != Eigen::Success)
+    throw std::invalid_argument("the eigenvalues do not converge");
   Eigen::VectorXd values = pairs.eigenvalues();
   const double rounding = 10.0 * static_cast<double>(K.rows()) *
                           std::numeric_limits<double>::epsilon() * values.cwiseAbs().maxCoeff();
@@ -168,14 +171,16 @@ ChainSystem read_chain_system(const SectionReader& s) {
     const auto& [one, other] = forms[form];
     if (!s.given(one) && !s.given(other)) continue;
     if (s.given(one) != s.given(other)) {
-      s.fail(s.given(one) ? other : one, fmt::format("is missing: {} and {} go together", one, other));
+      s.fail(s.given(one) ? other : one,
+             fmt::format("is missing: {} and {} go together", one, other));
     }
     given.push_back(form);
   }
   if (given.size() != 1) {
-    s.fail(given.empty() ? "masses" : forms[given[1]][0],
-           "expected one of: masses with springs, mass_matrix with stiffness_matrix, frequency with "
-           "mode_shapes");
+    s.fail(
+        given.empty() ? "masses" : forms[given[1]][0],
+        "expected one of: masses with springs, mass_matrix with stiffness_matrix, frequency with "
+        "mode_shapes");
   }
   ChainSystem system = given[0] == 0   ? from_masses(s)
                        : given[0] == 1 ? from_matrices(s)

@@ -24,7 +24,8 @@ struct ChainSystem {
 [[nodiscard]] ChainSystem modes_of_matrices(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
 
 /// K of a chain. @param springs  ground–m1, m1–m2, …, m(n−1)–mn and, optionally, mn–ground [N/m].
-[[nodiscard]] Eigen::MatrixXd chain_stiffness(Eigen::Index n_masses, const Eigen::VectorXd& springs);
+[[nodiscard]] Eigen::MatrixXd chain_stiffness(Eigen::Index n_masses,
+                                              const Eigen::VectorXd& springs);
 
 /// @param model  the section [model] of a chain.
 /// @throws SceneError  as read_chain().

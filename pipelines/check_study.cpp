@@ -115,7 +115,7 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
   fmt::print(out, "{} modes\n", modal.frequency_hz.size());
   ReducedModel model = reduced_model(modal);
   model.effects = contact_effects(model, scene);
-  require_held(model);
+  require_held(model, scene);
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {

@@ -132,6 +132,7 @@ ContactDescription read_contact(const SectionReader& s, ContactLaws& laws) {
            surface);
   }
   contact.surface = s.text("surface");
+  contact.place = s.place("surface");
   contact.slip_direction = s.direction("slip_direction");
   const toml::node& friction = *s.node("friction_coefficient");
   if (const toml::table* law = friction.as_table()) {

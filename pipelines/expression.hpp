@@ -1,51 +1,45 @@
 /// @file
-/// A formula as users write it, "2000*(0.2 + 0.8*(2*x/L - 1)^2)": parsed once, evaluated often.
+/// An analytic expression of position, as users write it: "0.3 + 0.1*sin(40*p) - r^2".
 ///
-///   sum     = product { ("+" | "-") product }
-///   product = power { ("*" | "/") power }
-///   power   = ["-" | "+"] atom ["^" power]          −x^2 is −(x²), 2^3^2 is 2^9
-///   atom    = number | name | function "(" sum ")" | "(" sum ")"
-///
-/// Functions: sqrt, exp, log, sin, cos, tan, abs. The name pi is known everywhere.
+/// Names: p, r [m], or others the caller gives to the coordinates; pi, e; constants of the caller; functions sin cos tan asin acos atan atan2 sinh cosh
+/// tanh asinh acosh atanh exp ln log (both to base e) log2 log10 sqrt abs sign rint min max sum avg;
+/// operators + - * / ^, comparisons, && ||, and `condition ? a : b`.
 #pragma once
 
-#include <span>
-#include <stdexcept>
+#include <array>
+#include <map>
+#include <memory>
 #include <string>
-#include <string_view>
-#include <vector>
+
+#include <Eigen/Core>
 
 namespace microslip::pipelines {
 
-/// What is wrong with a formula, and at which character (from 1).
-class ExpressionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 class Expression {
  public:
-  /// @param text       the formula.
-  /// @param variables  names it may use.
-  /// @throws ExpressionError  it cannot be read, or uses another name.
-  Expression(std::string_view text, std::vector<std::string> variables);
+  /// @param text       the expression, at most 10 000 characters.
+  /// @param place      what messages begin with, e.g. "scene.toml:12: contact.friction_coefficient".
+  /// @param constants  further names and their values.
+  /// @param coordinates  names of the two coordinates; an empty second one: there is only one.
+  /// @throws SceneError  with the position (character, from 1) and the offending part; an unknown name
+  ///         comes with the nearest known one and the list of them.
+  Expression(const std::string& text, std::string place,
+             const std::map<std::string, double>& constants = {},
+             const std::array<std::string, 2>& coordinates = {"p", "r"});
+  ~Expression();
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression&&) noexcept;
 
-  /// @param values  of the variables, in their order.
-  /// @return the value; not finite where the formula is not (1/0, sqrt(-1)).
-  [[nodiscard]] double operator()(std::span<const double> values) const;
+  /// n values. Safe to call from several threads.
+  /// @param p, r  [m], n each.
+  /// @throws SceneError  a value is not finite; names the place where.
+  [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
 
  private:
-  friend class ExpressionParser;
-  using Function = double (*)(double);
-  enum class Operation { constant, variable, add, subtract, multiply, divide, power, negate, call };
-  struct Step {
-    Operation operation = Operation::constant;
-    double constant = 0.0;
-    std::size_t variable = 0;
-    Function function = nullptr;
-  };
-  std::vector<Step> steps_;  // in reverse Polish order
-  std::size_t n_variables_ = 0;
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+  std::string place_;
+  std::array<std::string, 2> coordinates_;
 };
 
 }  // namespace microslip::pipelines

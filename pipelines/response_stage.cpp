@@ -123,18 +123,21 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   return scene;
 }
 
-void require_held(const ReducedModel& model) {
+void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
-  const solver::Scene scene = solver_scene(model, 1.0);
+  const solver::Scene problem = solver_scene(model, 1.0);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
-  if (scene.contact) stuck += scene.contact->stuck_stiffness();
+  if (problem.contact) stuck += problem.contact->stuck_stiffness();
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
   if (factors.isInvertible()) return;
+  const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
       "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
-      "with every contact point stuck): name the clamped surfaces in [supports] clamped",
-      n_rigid, model.frequency.size(), factors.dimensionOfKernel()));
+      "with every contact point stuck): {}",
+      n_rigid, model.frequency.size(), factors.dimensionOfKernel(),
+      has_supports ? "name the clamped surfaces in [supports] clamped"
+                   : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {

@@ -38,7 +38,7 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
-void require_held(const ReducedModel& model);
+void require_held(const ReducedModel& model, const SceneDescription& scene);
 
 /// Traces one curve: a solution at one frequency when the range has no width.
 [[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,

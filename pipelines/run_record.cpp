@@ -211,6 +211,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }
+  progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
   summary_.curves.push_back(std::move(summary));
   write_curve(folder_, result, model.frequency.size());

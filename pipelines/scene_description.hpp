@@ -65,6 +65,7 @@ struct ModesDescription {
 
 struct ContactDescription {
   std::string surface;
+  std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   double friction_coefficient = 0.0;
   std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
@@ -80,11 +81,13 @@ struct ForceDescription {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< normalised
   double amplitude = 0.0;                                ///< [N], total over the nodes of `at`
   double phase_deg = 0.0;
+  std::string place;  ///< "file:line: key" of `at`, for messages
 };
 
 struct OutputDescription {
   std::string at;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  std::string place;  ///< "file:line: key" of `at`, for messages
 };
 
 enum class LimitName { free, stuck };
@@ -118,6 +121,7 @@ struct SceneDescription {
   std::variant<BladeModel, MeshFileModel, ModalModel> model;
   fem::Material material;
   std::vector<std::string> clamped;
+  std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   ModesDescription modes;
   std::optional<ContactDescription> contact;
   ContactLaws laws;

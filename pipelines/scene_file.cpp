@@ -164,9 +164,10 @@ ModesDescription read_modes(const SectionReader& s) {
   const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
   const toml::node* given = s.node("damping_ratio");
   if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
-    s.fail("damping_ratio",
-           fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
-           given);
+    s.fail(
+        "damping_ratio",
+        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
+        given);
   }
   constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
   modes.residual =
@@ -188,6 +189,7 @@ std::vector<ForceDescription> read_forces(SectionReader& s) {
                               s.file(), complete);
     ForceDescription description;
     description.at = force.text("at");
+    description.place = force.place("at");
     description.direction = force.direction("direction");
     description.amplitude = force.number("amplitude");
     description.phase_deg = force.number("phase");
@@ -204,7 +206,7 @@ OutputDescription read_output(const SectionReader& s) {
   toml::table complete;
   const SectionReader output(node.as_table(), section_spec("output"), "response.output", s.file(),
                              complete);
-  return {output.text("at"), output.direction("direction")};
+  return {output.text("at"), output.direction("direction"), output.place("at")};
 }
 
 double frequency_in(const SectionReader& s, const toml::node& node) {
@@ -391,7 +393,9 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
     scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
   }
   scene.material = read_material(reading.section("material", "material"));
-  scene.clamped = read_names(reading.section("supports", "supports"), "clamped");
+  const SectionReader supports = reading.section("supports", "supports");
+  scene.clamped = read_names(supports, "clamped");
+  scene.clamped_place = supports.place("clamped");
   scene.modes = read_modes(reading.section("modes", "modes"));
   if (reading.given.contains("contact")) {
     scene.contact = read_contact(reading.section("contact", "contact"), scene.laws);

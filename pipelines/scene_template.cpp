@@ -78,7 +78,8 @@ const Examples& chain_examples() {
       {"modes.damping_ratio", "\"2 %\""},
       {"excitation.forces", "[\n  { at = \"m2\", amplitude = \"10 N\", phase = 0 },\n]"},
       {"contact.points",
-       "[\n  { slip = \"m1\", tangential_stiffness = \"40 kN/m\", friction_coefficient = 0.5 },\n]"},
+       "[\n  { slip = \"m1\", tangential_stiffness = \"40 kN/m\", friction_coefficient = 0.5 "
+       "},\n]"},
       {"response.output", "\"m2\""},
       {"response.frequency", "[\"18 Hz\", \"28 Hz\"]"},
       {"response.preload", "[\"free\", 10, 30, 100, \"stuck\"]"},

@@ -60,7 +60,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
   return record.run([&] {
     require_response(scene);
     const ReducedModel model = reduce(scene, record);
-    require_held(model);
+    require_held(model, scene);
     require_loads(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);

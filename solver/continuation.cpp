@@ -75,6 +75,12 @@ Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force)
   return other;
 }
 
+/// What was evaluated was linear.
+void forget_evaluations(ResponseCurve& curve) {
+  curve.contact_evaluations = 0;
+  for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
+}
+
 /// The linear curve where it is proved to be one; nothing nonlinear is evaluated.
 std::optional<ResponseCurve> trace_certified(const Scene& scene, const ContinuationOptions& options,
                                              const PointObserver& observe) {
@@ -88,7 +94,7 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   const Scene linear = with_force(
       scene, std::make_unique<LinearForce>(limit_stiffness(scene, limit), *scene.contact));
   ResponseCurve curve = CurveTracer(linear, options, observe).run();
-  curve.contact_evaluations = 0;
+  forget_evaluations(curve);
   curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
                       " over the whole range (" + std::to_string(proof.n_intervals) +
                       " frequency intervals): the linear response is a solution; others may exist";
@@ -111,7 +117,11 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
-    if (other.complete || other.points.size() > curve.points.size()) curve = std::move(other);
+    if (other.complete || other.points.size() > curve.points.size()) {
+      other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
+      other.log.push_back({options.frequency_end, "other-end"});
+      curve = std::move(other);
+    }
     curve.iterations = iterations;
     curve.contact_evaluations = evaluations;
   }
@@ -135,6 +145,8 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
     const auto stability =
         assess_stability(balance, start.solution->evaluation.jacobian, frequency);
     curve.points.push_back(certified_point(balance, *start.solution, frequency, stability));
+    curve.points.back().contact_evaluations = start.evaluations;
+    curve.points.back().seconds = watch.seconds();
     curve.complete = true;
   } else {
     curve.diagnosis = "no-start";
@@ -180,7 +192,7 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   }
   const Scene linear = with_force(scene, std::move(force));
   ResponseCurve curve = trace_response(linear, options);
-  curve.contact_evaluations = 0;  // nothing nonlinear was evaluated
+  forget_evaluations(curve);
   return curve;
 }
 

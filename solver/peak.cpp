@@ -167,7 +167,8 @@ class Search {
     const auto least = lowest(peaks);
     result_.best = *least;
     if (least == peaks.begin() || least == std::prev(peaks.end())) {
-      result_.message = sentence("the smallest peak lies at the bound ", least->parameter);
+      result_.message = sentence("the smallest peak lies at the bound ", least->parameter) + "; " +
+                        valley(peaks, *least);
       return false;
     }
     const Bracket bracket{position(std::prev(least)->parameter), position(least->parameter),

@@ -40,7 +40,7 @@ EventStepper::EventStepper(const TimeSystem& system, const TimeOptions& options)
   const int n_steps =
       options.steps_per_period > 0 ? options.steps_per_period : default_longest_step;
   // On the imaginary axis the pair is stable up to about 1, half of what is allowed to rk4.
-  const double needed = 2.0 * system.least_steps();
+  const long needed = 2L * system.least_steps();
   if (std::isinf(tolerance_) && n_steps < needed) {
     throw std::invalid_argument("time integration: " + std::to_string(n_steps) +
                                 " fixed steps per period at " + std::to_string(system.frequency()) +

@@ -13,8 +13,8 @@ enum class TimeMethod : std::uint8_t {
 
 struct TimeOptions {
   TimeMethod method = TimeMethod::events;
-  /// rk4: steps per period, refused below 2/h-bound of the stuck system; events: longest step is a
-  /// period divided by this. 0: chosen (rk4: 1000 or twice the bound; events: 64).
+  /// rk4: steps per period, refused below TimeSystem::least_steps(); events: the longest step is a
+  /// period divided by this. 0: chosen (rk4: 1000, or twice the least; events: 64).
   int steps_per_period = 0;
   /// events: error per step against the largest motion of a period, > 0. Infinity: fixed steps.
   double step_tolerance = 1e-10;

@@ -23,7 +23,7 @@ from matplotlib.lines import Line2D
 
 import plot_run
 
-N_FINE = 3600  # instants per period of the march: transitions are found to 0.1°
+N_FINE = 3600  # instants per period of the march; transitions are interpolated between them
 AGREEMENT = 0.02  # of the largest friction: a transition falls between two instants of the map at most
 STICK, POSITIVE, NEGATIVE, OPEN = range(4)
 KINDS = [
@@ -77,7 +77,7 @@ class LineMap:
             self.mu = read("friction_coefficient")
 
     def cycle(self):
-        """(friction, bound) over one period, points × N_FINE: the second pass of the sliders."""
+        """(u, v, friction, bound) over one period, points × N_FINE: the second pass of the sliders."""
         u, v = interpolated(self.u, N_FINE), interpolated(self.v, N_FINE)
         row = np.arange(len(self.x))
         most = np.argmax(self.normal, axis=1)
@@ -89,27 +89,58 @@ class LineMap:
             i = step % N_FINE
             f = np.clip(f + self.k_u * (u[:, i] - u[:, i - 1]), -bound[:, i], bound[:, i])
             friction[:, i] = f
-        return friction, bound
+        return u, v, friction, bound
 
     def transitions(self):
-        """Angles [deg] by kind, points × 1, NaN where a point has none; None where the law is another one
-        or a point changes twice in the same way."""
-        friction, bound = self.cycle()
+        """Angles [deg] by kind, one per point, NaN where it has none; None where the law is another one or
+        a point changes twice in the same way. Between two instants of the march, sticking ends where the
+        stuck force meets its bound, and slipping where its drive k_u u ∓ μ k_v v turns."""
+        u, v, friction, bound = self.cycle()
         at = np.round(self.phase / 360 * N_FINE).astype(int) % N_FINE
         largest = np.abs(self.friction).max()
         if largest == 0 or np.abs(friction[:, at] - self.friction).max() > AGREEMENT * largest:
             return None
         state = np.where(friction >= bound, POSITIVE, np.where(friction <= -bound, NEGATIVE, STICK))
         state[bound == 0] = OPEN
-        before = np.roll(state, 1, axis=1)
         angles = {}
         for (start, end), _, _ in KINDS:
-            changes = (before == start) & (state == end)
+            changes = (np.roll(state, 1, axis=1) == start) & (state == end)
             if (changes.sum(axis=1) > 1).any():
                 return None
-            angle = (np.argmax(changes, axis=1) - 0.5) * 360 / N_FINE
+            first = np.argmax(changes, axis=1)  # the instant after the change
+            sign = 1 if POSITIVE in (start, end) else -1
+            if start == STICK:
+                late = end_of_stick(sign * friction, bound, sign * self.k_u[:, None] * u, first)
+            else:
+                drive = sign * self.k_u[:, None] * u - (self.mu * self.k_v)[:, None] * v
+                late = turn_before(drive, first)
+            angle = (first - late) * 360 / N_FINE
             angles[start, end] = np.where(changes.any(axis=1), angle % 360, np.nan)
         return angles
+
+
+def neighbours(values, column):
+    """Values of each row at its column and the two before it, in order of time."""
+    row = np.arange(len(values))
+    return values[row, column - 2], values[row, column - 1], values[row, column]
+
+
+def end_of_stick(force, bound, stuck, column):
+    """Steps by which the instant `column` is later than the meeting of force and bound."""
+    _, before, _ = neighbours(bound - force, column)  # room left
+    _, bound_before, bound_after = neighbours(bound, column)
+    _, stuck_before, stuck_after = neighbours(stuck, column)
+    closing = (stuck_after - stuck_before) - (bound_after - bound_before)
+    share = np.divide(before, closing, out=np.ones_like(before), where=closing > 0)
+    return 1 - np.clip(share, 0, 1)
+
+
+def turn_before(drive, column):
+    """Steps by which the instant `column` is later than the maximum of the drive: a parabola."""
+    first, middle, last = neighbours(drive, column)
+    curvature = first - 2 * middle + last
+    shift = np.divide(first - last, 2 * curvature, out=np.zeros_like(first), where=curvature < 0)
+    return 1 - np.clip(shift, -1, 1)
 
 
 def unwrapped(x, angle):
@@ -119,13 +150,9 @@ def unwrapped(x, angle):
     return np.insert(x, at, np.nan), np.insert(angle, at, np.nan)
 
 
-def draw_transitions(axes, line_map, colour, width=1.2):
-    angles = line_map.transitions()
-    if angles is None:
-        return False
+def draw_transitions(axes, x, angles, colour):
     for kind, _, style in KINDS:
-        axes.plot(*unwrapped(line_map.x, angles[kind]), color=colour, linewidth=width, linestyle=style)
-    return True
+        axes.plot(*unwrapped(x, angles[kind]), color=colour, linewidth=1.2, linestyle=style)
 
 
 def kind_handles(colour):
@@ -157,7 +184,7 @@ def plot_line(folder, name, position):
     for shift in (0, 360):  # the stripe at 0° is seen at both borders
         field.pcolormesh(cell_edges(line_map.x), edges + shift, line_map.state.T, vmin=-0.5, vmax=4.5,
                          cmap=ListedColormap(colours), rasterized=True)
-    drawn = draw_transitions(field, line_map, "white")
+    angles = line_map.transitions()
     axes_of_phase(field)
     most = line_map.energy.max()
     energy.fill_between(line_map.x, line_map.energy / (most if most > 0 else 1), color="0.4", linewidth=0)
@@ -166,7 +193,8 @@ def plot_line(folder, name, position):
     energy.set_xlabel("position along the contact x [m]")
     energy.margins(x=0)
     plot_run.state_legend(figure, line_map)
-    if drawn:
+    if angles is not None:
+        draw_transitions(field, line_map.x, angles, "white")
         field.legend(handles=kind_handles("white"), loc="upper left", facecolor="#12355b",
                      labelcolor="white", frameon=True, framealpha=0.6, edgecolor="none")
     return figure
@@ -190,17 +218,25 @@ def first_map(folder):
 
 
 def plot_comparison(folders, path):
-    """Transition lines of several runs."""
-    figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+    """Transition lines of several runs, and the slip-to-stick line of the first half-cycle enlarged."""
+    figure, (axes, enlarged) = plt.subplots(2, 1, figsize=(7.2, 6.0), layout="constrained", sharex=True,
+                                            gridspec_kw={"height_ratios": [2, 1]})
     palette = plt.cm.viridis(np.linspace(0, 0.85, len(folders)))
     handles = kind_handles("0.3")
+    low, high = np.inf, -np.inf
     for folder, colour in zip(folders, palette):
         line_map = first_map(folder)
-        if not draw_transitions(axes, line_map, colour):
+        angles = line_map.transitions()
+        if angles is None:
             raise SystemExit(f"{folder}: its transitions are not those of constant elastic Coulomb friction")
+        draw_transitions(axes, line_map.x, angles, colour)
+        enlarged.plot(*unwrapped(line_map.x, angles[POSITIVE, STICK]), color=colour, linewidth=1.2)
         handles.append(Line2D([], [], color=colour, linewidth=2.5, label=label_of(folder)))
+        low, high = min(low, line_map.x[0]), max(high, line_map.x[-1])
+    axes.set_xlim(low, high)
     axes_of_phase(axes)
-    axes.set_xlabel("position along the contact x [m]")
+    enlarged.set_ylabel("positive slip to stick,\nenlarged: θ [°]")
+    enlarged.set_xlabel("position along the contact x [m]")
     axes.set_title(plot_run.Run(folders[0]).summary.get("title", ""), loc="left")
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.02))
     figure.savefig(path, metadata={"Software": None} if path.endswith(".png") else None)

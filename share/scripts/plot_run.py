@@ -445,15 +445,21 @@ def plot_map(path, folder, title):
     save(figure, folder, "map_" + name)
 
 
+def place_in_words(suffix):
+    """peak, fold 2, solution 1: the frequency of "315Hz_1" stands in the title anyway."""
+    first, _, rest = suffix.partition("_")
+    return f"solution {rest}" if first.endswith("Hz") else suffix.replace("_", " ")
+
+
 def map_tasks(run, folder):
     """One call of plot_map per map that is there."""
     for curve, _ in run.curves:
         for name in curve.get("maps", []):
             path = os.path.join(run.folder, "maps", name + ".h5")
             if os.path.exists(path):
-                place = name[len(curve["name"]):].strip("_").replace("_", " ")
+                place = place_in_words(name[len(curve["name"]):].strip("_"))
                 word = "preload scale" if run.scaled else "preload"
-                title = f"{word} {run.label(load_of(curve))}, {place}"
+                title = f"{run.summary.get('title', '')}: {word} {run.label(load_of(curve))}, {place}"
                 yield lambda path=path, title=title: plot_map(path, folder, title)
 
 

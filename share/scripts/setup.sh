@@ -9,7 +9,7 @@ set -eu
 build="g++ cmake ninja-build pkg-config"
 libraries="libeigen3-dev libslepc-real-dev libgmsh-dev libopenblas-pthread-dev libvtk9-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libudunits2-dev libhdf5-dev
-  nlohmann-json3-dev"
+  libmuparser-dev nlohmann-json3-dev"
 # The build makes the tests as well unless it is told not to, so their libraries belong here.
 testing="libgtest-dev librapidcheck-dev libbenchmark-dev libsundials-dev"
 plots="python3-numpy python3-matplotlib python3-meshio python3-h5py"

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -14,6 +16,9 @@
 #include "contact/patch_force.hpp"
 #include "contact/point_motions.hpp"
 #include "contact/sampled_cycle.hpp"
+
+#include "contact/preload_equilibrium.hpp"
+#include "contact/surface_law.hpp"
 
 namespace {
 
@@ -210,6 +215,41 @@ void sampled_law(benchmark::State& state) {
   count_errors(state, s, n_samples);
 }
 BENCHMARK(sampled_law)->Args({1, 128})->Args({3, 128})->Args({5, 128})->Args({3, 512});
+
+// One call of a surface law, approaches that sweep from separation through the heights to full
+// contact; with bodies in series an equation is solved in every call.
+void surface_law(benchmark::State& state, const std::optional<RoughSurface>& roughness,
+                 double compliance) {
+  const SurfaceLaw law({1e12, 1e12, 0.4, 5e5}, 1e12, FrictionLaw::exponential(0.4, 0.3, 10.0),
+                       roughness, {0.0, compliance, 0.0});
+  std::vector<double> approaches(1024);
+  for (std::size_t i = 0; i < approaches.size(); ++i) {
+    approaches[i] = 3e-6 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 1024.0);
+  }
+  for (auto _ : state) {
+    for (const double approach : approaches) {
+      benchmark::DoNotOptimize(law.at(approach, 0.01));
+    }
+  }
+  count_points(state, approaches.size());
+}
+BENCHMARK_CAPTURE(surface_law, smooth, std::nullopt, 0.0);
+BENCHMARK_CAPTURE(surface_law, cubic, RoughSurface::cubic(2e-6), 0.0);
+BENCHMARK_CAPTURE(surface_law, gaussian, RoughSurface::matching_gaussian(2e-6), 0.0);
+BENCHMARK_CAPTURE(surface_law, cubic_in_series, RoughSurface::cubic(2e-6), 1e-12);
+BENCHMARK_CAPTURE(surface_law, gaussian_in_series, RoughSurface::matching_gaussian(2e-6), 1e-12);
+
+// Pressure at rest under force and moment, a third of the cells lifted off.
+void preload_equilibrium_of_area(benchmark::State& state) {
+  const auto side = static_cast<int>(state.range(0));
+  const ContactArea area(rectangle_cells(0.1, 0.1, side, side));
+  const NormalLaw law = one_sided_springs(Eigen::VectorXd::Constant(area.n_cells(), 1e12));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(preload_equilibrium(area, law, {1000.0, 28.0, 0.0}));
+  }
+  count_points(state, static_cast<std::size_t>(area.n_cells()));
+}
+BENCHMARK(preload_equilibrium_of_area)->Arg(4)->Arg(32)->Arg(128);
 
 }  // namespace
 

@@ -63,6 +63,37 @@ TEST(PlanarLawJacobian, MeetsCentralDifferencesOnRandomOrbits) {
   EXPECT_GT(tested, 60);
 }
 
+Harmonics lissajous() {
+  Harmonics motion(2, 3);
+  motion.rows() << 0.1, 0.2, -0.3,  //
+      1.0, 0.4, 0.2,                //
+      0.3, -0.6, 0.8,               //
+      0.2, 0.3, 0.4,                //
+      -0.5, 0.1, 0.1;
+  return motion;
+}
+
+// ∂/∂ω as well: the coefficient falls with the speed ω hypot(u', w').
+TEST(PlanarLawJacobian, OfARateDependentCoefficientMeetsDifferences) {
+  for (const FrictionLaw& friction :
+       {FrictionLaw::exponential(0.8, 0.3, 0.7), FrictionLaw::hyperbolic(0.7, 0.4)}) {
+    for (const double preload : {0.6, 2.0}) {
+      const PlanarLaw law(SurfaceLaw({2.0, 1.5, 0.6, preload}, 0.7, friction), tight);
+      PointTraction traction;
+      law.traction(lissajous(), 1.0, traction);
+      EXPECT_LT(jacobian_error(law, lissajous(), traction), 5e-6) << "preload " << preload;
+      PointTraction faster;
+      PointTraction slower;
+      law.traction(lissajous(), 1.0 + step, faster);
+      law.traction(lissajous(), 1.0 - step, slower);
+      const Eigen::VectorXd expected =
+          (faster.force.vector() - slower.force.vector()) / (2.0 * step);
+      EXPECT_GT(expected.norm(), 1e-3);
+      EXPECT_LT((expected - traction.frequency_derivative).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+}
+
 Harmonics stuck_motion() {
   Harmonics motion(1, 3);
   motion.rows() << 0.02, 0.0, -0.01,  //

@@ -184,6 +184,18 @@ TEST(PreloadEquilibrium, CellsOnALineTakeMomentsAlongItOnly) {
       PreloadError);
 }
 
+// A strip that is 1e7 times longer than wide still resists tilts about its long axis.
+TEST(PreloadEquilibrium, FlatAreasBalanceBothMoments) {
+  PlanarCells cells = square_area().cells();
+  cells.z *= 1e-7;
+  const double moment = 30.0 * 0.03e-7;
+  const PreloadEquilibrium at_rest =
+      preload_equilibrium(ContactArea(cells), square_springs(), {30.0, moment, 0.2});
+  EXPECT_LE(at_rest.imbalance, 1e-12);
+  EXPECT_NEAR(cells.z.dot(at_rest.pressures), moment, 1e-12 * moment);
+  EXPECT_NEAR(-cells.y.dot(at_rest.pressures), 0.2, 1e-12 * 0.2);
+}
+
 TEST(PreloadEquilibrium, OneCellCarriesItAll) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   const ContactArea area({0.2 * one, 0.0 * one, 2.0 * one});

@@ -21,9 +21,7 @@ std::vector<int> first(int n) {
 }
 
 /// The bar of share/scenes/bar_*.toml, on a spring of κ = βL/(EA).
-Bar bar_on(double kappa) {
-  return {2e11, 1e-4, 7800.0, 1.03, kappa * 2e11 * 1e-4 / 1.03};
-}
+Bar bar_on(double kappa) { return {2e11, 1e-4, 7800.0, 1.03, kappa * 2e11 * 1e-4 / 1.03}; }
 
 TEST(BarModes, TheRootSolvesItsEquationToRounding) {
   for (const double kappa : {1e-12, 1e-3, 0.5, 4.2, 1e3, 1e12}) {
@@ -110,11 +108,11 @@ TEST(BarModes, ResidualFlexibilityIsTheSumOverTheOtherModes) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(x.size());
     for (int number = 4; number <= 1000; ++number) {
       const BarModes one = bar_modes(bar, {number});
-      const double integral =
-          one.amplitude[0] * bar.length * std::sin(one.root[0]) / one.root[0];
+      const double integral = one.amplitude[0] * bar.length * std::sin(one.root[0]) / one.root[0];
       sum += bar_shapes(bar, one, x) * (integral / std::pow(one.frequency[0], 2));
     }
-    // Terms fall as 2 L²/(EA z³); beyond 1000 they sum to less than L²/(EA) · 1000⁻²/π³ = 4e-8 of L²/(EA).
+    // Terms fall as 2 L²/(EA z³); beyond 1000 they sum to less than L²/(EA) · 1000⁻²/π³ = 4e-8 of
+    // L²/(EA).
     const double scale = bar.length * bar.length / (bar.youngs_modulus * bar.area);
     EXPECT_LT((c - sum).cwiseAbs().maxCoeff(), 4e-8 * scale) << kappa;
     EXPECT_GT(c.cwiseAbs().maxCoeff(), 1e-4 * scale);

@@ -46,7 +46,8 @@ TEST(ChainSystem, MatricesThatAreNoSystemAreRefused) {
 
 TEST(ChainSystem, TheChainOfPaperBHasItsFrequencies) {
   const Eigen::MatrixXd K = chain_stiffness(2, Eigen::Vector2d(41339.0, 41328.0));
-  const Eigen::VectorXd hz = modes_of_matrices(K, Eigen::Matrix2d::Identity()).frequency / 6.283185307179586;
+  const Eigen::VectorXd hz =
+      modes_of_matrices(K, Eigen::Matrix2d::Identity()).frequency / 6.283185307179586;
   EXPECT_NEAR(hz[0], 20.0, 0.05);  // printed with one decimal
   EXPECT_NEAR(hz[1], 52.4, 0.05);
 }

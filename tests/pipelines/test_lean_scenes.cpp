@@ -1,8 +1,11 @@
 // Scenes of the kinds bar and chain: what their sections become, and what is refused.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include <Eigen/Eigenvalues>
 
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/response_stage.hpp"
@@ -53,7 +56,8 @@ preload = ["free", 10, "30 N", "stuck"]
 )toml";
 
 constexpr const char* area_point =
-    "contact.points=[{ slip = \"m1\", tangential_stiffness = 4e4, friction_coefficient = 0.5, cells = "
+    "contact.points=[{ slip = \"m1\", tangential_stiffness = 4e4, friction_coefficient = 0.5, "
+    "cells = "
     "[4, 4], size = [0.1, 0.1], preload_moment = [1, 0] }]";
 
 SceneDescription parse(const std::string& text, const Overrides& overrides = {}) {
@@ -73,7 +77,8 @@ std::string complaint(const std::string& text, const Overrides& overrides) {
   }
 }
 
-void expect_complaint(const std::string& text, const Overrides& overrides, const std::string& part) {
+void expect_complaint(const std::string& text, const Overrides& overrides,
+                      const std::string& part) {
   const std::string message = complaint(text, overrides);
   EXPECT_NE(message.find(part), std::string::npos) << "\"" << message << "\" lacks " << part;
 }
@@ -123,10 +128,35 @@ TEST(BarScene, TheResidualStandsInSeries) {
   for (Eigen::Index i = 0; i < 4; ++i) {
     EXPECT_NE(bar.points[static_cast<std::size_t>(i)].tangential_stiffness, 1e7);
   }
-  EXPECT_EQ(parse(bar_text, {"modes.residual=stiffness", "effects.residual=on"}).effects.size(), 9U);
+  EXPECT_EQ(parse(bar_text, {"modes.residual=stiffness", "effects.residual=on"}).effects.size(),
+            9U);
   expect_complaint(bar_text, {"effects.residual=on"}, "no residual");
   expect_complaint(bar_text, {"modes.residual=stiffness", "contact.tangential_stiffness=1e13"},
                    "not positive");
+}
+
+/// First natural frequency with every point stuck [rad/s].
+double stuck_frequency(const Overrides& overrides) {
+  const ReducedModel model = reduced_model(model_of(bar_text, overrides));
+  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
+  K += solver_scene(model, 1.0).contact->stuck_stiffness();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0]);
+}
+
+TEST(BarScene, TheResidualStandsForTheModesLeftOut) {
+  // Many modes and a fine patch are the bar itself; the contact is stiff enough for the rest to matter.
+  const Overrides common{"contact.tangential_stiffness=1e8", "contact.points=400"};
+  const auto with = [&](const char* count, const char* residual) {
+    Overrides all = common;
+    all.emplace_back(std::string("modes.count=") + count);
+    all.emplace_back(std::string("modes.residual=") + residual);
+    return stuck_frequency(all);
+  };
+  const double exact = with("100", "none");
+  const double plain = std::abs(with("2", "none") - exact);
+  const double helped = std::abs(with("2", "stiffness") - exact);
+  EXPECT_GT(plain, 1e-4 * exact);
+  EXPECT_LT(helped, 0.5 * plain);
 }
 
 TEST(BarScene, AFreeBarIsHeldByItsContact) {
@@ -134,10 +164,9 @@ TEST(BarScene, AFreeBarIsHeldByItsContact) {
   const ModalModel bar = std::get<ModalModel>(scene.model);
   EXPECT_EQ(bar.frequency_hz[0], 0.0);
   EXPECT_NO_THROW(require_held(reduced_model(bar)));
-  EXPECT_THROW(
-      require_held(reduced_model(model_of(
-          bar_text, {"model.end_stiffness=0", "contact.tangential_stiffness=0"}))),
-      RefusedError);
+  EXPECT_THROW(require_held(reduced_model(model_of(
+                   bar_text, {"model.end_stiffness=0", "contact.tangential_stiffness=0"}))),
+               RefusedError);
   expect_complaint(bar_text,
                    {"model.end_stiffness=0", "modes.residual=stiffness", "modes.which=[2]"},
                    "rigid-body mode");
@@ -173,13 +202,16 @@ TEST(ChainScene, MatricesAndModesSayTheSameAsTheChain) {
   const std::string rest = std::string(chain_text).substr(std::string(chain_text).find("[modes]"));
   const ModalModel chain = model_of(chain_text);
   const ModalModel matrices = model_of(
-      head + "mass_matrix = [[1, 0], [0, 1]]\nstiffness_matrix = [[82667, -41328], [-41328, 41328]]\n" +
+      head +
+      "mass_matrix = [[1, 0], [0, 1]]\nstiffness_matrix = [[82667, -41328], [-41328, 41328]]\n" +
       rest);
   EXPECT_EQ(matrices.frequency_hz, chain.frequency_hz);
   EXPECT_EQ(matrices.shapes.u, chain.shapes.u);
-  const ModalModel modes = model_of(
-      head + "coordinates = [\"m1\", \"m2\"]\nfrequency = [20, \"0.05 kHz\"]\n"
-             "mode_shapes = [[0.5, 0.9], [-0.9, 0.5]]\n" + rest);
+  const ModalModel modes =
+      model_of(head +
+               "coordinates = [\"m1\", \"m2\"]\nfrequency = [20, \"0.05 kHz\"]\n"
+               "mode_shapes = [[0.5, 0.9], [-0.9, 0.5]]\n" +
+               rest);
   EXPECT_EQ(modes.frequency_hz, Eigen::Vector2d(20.0, 50.0));
   EXPECT_EQ(modes.output, Eigen::Vector2d(0.9, 0.5));
 }
@@ -247,13 +279,15 @@ TEST(ChainScene, MistakesAreNamed) {
   expect_complaint(chain_text, {"contact.points[0].normal_stiffness=1"}, "go together");
   expect_complaint(chain_text, {"contact.points[0].approach=m2"}, "go together");
   expect_complaint(chain_text, {"contact.points[0].cells=[2, 2]"}, "size: is missing");
-  expect_complaint(chain_text, {"contact.points[0].preload_moment=[1, 0]"}, "several cells along r");
+  expect_complaint(chain_text, {"contact.points[0].preload_moment=[1, 0]"},
+                   "several cells along r");
   expect_complaint(chain_text, {"contact.points[0].share=0"}, "every share");
   expect_complaint(chain_text, {"model.springs=[1]"}, "1 springs for 2 masses");
   expect_complaint(chain_text, {"model.springs=[1, -1]"}, "-1 is negative");
   expect_complaint(chain_text, {"model.masses=[1, 0]"}, "above 0");
   expect_complaint(chain_text, {"model.frequency=[1, 2]"}, "go together");
-  expect_complaint(chain_text, {"model.frequency=[1]", "model.mode_shapes=[[1]]"}, "expected one of");
+  expect_complaint(chain_text, {"model.frequency=[1]", "model.mode_shapes=[[1]]"},
+                   "expected one of");
   expect_complaint(chain_text, {"model.coordinates=[\"a\", \"a\"]"}, "stands twice");
   expect_complaint(chain_text, {"modes.count=3"}, "3 modes of a system that has 2");
   expect_complaint(chain_text, {"material.density=1"}, "unknown in a scene of kind \"chain\"");

@@ -27,7 +27,7 @@ class March {
 
   PlanarReference run() {
     Pair s{};  // virgin
-    constexpr int most_periods = 1000;
+    constexpr int most_periods = 300;
     Real moved_before = 0.0L;
     for (int period = 0; period < most_periods; ++period) {
       const Pair before = s;

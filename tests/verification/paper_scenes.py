@@ -54,10 +54,11 @@ class BarCycle:
     θ = atan2(Re U, Im U). The half-period later transition is the same line shifted.
     """
 
-    def __init__(self, scene, frequency, force, modes):
+    def __init__(self, scene, frequency, force, modes, maps="[]"):
         name = f"{scene}_{frequency}_{force}_{modes}".replace("=", "").replace("[", "").replace("]", "")
         folder = run(f"bar_{scene}_{frequency}", name, f"excitation.force={force}", f"modes.{modes}",
-                     "response.maps=[]")
+                     f"response.maps={maps}")
+        self.folder = folder
         (curve,) = summary_of(folder)["curves"]
         self.preload = curve["preload_N"]
         (row,) = rows_of(folder, curve["name"] + ".states")
@@ -150,6 +151,22 @@ class Bar(unittest.TestCase):
         # ∫ 2000 [0.2 + 0.8 (2x/L − 1)²] dx = 2000 L (0.2 + 0.8/3); midpoints of 200 cells err by 1/200².
         exact = 2000 * LENGTH * (0.2 + 0.8 / 3)
         self.assertAlmostEqual(BarCycle("quadratic", 1000, 200, "count=3").preload / exact, 1, delta=2.5e-5)
+
+    def test_the_report_draws_the_boundaries(self):
+        sys.path.insert(0, os.path.join(SOURCE, "share", "scripts"))
+        import plot_bar
+        cycle = BarCycle("quadratic", 1000, 150, "count=10", maps="['1000 Hz']")
+        self.assertTrue(os.path.exists(os.path.join(cycle.folder, "plots", "map_scale_1_1000Hz_1.png")))
+        position = plot_bar.line_positions(cycle.folder)
+        line_map = plot_bar.LineMap(cycle.folder, "scale_1_1000Hz_1", position)
+        angles = line_map.transitions()
+        drawn = angles[plot_bar.POSITIVE, plot_bar.STICK]
+        np.testing.assert_array_equal(~np.isnan(drawn), cycle.slips)
+        # A parabola through three instants of a sine errs by a step cubed: 2e-9 rad.
+        self.assertLess(np.abs(drawn - cycle.angle)[cycle.slips].max(), 1e-6)
+        for point in np.flatnonzero(cycle.slips):  # the state written at 90° is the one drawn there
+            slipping = angles[plot_bar.STICK, plot_bar.POSITIVE][point] < 90 < drawn[point]
+            self.assertEqual(line_map.state[point, np.argmin(np.abs(line_map.phase - 90))], int(slipping))
 
     def test_points_are_certified(self):
         point = BarCycle("quadratic", 3100, 250, "count=10").point
