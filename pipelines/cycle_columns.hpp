@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,9 @@ class CycleColumns {
   [[nodiscard]] bool has_second_direction() const { return has_second_direction_; }
   /// @throws SceneError  a constant out of its range; with line and column.
   [[nodiscard]] contact::PointParameters point(std::size_t row) const;
+  /// Along r: the column tangential_stiffness_r, without it that of p.
+  /// @throws SceneError  negative; with line and column.
+  [[nodiscard]] double second_stiffness(std::size_t row) const;
   /// Signals u, v, w; n_harmonics() harmonics.
   [[nodiscard]] contact::Harmonics motion(std::size_t row) const;
 
@@ -44,6 +48,7 @@ class CycleColumns {
 
   const CsvTable& table_;
   std::array<std::size_t, 4> constants_{};
+  std::optional<std::size_t> second_stiffness_;
   std::vector<Place> places_;
   int n_harmonics_ = 1;
   bool has_second_direction_ = false;

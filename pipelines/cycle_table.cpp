@@ -83,11 +83,10 @@ bool has_second_direction(const contact::Harmonics& motion) {
 }
 
 /// Where the law is chosen.
-RowCycle solve(const contact::PointParameters& point, const contact::Harmonics& motion,
-               int n_harmonics) {
+RowCycle solve(const contact::PointParameters& point, double second_stiffness,
+               const contact::Harmonics& motion, int n_harmonics) {
   if (has_second_direction(motion)) {
-    const contact::PlanarLaw law(contact::SurfaceLaw(point, point.tangential_stiffness),
-                                 planar_tolerance);
+    const contact::PlanarLaw law(contact::SurfaceLaw(point, second_stiffness), planar_tolerance);
     return {law.history(motion, 0.0, {}, n_harmonics), std::nullopt};
   }
   RowCycle row{contact::EventLaw(point).history(motion, 0.0, {}, n_harmonics), std::nullopt};
@@ -161,7 +160,8 @@ std::string cycles_as_json(const CsvTable& table, std::optional<int> n_harmonics
     const std::string place = table.row_place(row) + ": ";
     if (!is_utf8(id)) throw SceneError(place + "id: not a text in UTF-8");
     const RowCycle cycle =
-        solve(columns.point(row), columns.motion(row), n_harmonics.value_or(columns.n_harmonics()));
+        solve(columns.point(row), columns.second_stiffness(row), columns.motion(row),
+              n_harmonics.value_or(columns.n_harmonics()));
     if (!is_finite(cycle)) {
       throw SceneError(place + "forces or energy beyond the range of double precision");
     }

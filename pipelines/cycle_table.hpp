@@ -4,8 +4,8 @@
 ///
 /// A row with one harmonic is solved in closed form (friction_cycle.hpp) and carries its Jacobian; a row
 /// with more is solved event by event (event_law.hpp), both exact. A row that moves along r as well is
-/// solved by the planar law (planar_cycle.hpp), to 1e-12 of its force scale, with the same stiffness in
-/// both directions.
+/// solved by the planar law (planar_cycle.hpp), to 1e-12 of its force scale; the column
+/// tangential_stiffness_r gives it another stiffness there.
 #pragma once
 
 #include <optional>

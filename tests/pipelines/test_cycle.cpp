@@ -126,6 +126,23 @@ TEST(CycleTable, ColumnsMayStandInAnyOrderAndRowsKeepTheirs) {
   EXPECT_EQ(plain[0]["id"], "1");
 }
 
+// Motion along r alone under another stiffness there is the cycle of one direction with that stiffness.
+TEST(CycleTable, TheSecondDirectionHasItsOwnStiffness) {
+  const std::string columns = header.substr(0, header.size() - 1);
+  const Json row =
+      cycles(columns + ",w_sin,w_cos,tangential_stiffness_r\n1,0.8,0.5,1,0,0,0,0.2,0.1,3,0.4,2.5\n")[0];
+  const Json plain = cycles(header + "2.5,0.8,0.5,1,3,0.4,0,0.2,0.1\n")[0];
+  const double scale = 2.5 * 3.1 + 0.5;
+  for (const char* part : {"sin", "cos"}) {
+    EXPECT_NEAR(row["friction_w"][part][0].get<double>(),
+                plain["friction"][part][0].get<double>(), 1e-11 * scale);
+    EXPECT_NEAR(row["friction"][part][0].get<double>(), 0.0, 1e-11 * scale);
+  }
+  EXPECT_THROW(static_cast<void>(cycles(columns + ",tangential_stiffness_r\n"
+                                                  "1,1,0.5,1,3,0,0,0,0,-1\n")),
+               SceneError);
+}
+
 TEST(CycleTable, TheMeanOfUPushesAStuckPoint) {
   const std::string columns = header.substr(0, header.size() - 1) + ",u_mean\n";
   EXPECT_DOUBLE_EQ(
