@@ -57,11 +57,10 @@ const Tables& tables(int degree) {
   return known.try_emplace(degree, degree).first->second;
 }
 
-Eigen::VectorXd trimmed(const Eigen::VectorXd& c) {
-  // Below this share of the whole a coefficient is rounding of the samples.
-  const double noise = 1e-16 * c.cwiseAbs().sum();
+Eigen::VectorXd trimmed(const Eigen::VectorXd& c, double noise) {
+  const double size = c.cwiseAbs().sum();
   Eigen::Index n = c.size();
-  while (n > 1 && std::abs(c[n - 1]) <= noise) {
+  while (n > 1 && std::abs(c[n - 1]) <= noise * size) {
     --n;
   }
   return c.head(n);
@@ -89,8 +88,8 @@ double bracketed(const Eigen::VectorXd& c, const Eigen::VectorXd& slope, double 
   return x;
 }
 
-std::vector<double> roots_of(const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXd c = trimmed(coefficients);
+// c without trailing zeros.
+std::vector<double> roots_of(const Eigen::VectorXd& c) {
   std::vector<double> roots;
   if (c.size() < 2 || std::abs(c[0]) > c.tail(c.size() - 1).cwiseAbs().sum()) {
     return roots;
@@ -143,8 +142,8 @@ double chebyshev_value(const Eigen::VectorXd& c, double x) {
   return c[0] + x * last - later;
 }
 
-std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients) {
-  return roots_of(coefficients);
+std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients, double noise) {
+  return roots_of(trimmed(coefficients, noise));
 }
 
 ChebyshevSurface ChebyshevSurface::through(const Eigen::MatrixXd& values) {

@@ -167,8 +167,9 @@ class FittedRule {
         continue;
       }
       result.crossing.push_back(guard);
-      // A tenth of what the lines themselves may be off; below 1e-13 samples are rounding.
-      const double allowed = std::max(0.1 * options_.line_tolerance, 1e-13) *
+      // A hundredth of what the lines themselves may be off, so that lines that meet in one point do so
+      // within their tolerance; below 1e-13 samples are rounding.
+      const double allowed = std::max(1e-2 * options_.line_tolerance, 1e-13) *
                              values.col(guard).cwiseAbs().maxCoeff();
       result.is_resolved = result.is_resolved && tail <= allowed;
     }
@@ -176,7 +177,7 @@ class FittedRule {
     for (ChebyshevSurface& surface : result.surfaces) {
       const double n_terms = static_cast<double>(surface.coefficients().size());
       const double size = surface.variation() + std::abs(surface.coefficients()(0, 0));
-      surface = surface.trimmed(std::max(1e-2 * options_.line_tolerance, 1e-15) * size / n_terms);
+      surface = surface.trimmed(std::max(1e-3 * options_.line_tolerance, 1e-15) * size / n_terms);
     }
     return result;
   }
