@@ -1,6 +1,7 @@
 #include "contact/chebyshev_surface.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -26,13 +27,15 @@ Eigen::RowVectorXd basis(int degree, double x) {
 // Tables of one degree, made once.
 struct Tables {
   explicit Tables(int degree) : points(degree + 1), transform(degree + 1, degree + 1) {
+    assert(degree > 0);
     const double step = std::numbers::pi / degree;
     for (int k = 0; k <= degree; ++k) {
       points[k] = std::sin(0.5 * step * (degree - 2 * k));  // cos(πk/N), odd in exact arithmetic
     }
     for (int i = 0; i <= degree; ++i) {
       for (int k = 0; k <= degree; ++k) {
-        const double ends = (k == 0 || k == degree ? 0.5 : 1.0) * (i == 0 || i == degree ? 0.5 : 1.0);
+        const double ends =
+            (k == 0 || k == degree ? 0.5 : 1.0) * (i == 0 || i == degree ? 0.5 : 1.0);
         transform(i, k) = 2.0 / degree * ends * std::cos(step * ((i * k) % (2 * degree)));
       }
     }
@@ -177,7 +180,8 @@ std::array<ChebyshevSurface, 4> ChebyshevSurface::quarters() const {
   const Eigen::MatrixXd low = half[0] * c_;
   const Eigen::MatrixXd high = half[1] * c_;
   return {ChebyshevSurface(low * half[0].transpose()), ChebyshevSurface(high * half[0].transpose()),
-          ChebyshevSurface(low * half[1].transpose()), ChebyshevSurface(high * half[1].transpose())};
+          ChebyshevSurface(low * half[1].transpose()),
+          ChebyshevSurface(high * half[1].transpose())};
 }
 
 ChebyshevSurface ChebyshevSurface::trimmed(double noise) const {

@@ -150,8 +150,9 @@ class HeightRule {
     return result;
   }
 
-  // ∫ sign(g) dη and ∫ sign(g) 2η dη of each guard over a column: what the lines do to a smooth integrand.
-  // A pair of zeros that appears changes them continuously, so that zeros lost to rounding do not count.
+  // ∫ sign(g) dη and ∫ sign(g) 2η dη of each guard over a column: what the lines do to a smooth
+  // integrand. A pair of zeros that appears changes them continuously, so that zeros lost to
+  // rounding do not count.
   [[nodiscard]] Eigen::ArrayXd signed_moments(const Column& column) const {
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * static_cast<Eigen::Index>(crossing_.size()));
     auto zero = column.zeros.cbegin();
@@ -197,18 +198,25 @@ class HeightRule {
 
   [[nodiscard]] Interval interval(double begin, double end, GradedEnds ends, Columns whole) const {
     const double middle = 0.5 * (begin + end);
-    Interval result{begin, end, ends, std::move(whole), columns(begin, middle, {ends.begin, false}),
-                    columns(middle, end, {false, ends.end}), 0.0};
-    result.error = (moments(result.whole) - moments(result.left) - moments(result.right)).abs().sum();
+    Interval result{begin,
+                    end,
+                    ends,
+                    std::move(whole),
+                    columns(begin, middle, {ends.begin, false}),
+                    columns(middle, end, {false, ends.end}),
+                    0.0};
+    result.error =
+        (moments(result.whole) - moments(result.left) - moments(result.right)).abs().sum();
     return result;
   }
 
   // Halves the worst interval until all together are good enough, and leaves them in order.
   void refine(std::vector<Interval>& heap) const {
-    // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding, and
-    // halving would never end.
+    // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding,
+    // and halving would never end.
     const auto max_halvings = static_cast<int>(2000 / line_rule_.nodes.size());
-    // A quarter of what the square, of area 4, may err: the difference of two rules is only an estimate.
+    // A quarter of what the square, of area 4, may err: the difference of two rules is only an
+    // estimate.
     const double allowed = tolerance_;
     const auto total = [&heap] {
       return std::accumulate(heap.begin(), heap.end(), 0.0,
@@ -228,7 +236,8 @@ class HeightRule {
     std::ranges::sort(heap, {}, &Interval::begin);
   }
 
-  // Whether the integrand has a root at one of the breaks in [first, last) when seen from η = inside.
+  // Whether the integrand has a root at one of the breaks in [first, last) when seen from η =
+  // inside.
   [[nodiscard]] bool is_rooted(std::vector<Crossing>::const_iterator first,
                                std::vector<Crossing>::const_iterator last, double xi,
                                double inside) const {
@@ -285,7 +294,8 @@ class HeightRule {
   SquareRule rule_;
 };
 
-double total_slope(const std::vector<ChebyshevSurface>& surfaces, const std::vector<int>& crossing) {
+double total_slope(const std::vector<ChebyshevSurface>& surfaces,
+                   const std::vector<int>& crossing) {
   double sum = 0.0;
   for (const int guard : crossing) {
     const ChebyshevSurface& g = surfaces[static_cast<std::size_t>(guard)];
@@ -306,10 +316,9 @@ SquareRule height_rule(const std::vector<ChebyshevSurface>& surfaces,
   }
   HeightRule upright(surfaces, crossing, lines, options);
   HeightRule sideways(turned, crossing, lines, options);
-  const bool is_upright =
-      upright.n_events() != sideways.n_events()
-          ? upright.n_events() < sideways.n_events()
-          : total_slope(surfaces, crossing) >= total_slope(turned, crossing);
+  const bool is_upright = upright.n_events() != sideways.n_events()
+                              ? upright.n_events() < sideways.n_events()
+                              : total_slope(surfaces, crossing) >= total_slope(turned, crossing);
   if (is_upright) {
     return upright.rule();
   }

@@ -88,8 +88,7 @@ PatchCells patch(int n_p, int n_r) {
 }
 
 PatchRule fitted(const Scene& scene, int order, double line_tolerance) {
-  return fitted_rule(patch(1, 1),
-                     regime_guards(shapes_of(scene), parameters_of(scene), {motion()}),
+  return fitted_rule(patch(1, 1), regime_guards(shapes_of(scene), parameters_of(scene), {motion()}),
                      {.order = order, .line_tolerance = line_tolerance});
 }
 

@@ -170,9 +170,8 @@ TEST(FittedRule, IgnoresALineOutsideItsDomain) {
   const PatchRule rule = fitted_rule(unit_square(1), guards, {.order = 4});
   // Four pieces without the domain; the part beyond p = 1/4 stays whole.
   EXPECT_EQ(rule.n_points(), 3 * 16);
-  const double kinked = integral(rule, [&](double p, double r) {
-    return domain(p, r) < 0.0 ? std::abs(line(p, r)) : 1.0;
-  });
+  const double kinked = integral(
+      rule, [&](double p, double r) { return domain(p, r) < 0.0 ? std::abs(line(p, r)) : 1.0; });
   EXPECT_NEAR(kinked, 0.25 * 0.25 + 0.75, 1e-14);
 }
 
@@ -216,7 +215,8 @@ TEST(FittedRule, WorksOnHolesAndTriangles) {
   EXPECT_NEAR(area_above(rule, guard), 0.5 * (ring + triangle), 1e-10);
 }
 
-// Guards that are not smooth (a jump, a cone) and lines that are not (a cusp) are split to the last depth and no further.
+// Guards that are not smooth (a jump, a cone) and lines that are not (a cusp) are split to the last
+// depth and no further.
 TEST(FittedRule, EndsWhereGuardsAreNotSmooth) {
   const auto jump = [](double p, double) { return p < 0.3 ? -1.0 : 2.0; };
   const auto cone = [](double p, double r) { return std::hypot(p - 0.5, r - 0.5) - 1e-3; };
@@ -234,13 +234,12 @@ TEST(FittedRule, RefusesBrokenOptionsAndGuards) {
   EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.order = 0}), std::invalid_argument);
   EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.line_tolerance = 0.0}),
                std::invalid_argument);
-  EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.max_depth = -1}),
-               std::invalid_argument);
+  EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.max_depth = -1}), std::invalid_argument);
   Guards two = guards;
   two.lines.resize(2);
   EXPECT_THROW((void)fitted_rule(unit_square(1), two, {}), std::invalid_argument);
-  const Guards broken = guards_of(
-      {[](double, double) { return std::numeric_limits<double>::quiet_NaN(); }});
+  const Guards broken =
+      guards_of({[](double, double) { return std::numeric_limits<double>::quiet_NaN(); }});
   EXPECT_THROW((void)fitted_rule(unit_square(1), broken, {}), std::invalid_argument);
 }
 
