@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -26,10 +27,42 @@ ContactMap empty_map(Eigen::Index n, int n_phases) {
                                  &map.relative_displacement, &map.approach, &map.slip}) {
     field->setZero(n, n_phases);
   }
-  map.dissipated_energy.setZero(n);
-  map.slip_distance.setZero(n);
-  map.wear_depth.setZero(n);
+  for (Eigen::VectorXd* field : {&map.dissipated_energy, &map.slip_distance, &map.wear_depth,
+                                 &map.slip_duration, &map.separation_duration}) {
+    field->setZero(n);
+  }
   return map;
+}
+
+void check_request(int n_phases, double wear_coefficient) {
+  require(n_phases >= 1, "n_phases = " + std::to_string(n_phases) + ", must be at least 1");
+  require(
+      std::isfinite(wear_coefficient) && wear_coefficient >= 0.0,
+      "wear_coefficient = " + std::to_string(wear_coefficient) + ", must be finite and at least 0");
+}
+
+void set_durations(ContactMap& map, Eigen::Index point, std::span<const CycleSegment> segments) {
+  for (const CycleSegment& segment : segments) {
+    if (segment.state == ContactState::separated) {
+      map.separation_duration[point] += segment.length / two_pi;
+    } else if (segment.state != ContactState::stick) {
+      map.slip_duration[point] += segment.length / two_pi;
+    }
+  }
+}
+
+void set_instant(ContactMap& map, Eigen::Index i, Eigen::Index j, const PointInstant& now) {
+  map.state(i, j) = static_cast<std::uint8_t>(now.state);
+  map.friction_traction(i, j) = now.traction[0];
+  map.normal_traction(i, j) = now.traction[1];
+  map.relative_displacement(i, j) = now.motion[0];
+  map.approach(i, j) = now.motion[1];
+  map.slip(i, j) = now.slider[0];
+  if (map.slip_r.cols() > 0) {
+    map.friction_traction_r(i, j) = now.traction[2];
+    map.relative_displacement_r(i, j) = now.motion[2];
+    map.slip_r(i, j) = now.slider[1];
+  }
 }
 
 }  // namespace
@@ -40,10 +73,7 @@ ContactMap contact_map(const std::vector<PointParameters>& points, const ModalSh
   require(shapes.u.rows() == n && shapes.v.rows() == n,
           std::to_string(n) + " points, but mode shapes at " + std::to_string(shapes.u.rows()) +
               " and " + std::to_string(shapes.v.rows()));
-  require(n_phases >= 1, "n_phases = " + std::to_string(n_phases) + ", must be at least 1");
-  require(
-      std::isfinite(wear_coefficient) && wear_coefficient >= 0.0,
-      "wear_coefficient = " + std::to_string(wear_coefficient) + ", must be finite and at least 0");
+  check_request(n_phases, wear_coefficient);
   const std::vector<PointMotion> motions = point_motions(shapes, q);
   ContactMap map = empty_map(n, n_phases);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -58,9 +88,40 @@ ContactMap contact_map(const std::vector<PointParameters>& points, const ModalSh
       map.approach(i, j) = now.v;
       map.slip(i, j) = now.slider;
     }
+    set_durations(map, i, cycle.segments());
     map.dissipated_energy[i] = cycle.dissipated_energy;
     map.slip_distance[i] = cycle.slip_distance;
     map.wear_depth[i] = wear_coefficient * cycle.normal_slip;
+  }
+  return map;
+}
+
+ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
+                       const ModalShapes& shapes, const Harmonics& q, double frequency,
+                       int n_phases, double wear_coefficient) {
+  const auto n = static_cast<Eigen::Index>(laws.size());
+  require(shapes.u.rows() == n && shapes.v.rows() == n && (shapes.w.size() == 0 || shapes.w.rows() == n),
+          std::to_string(n) + " laws, but mode shapes at " + std::to_string(shapes.u.rows()) +
+              " points");
+  check_request(n_phases, wear_coefficient);
+  const std::vector<Harmonics> motions = general_motions(shapes, q);
+  ContactMap map = empty_map(n, n_phases);
+  if (shapes.w.size() > 0) {
+    for (Eigen::MatrixXd* field :
+         {&map.friction_traction_r, &map.relative_displacement_r, &map.slip_r}) {
+      field->setZero(n, n_phases);
+    }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    const PointHistory history = laws[point]->history(motions[point], frequency, map.phase, 0);
+    for (Eigen::Index j = 0; j < n_phases; ++j) {
+      set_instant(map, i, j, history.instants[static_cast<std::size_t>(j)]);
+    }
+    set_durations(map, i, history.segments);
+    map.dissipated_energy[i] = history.dissipated_energy;
+    map.slip_distance[i] = history.slip_distance;
+    map.wear_depth[i] = wear_coefficient * history.normal_slip;
   }
   return map;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include "contact/contact_patch.hpp"
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/point_law.hpp"
 
 namespace microslip::contact {
 
@@ -22,7 +24,11 @@ struct ContactMap {
   Eigen::MatrixXd friction_traction;                                  ///< f [Pa], along p
   Eigen::MatrixXd relative_displacement;  ///< u [m], along p, mean included
   Eigen::MatrixXd approach;               ///< v [m], along q, mean included
-  Eigen::MatrixXd slip;                   ///< s, position of the slider [m]
+  Eigen::MatrixXd slip;                   ///< s, position of the slider along p [m]
+  /// The same along r; without columns where motion along r is not simulated.
+  Eigen::MatrixXd friction_traction_r, relative_displacement_r, slip_r;
+  Eigen::VectorXd slip_duration;          ///< share of the period in slip [-], n
+  Eigen::VectorXd separation_duration;    ///< share of the period without contact [-], n
   Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n
   Eigen::VectorXd slip_distance;          ///< [m per period], n
   Eigen::VectorXd wear_depth;             ///< [m per period], n; zero when no coefficient is given
@@ -36,5 +42,13 @@ struct ContactMap {
 [[nodiscard]] ContactMap contact_map(const std::vector<PointParameters>& points,
                                      const ModalShapes& shapes, const Harmonics& q, int n_phases,
                                      double wear_coefficient);
+
+/// The same for points of any law and motion of any number of harmonics.
+/// @param laws       one per point, n.
+/// @param shapes     at the points, n × n_modes; fields along r are filled where w is not empty.
+/// @param frequency  ω [rad/s].
+[[nodiscard]] ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
+                                     const ModalShapes& shapes, const Harmonics& q,
+                                     double frequency, int n_phases, double wear_coefficient);
 
 }  // namespace microslip::contact

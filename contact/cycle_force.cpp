@@ -76,7 +76,7 @@ Integrals contact_integrals(const CyclePhases& phases) {
   return integrals(phases.phase[0].begin, phases.phase[last].begin, length);
 }
 
-// A force offset c that is frozen during a stick phase, and its derivatives (theory section 6).
+// A force offset c that is frozen during full stick, and its derivatives (theory section 6).
 struct Memory {
   double value = 0.0;
   std::array<double, 2> by_u{};  // u_s, u_c
@@ -95,19 +95,6 @@ Memory after_negative(const SlipFunctions& w, double k_u, double mu_k_v) {
   return {.value = w.negative - w.limit,
           .by_u = {-k_u * e.sin, -k_u * e.cos},
           .by_v = {-mu_k_v, -mu_k_v * e.sin, -mu_k_v * e.cos}};
-}
-
-// The instant of touch-down moves with the load; a point that sticks there has
-// |k_u u̇| ≤ μ k_v v̇, so the quotient is bounded even where v̇ vanishes.
-Memory after_separation(const Direction& touch_down, const PointMotion& m, double k_u,
-                        double mu_k_v) {
-  const double u = m.u_sin * touch_down.sin + m.u_cos * touch_down.cos;
-  const double u_rate = m.u_sin * touch_down.cos - m.u_cos * touch_down.sin;
-  const double v_rate = m.v_sin * touch_down.cos - m.v_cos * touch_down.sin;
-  const double quotient = v_rate > 0.0 ? std::clamp(k_u * (u_rate / v_rate), -mu_k_v, mu_k_v) : 0.0;
-  return {.value = -k_u * u,
-          .by_u = {-k_u * touch_down.sin, -k_u * touch_down.cos},
-          .by_v = {quotient, quotient * touch_down.sin, quotient * touch_down.cos}};
 }
 
 // Adds what a coefficient with weights `row` = (∫k, ∫k sin, ∫k cos) / norm gets.
@@ -145,15 +132,93 @@ void set_whole_normal(CycleForce& force, const SlipFunctions& w, const PointPara
   }
 }
 
-void add_memory(CycleForce& force, Row& f, const Memory& memory, const Integrals& stick) {
-  const Row r{0.5 / pi * stick.one, stick.sin / pi, stick.cos / pi};
+// x − sin x and 1 − cos x without cancellation below a quarter, with sin x and cos x at hand beyond.
+constexpr double short_angle = 0.25;
+
+double angle_minus_sine(double x, double sine) {
+  if (x > short_angle) return x - sine;
+  const double z = x * x;
+  return x * z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0))));
+}
+
+double one_minus_cosine(double x, double cosine) {
+  if (x > short_angle) return 1.0 - cosine;
+  const double z = x * x;
+  return 0.5 * z * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
+}
+
+// Weighted integrals over a stick phase of sin x and 1 − cos x, x the angle since it began at θ_e: with
+// them sin θ − sin θ_e = cos θ_e sin x − sin θ_e (1 − cos x), and nothing cancels in short phases.
+struct StickRows {
+  Row sine;    // ∫ sin x · (1/2π, sin θ/π, cos θ/π)
+  Row versed;  // ∫ (1 − cos x) · …
+};
+
+Row turned(const Direction& e, double one, double by_cos, double by_sin) {
+  return {0.5 / pi * one, (e.sin * by_cos + e.cos * by_sin) / pi,
+          (e.cos * by_cos - e.sin * by_sin) / pi};
+}
+
+StickRows stick_rows(const CyclePhase& phase, const Direction& end) {
+  const Direction& e = phase.begin;
+  const double x = phase.length;
+  const double full_cosine = e.cos * end.cos + e.sin * end.sin;
+  const double versed = one_minus_cosine(x, full_cosine);
+  const double rest = angle_minus_sine(x, e.cos * end.sin - e.sin * end.cos);
+  const double sine = x - rest;
+  // ∫ sin²x = (2x − sin 2x)/4
+  const double square = 0.25 * angle_minus_sine(2.0 * x, 2.0 * sine * (1.0 - versed));
+  return {.sine = turned(e, versed, 0.5 * sine * sine, square),
+          .versed = turned(e, rest, square - rest, 0.5 * versed * versed)};
+}
+
+// Adds what a stick phase has beyond the slip law it follows, ± μn: −L₁ (1 − cos x) after positive slip,
+// L₂ (1 − cos x) after negative slip; the law's own part is in the sums of the slip phases.
+void add_stick(CycleForce& force, Row& f, const StickRows& rows, const Direction& e, double size,
+               double k_u, double mu_k_v) {
   for (std::size_t k = 0; k < 3; ++k) {
-    f[k] += memory.value * r[k];
-    force.friction_by_u[k][0] += memory.by_u[0] * r[k];
-    force.friction_by_u[k][1] += memory.by_u[1] * r[k];
-    force.friction_by_v[k][0] += memory.by_v[0] * r[k];
-    force.friction_by_v[k][1] += memory.by_v[1] * r[k];
-    force.friction_by_v[k][2] += memory.by_v[2] * r[k];
+    const double by_sin = e.cos * rows.sine[k] - e.sin * rows.versed[k];   // ∫ sin θ − sin θ_e
+    const double by_cos = -e.sin * rows.sine[k] - e.cos * rows.versed[k];  // ∫ cos θ − cos θ_e
+    f[k] += size * rows.versed[k];
+    force.friction_by_u[k][0] += k_u * by_sin;
+    force.friction_by_u[k][1] += k_u * by_cos;
+    force.friction_by_v[k][1] += mu_k_v * by_sin;
+    force.friction_by_v[k][2] += mu_k_v * by_cos;
+  }
+}
+
+// f = k_u [u(θ) − u(θ₂)]. The instant of touch-down θ₂ moves with the load; a point that sticks there has
+// |k_u u̇| ≤ μ k_v v̇, so the quotient is bounded even where v̇ vanishes.
+void add_stick_after_separation(CycleForce& force, Row& f, const StickRows& rows,
+                                const PointMotion& m, const Direction& touch_down,
+                                const Integrals& stick, double k_u, double mu_k_v) {
+  const Direction& e = touch_down;
+  const double u = m.u_sin * e.sin + m.u_cos * e.cos;
+  const double u_rate = m.u_sin * e.cos - m.u_cos * e.sin;
+  const double v_rate = m.v_sin * e.cos - m.v_cos * e.sin;
+  const double quotient = v_rate > 0.0 ? std::clamp(k_u * (u_rate / v_rate), -mu_k_v, mu_k_v) : 0.0;
+  const Row one{0.5 / pi * stick.one, stick.sin / pi, stick.cos / pi};
+  for (std::size_t k = 0; k < 3; ++k) {
+    f[k] += k_u * (u_rate * rows.sine[k] - u * rows.versed[k]);
+    force.friction_by_u[k][0] += k_u * (e.cos * rows.sine[k] - e.sin * rows.versed[k]);
+    force.friction_by_u[k][1] += k_u * (-e.sin * rows.sine[k] - e.cos * rows.versed[k]);
+    force.friction_by_v[k][0] += quotient * one[k];
+    force.friction_by_v[k][1] += quotient * e.sin * one[k];
+    force.friction_by_v[k][2] += quotient * e.cos * one[k];
+  }
+}
+
+// Slip phases, and the slip law that a stick phase continues, by their integrals.
+void set_slip(CycleForce& force, Row& f, const SlipFunctions& w, const PointMotion& m,
+              double mu_k_v, const PhaseSums& sums) {
+  Integrals positive = sums[PhaseKind::positive_slip];
+  positive += sums[PhaseKind::stick_after_positive];
+  Integrals negative = sums[PhaseKind::negative_slip];
+  negative += sums[PhaseKind::stick_after_negative];
+  const std::array<Row, 3> d = rows(difference(positive, negative));
+  for (std::size_t k = 0; k < 3; ++k) {
+    f[k] = w.limit * d[k][0] + mu_k_v * m.v_sin * d[k][1] + mu_k_v * m.v_cos * d[k][2];
+    force.friction_by_v[k] = {mu_k_v * d[k][0], mu_k_v * d[k][1], mu_k_v * d[k][2]};
   }
 }
 
@@ -162,26 +227,23 @@ void set_friction(CycleForce& force, const SlipFunctions& w, const PointParamete
   const PhaseSums sums = phase_sums(phases);
   const double k_u = point.tangential_stiffness;
   const double mu_k_v = point.friction_coefficient * point.normal_stiffness;
-  const Integrals& after_e = sums[PhaseKind::stick_after_separation];
-  const Integrals& after_p = sums[PhaseKind::stick_after_positive];
-  const Integrals& after_n = sums[PhaseKind::stick_after_negative];
-  Integrals stick = after_e;
-  stick += after_p;
-  stick += after_n;
-  const std::array<Row, 3> s = rows(stick);
-  const std::array<Row, 3> d =
-      rows(difference(sums[PhaseKind::positive_slip], sums[PhaseKind::negative_slip]));
   Row f{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    f[k] = w.limit * d[k][0] + mu_k_v * m.v_sin * d[k][1] + mu_k_v * m.v_cos * d[k][2] +
-           k_u * m.u_sin * s[k][1] + k_u * m.u_cos * s[k][2];
-    force.friction_by_u[k] = {k_u * s[k][1], k_u * s[k][2]};
-    force.friction_by_v[k] = {mu_k_v * d[k][0], mu_k_v * d[k][1], mu_k_v * d[k][2]};
-  }
-  add_memory(force, f, after_positive(w, k_u, mu_k_v), after_p);
-  add_memory(force, f, after_negative(w, k_u, mu_k_v), after_n);
-  if (after_e.one > 0.0) {
-    add_memory(force, f, after_separation(phases.phase[0].begin, m, k_u, mu_k_v), after_e);
+  set_slip(force, f, w, m, mu_k_v, sums);
+  for (int i = 0; i < phases.n_phases; ++i) {
+    const CyclePhase& phase = phases.phase[static_cast<std::size_t>(i)];
+    const bool after_positive = phase.kind == PhaseKind::stick_after_positive;
+    const bool after_negative = phase.kind == PhaseKind::stick_after_negative;
+    const bool after_separation = phase.kind == PhaseKind::stick_after_separation;
+    if (!after_positive && !after_negative && !after_separation) continue;
+    const int next = i + 1 < phases.n_phases ? i + 1 : 0;
+    const StickRows stick =
+        stick_rows(phase, phases.phase[static_cast<std::size_t>(next)].begin);
+    if (after_separation) {
+      add_stick_after_separation(force, f, stick, m, phase.begin, sums[phase.kind], k_u, mu_k_v);
+    } else {
+      add_stick(force, f, stick, phase.begin, after_positive ? -w.positive : w.negative, k_u,
+                after_positive ? -mu_k_v : mu_k_v);
+    }
   }
   set(force.friction, f);
 }

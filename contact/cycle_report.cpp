@@ -30,10 +30,11 @@ struct Transition {
   std::size_t to;
 };
 
-class PhaseSweep {
+}  // namespace
+
+class ReportSum::PhaseSweep {
  public:
-  void add(const FrictionCycle& cycle, double weight) {
-    const auto segments = cycle.segments();
+  void add(std::span<const CycleSegment> segments, double weight) {
     const std::size_t n = segments.size();
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t here = group(segments[i].state);
@@ -48,59 +49,73 @@ class PhaseSweep {
 
   // Largest over the phase of the smallest area. Fractions held only for an interval of rounding
   // length between two transitions that should coincide do not count.
-  double coexistence() {
-    std::sort(transitions_.begin(), transitions_.end(),
+  [[nodiscard]] double coexistence() const {
+    std::vector<Transition> transitions = transitions_;
+    std::array<double, 3> area = area_;
+    std::sort(transitions.begin(), transitions.end(),
               [](const Transition& a, const Transition& b) { return a.phase < b.phase; });
     double largest = 0.0;
     double phase = 0.0;
-    for (const Transition& next : transitions_) {
-      largest = std::max(largest, smallest_area(next.phase - phase));
-      area_[next.from] -= next.weight;
-      area_[next.to] += next.weight;
+    for (const Transition& next : transitions) {
+      largest = std::max(largest, smallest_area(area, next.phase - phase));
+      area[next.from] -= next.weight;
+      area[next.to] += next.weight;
       phase = next.phase;
     }
-    return std::max(largest, smallest_area(two_pi - phase));
+    return std::max(largest, smallest_area(area, two_pi - phase));
   }
 
  private:
-  [[nodiscard]] double smallest_area(double duration) const {
+  [[nodiscard]] static double smallest_area(const std::array<double, 3>& area, double duration) {
     constexpr double rounding = 1e-14;  // of transition angles of size 2π
-    return duration > rounding ? *std::min_element(area_.begin(), area_.end()) : 0.0;
+    return duration > rounding ? *std::min_element(area.begin(), area.end()) : 0.0;
   }
 
   std::array<double, 3> area_{};
   std::vector<Transition> transitions_;
 };
 
-}  // namespace
+ReportSum::ReportSum() : sweep_(std::make_unique<PhaseSweep>()) {}
+ReportSum::~ReportSum() = default;
+
+void ReportSum::add(std::span<const CycleSegment> segments, double dissipated_energy, double weight) {
+  if (weight == 0.0) {
+    return;
+  }
+  for (const CycleSegment& segment : segments) {
+    share_[group(segment.state)] += weight * segment.length;
+  }
+  area_ += weight;
+  slip_work_ += weight * dissipated_energy;
+  sweep_->add(segments, weight);
+}
+
+CycleReport ReportSum::result() const {
+  CycleReport report;
+  report.slip_work = slip_work_;
+  const double whole = share_[0] + share_[1] + share_[2];
+  if (whole > 0.0) {
+    report.stick_share = share_[0] / whole;
+    report.slip_share = share_[1] / whole;
+    report.separated_share = share_[2] / whole;
+    const double coexistence = sweep_->coexistence() / area_;
+    // Sums of weights that cancel leave rounding, not area.
+    report.three_states_share = coexistence > 1e-12 ? coexistence : 0.0;
+  }
+  return report;
+}
 
 CycleReport cycle_report(const ContactPatch& patch, const std::vector<PointMotion>& motions) {
-  std::array<double, 3> share{};
-  CycleReport report;
-  PhaseSweep sweep;
-  const double area = patch.weights().sum();
+  ReportSum sum;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const double weight = patch.weights()[static_cast<Eigen::Index>(i)];
     if (weight == 0.0) {
       continue;
     }
     const FrictionCycle cycle = friction_cycle(patch.points()[i], motions[i]);
-    for (const CycleSegment& segment : cycle.segments()) {
-      share[group(segment.state)] += weight * segment.length;
-    }
-    report.slip_work += weight * cycle.dissipated_energy;
-    sweep.add(cycle, weight);
+    sum.add(cycle.segments(), cycle.dissipated_energy, weight);
   }
-  const double whole = share[0] + share[1] + share[2];
-  if (whole > 0.0) {
-    report.stick_share = share[0] / whole;
-    report.slip_share = share[1] / whole;
-    report.separated_share = share[2] / whole;
-    const double coexistence = sweep.coexistence() / area;
-    // Sums of weights that cancel leave rounding, not area.
-    report.three_states_share = coexistence > 1e-12 ? coexistence : 0.0;
-  }
-  return report;
+  return sum.result();
 }
 
 }  // namespace microslip::contact

@@ -16,7 +16,7 @@
 /// wherever it is in contact; μ = 0 slips without force.
 ///
 /// Accuracy: coefficients within a few 1e-16 of k_u a + μ (|n₀| + B) in every regime and limit
-/// (a tangential amplitude, B = k_v b). Transition angles have square roots at the limits between
+/// (a tangential amplitude, B = k_v b), and of the force itself where a point sticks for a short time. Transition angles have square roots at the limits between
 /// regimes and are only that accurate there; forces are not affected. The derivatives are those of
 /// (1), (2); they jump or grow without bound, one-sided, at the limits of full stick and at grazing
 /// contact.

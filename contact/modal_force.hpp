@@ -29,7 +29,11 @@ struct CycleReport {
   double separated_share = 0.0;
   double three_states_share = 0.0;  ///< largest over the phase of the smallest area fraction
   double slip_work = 0.0;           ///< ∬∮ μ n |ds| dA [J per period], from the slip phases
+  double awake_share = 1.0;         ///< fraction of the points that were evaluated one by one
 };
+
+/// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.
+enum class LinearState { unknown, stuck, free };
 
 class ModalForce {
  public:
@@ -48,6 +52,11 @@ class ModalForce {
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) const = 0;
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
+  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg]; unknown unless overridden.
+  [[nodiscard]] virtual LinearState linear_state(const Harmonics& /*centre*/,
+                                                 double /*radius*/) const {
+    return LinearState::unknown;
+  }
 };
 
 }  // namespace microslip::contact

@@ -10,6 +10,7 @@
 #include "contact/block_kernels.hpp"
 #include "contact/cycle_report.hpp"
 #include "contact/friction_cycle.hpp"
+#include "contact/linear_proof.hpp"
 #include "contact/point_motions.hpp"
 
 namespace microslip::contact {
@@ -29,8 +30,15 @@ void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index 
   }
 }
 
-std::vector<double> packed(const ModalShapes& shapes) {
-  const auto n_points = static_cast<std::size_t>(shapes.u.rows());
+ModalShapes checked(ModalShapes shapes, Eigen::Index n_points) {
+  require_shape("u", shapes.u, n_points, shapes.u.cols());
+  require_shape("v", shapes.v, n_points, shapes.u.cols());
+  return shapes;
+}
+
+// Mode shapes of the points in this order.
+std::vector<double> packed(const ModalShapes& shapes, const std::vector<Eigen::Index>& order) {
+  const auto n_points = order.size();
   const auto n_modes = static_cast<std::size_t>(shapes.u.cols());
   const std::size_t n_blocks = (n_points + block_points - 1) / block_points;
   std::vector<double> blocks(n_blocks * 2 * n_modes * block_points, 0.0);
@@ -38,7 +46,7 @@ std::vector<double> packed(const ModalShapes& shapes) {
     for (std::size_t point = 0; point < n_points; ++point) {
       const std::size_t row = point / block_points * 2 * n_modes + mode;
       const std::size_t column = point % block_points;
-      const auto i = static_cast<Eigen::Index>(point);
+      const Eigen::Index i = order[point];
       const auto j = static_cast<Eigen::Index>(mode);
       blocks[row * block_points + column] = shapes.u(i, j);
       blocks[(row + n_modes) * block_points + column] = shapes.v(i, j);
@@ -156,25 +164,34 @@ ForceAndJacobian unpacked(const ModalSums& sums, std::size_t n) {
   return result;
 }
 
+void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harmonics& q) {
+  const Eigen::Index N = part.mean.size();
+  result.force.rows() += q.rows() * part.stiffness;  // symmetric
+  result.force.rows().row(0) += part.mean.transpose();
+  for (Eigen::Index h = 0; h < 3; ++h) {
+    result.jacobian.block(h * N, h * N, N, N) += part.stiffness;
+  }
+}
+
 }  // namespace
 
 PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
-    : patch_(std::move(patch)), shapes_(std::move(shapes)) {
-  require_shape("u", shapes_.u, patch_.n_points(), shapes_.u.cols());
-  require_shape("v", shapes_.v, patch_.n_points(), shapes_.u.cols());
-  blocks_ = packed(shapes_);
-}
+    : patch_(std::move(patch)), shapes_(checked(std::move(shapes), patch_.n_points())),
+      sleep_(patch_, shapes_), blocks_(packed(shapes_, sleep_.order())) {}
 
 Eigen::Index PatchForce::n_modes() const { return shapes_.u.cols(); }
 
 ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) const {
   require_single_harmonic(q, n_modes());
   const auto n = static_cast<std::size_t>(n_modes());
-  const auto n_points = static_cast<std::size_t>(patch_.n_points());
+  if (sleep_.look_at(q, patch_, shapes_)) {
+    blocks_ = packed(shapes_, sleep_.order());
+  }
+  const auto n_awake = static_cast<std::size_t>(sleep_.n_awake());
   const BlockKernels& kernels = block_kernels();
   ModalSums sums(n);
-  for (std::size_t first = 0; first < n_points; first += block_points) {
-    const std::size_t last = std::min(first + block_points, n_points);
+  for (std::size_t first = 0; first < n_awake; first += block_points) {
+    const std::size_t last = std::min(first + block_points, n_awake);
     const std::size_t n_lanes = (last - first + lane_points - 1) / lane_points * lane_points;
     const double* phi_u = &blocks_[2 * n * first];
     const double* phi_v = phi_u + n * block_points;
@@ -185,18 +202,25 @@ ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) 
     BlockForces forces{};
     for (std::size_t point = first; point < last; ++point) {
       const std::size_t i = point - first;
-      const PointParameters& parameters = patch_.points()[point];
-      forces.set(i, patch_.weights()[static_cast<Eigen::Index>(point)],
+      const Eigen::Index which = sleep_.order()[point];
+      const PointParameters& parameters = patch_.points()[static_cast<std::size_t>(which)];
+      forces.set(i, patch_.weights()[which],
                  std::max(parameters.preload, 0.0),
                  cycle_force(parameters, {u[0][i], u[1][i], u[2][i], v[0][i], v[1][i], v[2][i]}));
     }
     add_block(sums, n, n_lanes, phi_u, phi_v, forces);
   }
-  return unpacked(sums, n);
+  ForceAndJacobian result = unpacked(sums, n);
+  if (const SleepingPart* part = sleep_.part()) {
+    add_sleeping(result, *part, q);
+  }
+  return result;
 }
 
 CycleReport PatchForce::report(const Harmonics& q, double /*frequency*/) const {
-  return cycle_report(patch_, point_motions(shapes_, q));
+  CycleReport report = cycle_report(patch_, point_motions(shapes_, q));
+  report.awake_share = sleep_.awake_share_at(q);
+  return report;
 }
 
 Eigen::MatrixXd PatchForce::stuck_stiffness() const {
@@ -210,6 +234,10 @@ Eigen::MatrixXd PatchForce::stuck_stiffness() const {
   }
   return shapes_.u.transpose() * k_u.asDiagonal() * shapes_.u +
          shapes_.v.transpose() * k_v.asDiagonal() * shapes_.v;
+}
+
+LinearState PatchForce::linear_state(const Harmonics& centre, double radius) const {
+  return contact::linear_state(patch_, shapes_, centre, radius);
 }
 
 }  // namespace microslip::contact

@@ -10,13 +10,14 @@
 /// Points are taken in blocks: motion of a block by dense products, one cycle per point, then the
 /// modal Jacobian by dense products again, mode pair by mode pair. Blocks in which nothing slips or
 /// separates leave out what is zero there. The cost of a point is about that of its Jacobian entries:
-/// 22 products for each pair of modes.
+/// 22 products for each pair of modes. Points proved stuck or open cost nothing (sleeping_points.hpp).
 #pragma once
 
 #include <vector>
 
 #include "contact/contact_patch.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/sleeping_points.hpp"
 
 namespace microslip::contact {
 
@@ -28,13 +29,17 @@ class PatchForce final : public ModalForce {
   PatchForce(ContactPatch patch, ModalShapes shapes);
 
   [[nodiscard]] Eigen::Index n_modes() const override;
-  /// H = 1; equal input gives equal bits. The force does not depend on the frequency.
+  /// H = 1. The force does not depend on the frequency. Which points sleep depends on the motions seen
+  /// before, so that equal input gives equal numbers to rounding, and equal bits after equal histories.
+  /// Not for two threads at a time.
   /// @throws std::invalid_argument  another number of harmonics or modes.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ) dA; a point without friction (μ = 0) resists normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  /// See linear_proof.hpp.
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }
   [[nodiscard]] const ModalShapes& shapes() const { return shapes_; }
@@ -42,7 +47,9 @@ class PatchForce final : public ModalForce {
  private:
   ContactPatch patch_;
   ModalShapes shapes_;
-  std::vector<double> blocks_;  // [block][u, v][mode][point of the block], padded with zeros
+  mutable SleepingPoints sleep_;
+  // In the order of sleep_: [block][u, v][mode][point of the block], padded with zeros.
+  mutable std::vector<double> blocks_;
 };
 
 }  // namespace microslip::contact

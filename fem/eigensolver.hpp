@@ -17,13 +17,22 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;  ///< φ, rows of this rank × n, ΦᵀMΦ = I
 };
 
+/// What one Krylov search gives. Its vectors still carry a little of high modes, which λ does not
+/// feel but Kφ does: refine() takes it out, all columns in one block.
+struct FoundPairs {
+  EigenPairs pairs;        ///< converged
+  Eigen::VectorXd beyond;  ///< lower estimates of the next eigenvalues, not converged [rad²/s²]
+};
+
+/// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-9 θ, θ = 1/(λ − shift), of every pair.
+///
 /// @param inverse    factorisation of K − shift M.
 /// @param shift      [rad²/s²], below every wanted eigenvalue.
-/// @param n_wanted   pairs wanted; more are returned when more converged, fewer when the rest of the
-///                   space is smaller.
+/// @param n_wanted   ≥ 1; more are returned when more converged, fewer when the rest of the space is
+///                   smaller.
 /// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
 /// @throws EigenError  fewer converged: both numbers and the tolerance.
-[[nodiscard]] EigenPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
+[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
                                       Eigen::Index n_wanted, const Eigen::MatrixXd& deflation);
 
 /// One step of subspace iteration and Rayleigh–Ritz over all columns: orders pairs that were found

@@ -69,7 +69,7 @@ struct Structure::Implementation {
 
   void factorise();
   void factorise_shifted();
-  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic, ModeSearch kind);
+  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
   [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& kept) const;
   void drop_held_rigid_modes();
   [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
@@ -94,8 +94,8 @@ void Structure::Implementation::factorise_shifted() {
   timings.factorisation = factor->factor_seconds();
 }
 
-CountedPairs Structure::Implementation::search(Eigen::Index n_elastic, ModeSearch kind) {
-  CountedPairs found = find_elastic_modes(system, *factor, shift, n_elastic, rigid, kind);
+CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
+  CountedPairs found = find_elastic_modes(system, *factor, shift, n_elastic, rigid);
   timings.eigensolve += found.search_seconds;
   timings.inertia += found.inertia_seconds;
   return found;
@@ -215,7 +215,7 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
                      " zero modes, a free body has six: the mesh has loose parts");
   }
   self.factorise();
-  CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0), options.search);
+  CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
   if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
     throw EigenError("mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
                      " of them inside the body (parts that share only an edge, a corner or too few supports)");

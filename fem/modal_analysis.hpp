@@ -3,7 +3,6 @@
 /// PETSC_COMM_WORLD; results are complete on every rank.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,16 +17,9 @@
 
 namespace microslip::fem {
 
-/// How modes are searched first; what that missed is searched by Krylov–Schur either way.
-enum class ModeSearch : std::uint8_t {
-  blocks,        ///< block Krylov–Schur (block_krylov.hpp): solves four right-hand sides at a time
-  krylov_schur,  ///< SLEPc, one right-hand side at a time
-};
-
 struct ModalOptions {
   Eigen::Index n_modes = 10;         ///< ≥ 1; rigid-body modes count
   double residual_tolerance = 1e-8;  ///< of each pair, checked, plus what rounding of φ alone leaves
-  ModeSearch search = ModeSearch::blocks;
 };
 
 /// Where the time went [s].

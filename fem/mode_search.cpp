@@ -1,11 +1,11 @@
 #include "fem/mode_search.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "fem/block_krylov.hpp"
 #include "fem/columns.hpp"
 #include "fem/number_text.hpp"
 #include "fem/petsc_error.hpp"
@@ -17,19 +17,19 @@ namespace {
 // about 1e-16 λ_max/λ ≈ 1e-7 on fine meshes, so that no shift in a gap can miscount.
 constexpr double cluster_width = 1e-4;
 
-struct Gap {
-  Eigen::Index n_below;
-  double shift;
-};
-
-// First gap with n or more values below it.
-std::optional<Gap> first_gap(const Eigen::VectorXd& values, Eigen::Index n, Eigen::Index space) {
+// Middle of the first gap with n or more values below it: values found, then lower estimates of what
+// comes next. A gap that is not there after all (an estimate above the value it stands for) only
+// makes the count larger, and what is missing is searched.
+std::optional<double> shift_in_gap(const Eigen::VectorXd& found, const Eigen::VectorXd& beyond, Eigen::Index n,
+                                   Eigen::Index space) {
+  Eigen::VectorXd values(found.size() + beyond.size());
+  values << found, beyond;
+  double below = n == 0 ? 0.0 : values.head(n).maxCoeff();
   for (Eigen::Index k = n; k < values.size(); ++k) {
-    const double below = k == 0 ? 0.0 : values[k - 1];
-    if (values[k] - below > cluster_width * values[k]) return Gap{k, 0.5 * (below + values[k])};
+    if (values[k] - below > cluster_width * values[k]) return 0.5 * (below + values[k]);
+    below = std::max(below, values[k]);
   }
-  const Eigen::Index found = values.size();
-  if (found == space) return Gap{found, values[found - 1] * (1.0 + cluster_width)};
+  if (found.size() == space) return below * (1.0 + cluster_width);
   return std::nullopt;
 }
 
@@ -89,33 +89,39 @@ MatHandle shifted_stiffness(const FeSystem& system, double shift) {
 }
 
 CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                Eigen::Index n, const Eigen::MatrixXd& rigid, ModeSearch search) {
+                                Eigen::Index n, const Eigen::MatrixXd& rigid) {
   constexpr int max_rounds = 5;
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - rigid.cols();
   Stopwatch watch;
   CountedPairs result;
-  // Krylov–Schur is asked for two beyond the last: one to find the gap, one because the last of a run
-  // converges worst; blocks bring more along.
-  const EigenPairs first = search == ModeSearch::blocks
-                               ? lowest_pairs_by_blocks(system, inverse, shift, n, rigid)
-                               : lowest_pairs(system, inverse, shift, n + 2, rigid);
-  result.pairs = refine_beside(rigid, system, inverse, first.vectors);
-  result.search_seconds += watch.lap();
-  for (int round = 0; round < max_rounds; ++round) {
-    Eigen::Index n_missing = 0;
-    if (const std::optional<Gap> gap = first_gap(result.pairs.values, n, space)) {
-      result.count_shift = gap->shift;
-      result.n_below = gap->n_below;
-      result.n_counted = count_below(system, gap->shift);
-      result.inertia_seconds += watch.lap();
-      n_missing = result.n_counted - rigid.cols() - gap->n_below;
-      if (n_missing == 0) return result;
-      if (n_missing < 0) report_missed(rigid.cols() + gap->n_below, result.n_counted, gap->shift);
-    }
-    const EigenPairs more = lowest_pairs(system, inverse, shift, n_missing + 2,
-                                         side_by_side(rigid, result.pairs.vectors));
-    result.pairs = refine_beside(rigid, system, inverse, side_by_side(result.pairs.vectors, more.vectors));
+  const auto search = [&](Eigen::Index n_missing) {
+    const Eigen::MatrixXd known = side_by_side(rigid, result.pairs.vectors);
+    const FoundPairs more = lowest_pairs(system, inverse, shift, n_missing, known);
+    result.pairs = refine_beside(rigid, system, inverse, side_by_side(result.pairs.vectors, more.pairs.vectors));
     result.search_seconds += watch.lap();
+    return more.beyond;
+  };
+  const auto count = [&](double count_shift) {
+    result.count_shift = count_shift;
+    result.n_counted = count_below(system, count_shift);
+    result.inertia_seconds += watch.lap();
+  };
+  result.pairs.vectors.resize(rigid.rows(), 0);
+  Eigen::VectorXd beyond = search(std::max<Eigen::Index>(n, 1));
+  std::optional<double> gap;
+  for (int round = 0; round < max_rounds; ++round) {
+    Eigen::Index n_missing = 1;  // none is, but the gap is not seen yet
+    if (!gap) {
+      gap = shift_in_gap(result.pairs.values, beyond, n, space);
+      if (gap) count(*gap);
+    }
+    if (gap) {
+      result.n_below = (result.pairs.values.array() < *gap).count();
+      n_missing = result.n_counted - rigid.cols() - result.n_below;
+      if (n_missing == 0) return result;
+      if (n_missing < 0) break;
+    }
+    beyond = search(n_missing);
   }
   report_missed(rigid.cols() + result.n_below, result.n_counted, result.count_shift);
 }

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "fem/eigensolver.hpp"
-#include "fem/modal_analysis.hpp"
+#include "fem/handle.hpp"
 
 namespace microslip::fem {
 
@@ -34,7 +34,6 @@ struct CountedPairs {
 /// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end, with
 ///         both numbers.
 [[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                              Eigen::Index n, const Eigen::MatrixXd& rigid,
-                                              ModeSearch search = ModeSearch::blocks);
+                                              Eigen::Index n, const Eigen::MatrixXd& rigid);
 
 }  // namespace microslip::fem

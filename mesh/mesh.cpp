@@ -2,66 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <utility>
 
+#include "mesh/face_map.hpp"
+#include "mesh/mesh_overlap.hpp"
 #include "mesh/mesh_quality.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {
 namespace {
-
-/// A face told by its corner nodes in ascending order; a triangle has −1 in the first place.
-using FaceKey = std::array<Eigen::Index, 4>;
-
-struct FaceKeyHash {
-  std::size_t operator()(const FaceKey& key) const {
-    std::size_t hash = 0;
-    for (const Eigen::Index node : key) {
-      hash = hash * 1099511628211ULL + static_cast<std::size_t>(node + 1);
-    }
-    return hash;
-  }
-};
-
-struct FaceOwner {
-  std::size_t block = 0;
-  Eigen::Index element = 0;
-  std::size_t face = 0;
-  int count = 0;  // elements that have this face
-};
-
-using FaceMap = std::unordered_map<FaceKey, FaceOwner, FaceKeyHash>;
-
-FaceKey key_of(const std::array<Eigen::Index, 4>& nodes, int n_corners) {
-  FaceKey key{-1, -1, -1, -1};
-  for (int i = 0; i < n_corners; ++i) key[static_cast<std::size_t>(i)] = nodes[static_cast<std::size_t>(i)];
-  const auto order = [&](std::size_t i, std::size_t j) {
-    if (key[j] < key[i]) std::swap(key[i], key[j]);
-  };
-  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
-  return key;
-}
-
-FaceMap faces_of(const std::vector<ElementBlock>& elements) {
-  FaceMap map;
-  for (std::size_t b = 0; b < elements.size(); ++b) {
-    const ElementBlock& block = elements[b];
-    const int corners = n_corners(face_type(block.type));
-    const auto table = faces(block.type);
-    for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
-      for (std::size_t f = 0; f < table.size(); ++f) {
-        std::array<Eigen::Index, 4> nodes{};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(corners); ++i) {
-          nodes[i] = block.connectivity(e, table[f][i]);
-        }
-        FaceOwner& owner = map[key_of(nodes, corners)];
-        if (owner.count++ == 0) owner = {b, e, f, 1};
-      }
-    }
-  }
-  return map;
-}
 
 struct FacesOfType {
   FaceType type = FaceType::tri3;
@@ -84,7 +33,7 @@ class SurfaceBuilder {
         for (int i = 0; i < corners; ++i) {
           nodes[static_cast<std::size_t>(i)] = block.connectivity(f, i);
         }
-        add(key_of(nodes, corners));
+        add(face_key(nodes, corners));
       }
     }
     if (missing_ > 0) {
@@ -105,20 +54,15 @@ class SurfaceBuilder {
       ++missing_;
       return;
     }
-    const FaceOwner& owner = found->second;
-    if (owner.count > 1) {
+    if (found->second.count > 1) {
       ++inside_;
       return;
     }
-    const ElementBlock& block = elements_[owner.block];
-    const FaceType type = face_type(block.type);
-    std::vector<Eigen::Index> nodes;
-    for (const int local : faces(block.type)[owner.face]) {
-      nodes.push_back(block.connectivity(owner.element, local));
-    }
+    const FaceUse& use = found->second.uses.front();
+    const FaceType type = face_type(elements_[use.block].type);
     FacesOfType& list = lists_[static_cast<std::size_t>(type)];
     list.type = type;
-    list.faces.push_back(std::move(nodes));
+    list.faces.push_back(face_nodes(elements_, use));
   }
 
   [[nodiscard]] Surface collect(const std::string& name) const {
@@ -205,8 +149,10 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
   check_elements(nodes_, elements_);
   check_coincident_nodes(nodes_);
   check_connected(nodes_.rows(), elements_, nodes_);
+  const FaceMap owners = map_faces(elements_);
+  check_faces(elements_, owners);
+  check_outer_faces(nodes_, elements_, owners);
 
-  const FaceMap owners = faces_of(elements_);
   SurfaceBuilder builder(elements_, owners);
   for (auto& [name, blocks] : surfaces) {
     for (FaceBlock& block : blocks) block.connectivity = block.connectivity.unaryExpr(renumbered);

@@ -1,10 +1,12 @@
 /// @file
 /// The program microslip-mesher: reads "key value" lines from standard input, meshes, writes one file.
-///   microslip-mesher OUTPUT.msh MEMORY_MB < parameters
-/// It limits its own memory and dies with its parent: gmsh can crash, hang or eat memory on bad geometry.
+///   microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters
+/// It limits its own memory, and when its parent dies or it is asked to end, it goes and takes what it has
+/// written along: gmsh can crash, hang or eat memory on bad geometry.
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -36,14 +38,31 @@ void limit_memory(double megabytes) {
   setrlimit(RLIMIT_AS, &limit);
 }
 
+const char* output = nullptr;
+
+extern "C" void leave_nothing(int /*signal*/) {
+  ::unlink(output);
+  ::_exit(1);
+}
+
+void end_with(pid_t parent) {
+  struct sigaction action = {};
+  action.sa_handler = leave_nothing;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaction(signal, &action, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: microslip-mesher OUTPUT.msh MEMORY_MB < parameters\n";
+  if (argc != 4) {
+    std::cerr << "usage: microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters\n";
     return 1;
   }
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  output = argv[1];
+  end_with(std::atoi(argv[3]));
   const double memory = std::atof(argv[2]);
   if (!(memory > 0.0)) {
     std::cerr << "the memory limit must be a number above 0\n";

@@ -1,16 +1,17 @@
 #include "mesh/mesher_process.hpp"
 
-#include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -72,33 +73,58 @@ class ScratchFile {
   fs::path path_;
 };
 
-/// Last lines a file holds, on one line.
-std::string tail_of(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  std::string all = text.str();
-  while (!all.empty() && (all.back() == '\n' || all.back() == '\r')) all.pop_back();
-  constexpr std::size_t most = 600;
-  if (all.size() > most) all = "…" + all.substr(all.size() - most);
-  return all;
-}
+/// A file without a name: whatever ends this process leaves nothing of it behind.
+class AnonymousFile {
+ public:
+  explicit AnonymousFile(const std::string& content = {}) : descriptor_(::memfd_create("microslip", MFD_CLOEXEC)) {
+    const auto size = static_cast<ssize_t>(content.size());
+    if (descriptor_ < 0 || ::write(descriptor_, content.data(), content.size()) != size) {
+      throw MeshError(std::string("cannot start the mesher: ") + std::strerror(errno));
+    }
+    ::lseek(descriptor_, 0, SEEK_SET);  // whoever inherits it reads from here
+  }
+  ~AnonymousFile() { ::close(descriptor_); }
+  AnonymousFile(const AnonymousFile&) = delete;
+  AnonymousFile& operator=(const AnonymousFile&) = delete;
+  AnonymousFile(AnonymousFile&&) = delete;
+  AnonymousFile& operator=(AnonymousFile&&) = delete;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
-pid_t start(const fs::path& program, const fs::path& input, const fs::path& output,
-            const fs::path& messages, double memory_mb) {
+  /// The last lines it holds.
+  [[nodiscard]] std::string tail() const {
+    constexpr off_t most = 600;
+    const off_t size = ::lseek(descriptor_, 0, SEEK_END);
+    const off_t from = std::max<off_t>(size - most, 0);
+    std::string text(static_cast<std::size_t>(size - from), '\0');
+    const ssize_t n = ::pread(descriptor_, text.data(), text.size(), from);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+    return from > 0 ? "…" + text : text;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// In a process group of its own: Ctrl-C is for this process to answer.
+pid_t start(const fs::path& program, int input, const fs::path& output, int messages, double memory_mb) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, messages, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
   std::string name = program.string();
   std::string file = output.string();
   std::string memory = std::to_string(memory_mb);
-  std::array<char*, 4> arguments{name.data(), file.data(), memory.data(), nullptr};
+  std::string parent = std::to_string(::getpid());
+  std::array<char*, 5> arguments{name.data(), file.data(), memory.data(), parent.data(), nullptr};
   pid_t child = 0;
-  const int error =
-      posix_spawn(&child, name.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawn(&child, name.c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw MeshError("cannot start " + name + ": " + std::strerror(error));
   return child;
@@ -151,18 +177,12 @@ void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::pa
     throw std::invalid_argument("mesher limits must be above 0 s and 0 MB");
   }
   const fs::path program = mesher_program();
-  const std::string stem = file.string() + "." + std::to_string(::getpid());
-  const ScratchFile input(stem + ".in");
-  const ScratchFile messages(stem + ".out");
-  const ScratchFile mesh(stem + ".msh");
-  {
-    std::ofstream stream(input.path());
-    stream << parameters(geometry, element_size);
-    if (!stream.flush()) throw MeshError("cannot write " + input.path().string());
-  }
-  const pid_t child = start(program, input.path(), mesh.path(), messages.path(), limits.memory_mb);
+  const AnonymousFile input(parameters(geometry, element_size));
+  const AnonymousFile messages;
+  const ScratchFile mesh(file.string() + "." + std::to_string(::getpid()) + ".msh");
+  const pid_t child = start(program, input.descriptor(), mesh.path(), messages.descriptor(), limits.memory_mb);
   const int status = wait_for(child, limits.seconds);  // before its messages are read
-  judge(status, limits, tail_of(messages.path()));
+  judge(status, limits, messages.tail());
   std::error_code error;
   fs::rename(mesh.path(), file, error);
   if (error) throw MeshError("the mesher left no mesh at " + file.string() + ": " + error.message());

@@ -10,7 +10,9 @@
 #include <fmt/ostream.h>
 #include <Eigen/Eigenvalues>
 
+#include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
 #include "pipelines/response_stage.hpp"
@@ -64,9 +66,9 @@ void forecast(const mesh::Mesh& mesh, const SceneDescription& scene, std::ostrea
   out << '\n';
 }
 
-void describe_effects(const SceneDescription& scene, std::ostream& out) {
+void describe_effects(const SceneDescription& scene, const ReducedModel* model, std::ostream& out) {
   out << "effects:\n";
-  for (const EffectRecord& effect : effects_of(scene)) {
+  for (const EffectRecord& effect : effects_of(scene, model)) {
     fmt::print(out, "  {:<17}{:<4} {}\n", effect.name, effect.simulated ? "yes" : "no",
                effect.reason);
   }
@@ -101,41 +103,50 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
     load += std::max(preload, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
     if (preload < 0.0) ++n_gaps;
   }
+  if (modal.load_measure == LoadMeasure::force) {
+    fmt::print(out, "{} contact points\n", modal.points.size());
+    return;
+  }
   fmt::print(out, "{} contact points: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
              modal.points.size(), modal.weights.sum(), load, n_gaps);
 }
 
-void check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
-  fmt::print(out, "modal scene: {} modes\n", modal.frequency_hz.size());
-  const ReducedModel model = reduced_model(modal);
-  require_held(model);
+ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
+  fmt::print(out, "{} modes\n", modal.frequency_hz.size());
+  ReducedModel model = reduced_model(modal);
+  model.effects = contact_effects(model, scene);
+  require_held(model, scene);
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
+    require_loads(model, scene);
     const ResponseDescription& response = *scene.response;
     const std::size_t n_curves = curve_requests(scene).size();
     fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,
                n_curves == 1 ? "curve" : "curves", response.frequency_begin_hz,
                response.frequency_end_hz);
   }
+  return model;
 }
 
 }  // namespace
 
 int check_study(const SceneDescription& scene, std::ostream& out) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    check_modal(*modal, scene, out);
+    const ReducedModel model = check_modal(*modal, scene, out);
+    describe_effects(scene, &model, out);
   } else {
     const TemporaryFolder folder;
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
+    for (const std::string& warning : mesh::shape_warnings(mesh)) out << "warning: " << warning << '\n';
     if (scene.clamped.empty() && scene.response) {
       out << "warning: nothing is clamped: `run` will refuse rigid-body modes that nothing holds\n";
     }
     forecast(mesh, scene, out);
+    describe_effects(scene, nullptr, out);
   }
-  describe_effects(scene, out);
   out << "the scene is complete and consistent\n";
   return static_cast<int>(ExitCode::complete);
 }

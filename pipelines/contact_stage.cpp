@@ -97,13 +97,14 @@ ShapesOnPatch fit_shapes(const mesh::Mesh& mesh, const mesh::Surface& surface,
 }
 
 /// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
+/// @param refuse  else a stiffness that is not positive stays, for those who need it to refuse.
 Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
-                                 const char* direction) {
+                                 const char* direction, bool refuse) {
   const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
   if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
   const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
   const Eigen::Index n_bad = (flexibility <= 0.0).count();
-  if (n_bad > 0) {
+  if (n_bad > 0 && refuse) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
         "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
@@ -124,13 +125,20 @@ void set_stiffness(ReducedModel& model, const ContactDescription& contact,
   const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
   const Eigen::MatrixX3d& nodal = residual != nullptr ? residual->row_sums : none;
   const auto stiffness = [&](const Eigen::SparseMatrix<double>& to, int axis) {
-    const auto& local = axis == 0 ? contact.tangential_stiffness : contact.normal_stiffness;
-    return series_stiffness(local, to * nodal.col(axis), axis == 0 ? "tangential" : "normal");
+    const auto& local = axis == 1 ? contact.normal_stiffness : contact.tangential_stiffness;
+    return series_stiffness(local, to * nodal.col(axis), axis == 1 ? "normal" : "tangential",
+                            axis != 2);
   };
   model.tangential_stiffness = stiffness(sampling.to_centres, 0);
   model.normal_stiffness = stiffness(sampling.to_centres, 1);
+  model.second_stiffness = stiffness(sampling.to_centres, 2);
   model.vertex_tangential_stiffness = stiffness(sampling.to_vertices, 0);
   model.vertex_normal_stiffness = stiffness(sampling.to_vertices, 1);
+  model.vertex_second_stiffness = stiffness(sampling.to_vertices, 2);
+  if (residual != nullptr) {
+    model.compliance = sampling.to_centres * nodal;
+    model.vertex_compliance = sampling.to_vertices * nodal;
+  }
 }
 
 void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescription& contact,
@@ -257,6 +265,8 @@ ReducedModel reduced_model(const ModalModel& modal) {
   model.output = modal.output;
   model.weights = modal.weights;
   model.shapes = modal.shapes;
+  model.load_measure = modal.load_measure;
+  model.preload_offset = modal.preload_offset;
   const auto n = static_cast<Eigen::Index>(modal.points.size());
   model.points = Eigen::MatrixX3d::Zero(n, 3);
   if (modal.positions.rows() == n) {
@@ -274,6 +284,8 @@ ReducedModel reduced_model(const ModalModel& modal) {
     model.friction_coefficient[i] = point.friction_coefficient;
     model.preload[i] = point.preload;
   }
+  model.second_stiffness =
+      modal.second_stiffness.size() == n ? modal.second_stiffness : model.tangential_stiffness;
   return model;
 }
 

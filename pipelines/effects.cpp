@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 namespace microslip::pipelines {
 namespace {
 
@@ -37,14 +39,32 @@ std::string setting_of(const SceneDescription& scene, const std::string& name) {
   return "auto";
 }
 
+void add_second_direction(const SceneDescription& scene, const ReducedModel* model,
+                          std::vector<EffectRecord>& effects) {
+  const std::string setting = setting_of(scene, "second_direction");
+  const bool simulated = model != nullptr ? model->effects.second_direction : setting == "on";
+  std::string reason;
+  if (setting != "auto") {
+    reason = "asked for in the scene";
+  } else if (model == nullptr) {
+    reason = "decided when the modes are known: friction along r where the patch moves along r";
+  } else {
+    reason = fmt::format("motion along r is {:.2g} % of that along p in the linear limits",
+                         100.0 * model->effects.motion_ratio);
+  }
+  effects.push_back({"second_direction", setting, simulated, reason});
+}
+
 }  // namespace
 
-std::vector<EffectRecord> effects_of(const SceneDescription& scene) {
+std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
   const ContactFacts facts = facts_of(scene);
-  const bool meshed = !std::holds_alternative<ModalModel>(scene.model);
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  const ResidualKind residual = modal != nullptr ? modal->residual : scene.modes.residual;
   const bool normal = facts.has_normal_stiffness;
   std::vector<EffectRecord> effects;
-  const auto add = [&](const char* name, bool simulated, const char* why, const char* why_not) {
+  const auto add = [&](const char* name, bool simulated, const std::string& why,
+                       const std::string& why_not) {
     effects.push_back({name, setting_of(scene, name), simulated, simulated ? why : why_not});
   };
   add("friction", facts.has_friction, "friction coefficient and tangential stiffness are positive",
@@ -53,13 +73,20 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene) {
       "no normal stiffness: the load is constant");
   add("separation", normal, "the contact is one-sided", "the load is constant");
   add("mean_coupling", normal, "the mean approach changes the load", "the load is constant");
-  add("residual", meshed && facts.has_contact && scene.modes.residual == ResidualKind::stiffness,
+  add("residual", facts.has_contact && residual == ResidualKind::stiffness,
       "flexibility of the omitted modes stands in series with the contact stiffness",
-      meshed ? "modes.residual = \"none\", or no contact" : "the given stiffness is used as it is");
+      modal == nullptr ? "modes.residual = \"none\", or no contact"
+                       : "the given stiffness is used as it is");
   add("stability", facts.has_contact, "slow-flow eigenvalues of every point",
       "a linear scene is stable");
-  add("second_direction", false, "", "friction acts along the slip direction only in this version");
-  add("higher_harmonics", false, "", "mean and first harmonic in this version");
+  add_second_direction(scene, model, effects);
+  const int harmonics = scene.response ? scene.response->harmonics : 1;
+  add("higher_harmonics", harmonics > 1, fmt::format("response.harmonics = {}", harmonics),
+      "response.harmonics = 1");
+  add("roughness", scene.laws.roughness.has_value(), "the surfaces are rough",
+      "no roughness is given");
+  add("rate_dependence", scene.laws.friction.has_value(),
+      "the friction coefficient follows the slip speed", "the friction coefficient is constant");
   return effects;
 }
 

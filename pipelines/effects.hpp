@@ -4,11 +4,14 @@
 
 #include <vector>
 
+#include "pipelines/run_results.hpp"
 #include "pipelines/scene_description.hpp"
 #include "pipelines/write_summary.hpp"
 
 namespace microslip::pipelines {
 
-[[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene);
+/// @param model  with its effects decided; nullptr: not known yet, `auto` says so.
+[[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
+                                                   const ReducedModel* model);
 
 }  // namespace microslip::pipelines

@@ -24,7 +24,10 @@ namespace {
 constexpr std::size_t longest = 10000;
 
 std::vector<std::string_view> known_names(const mu::Parser& parser) {
-  std::vector<std::string_view> names{"p", "r"};
+  std::vector<std::string_view> names;
+  for (const auto& [name, address] : parser.GetVar()) {
+    names.push_back(name);
+  }
   for (const auto& [name, value] : parser.GetConst()) {
     if (!name.starts_with('_')) {  // the library's own _pi and _e
       names.push_back(name);
@@ -83,6 +86,14 @@ void define(mu::Parser& parser, const std::string& place,
   }
 }
 
+// Variables are bound by address.
+void bind(mu::Parser& parser, const std::array<std::string, 2>& names, double& first, double& second) {
+  parser.DefineVar(names[0], &first);
+  if (!names[1].empty()) {
+    parser.DefineVar(names[1], &second);
+  }
+}
+
 void require_writable(const std::string& text, const std::string& place) {
   if (text.size() > longest) {
     throw SceneError(
@@ -99,16 +110,16 @@ void require_writable(const std::string& text, const std::string& place) {
 }  // namespace
 
 Expression::Expression(const std::string& text, std::string place,
-                       const std::map<std::string, double>& constants)
-    : parser_(std::make_unique<Parser>()), place_(std::move(place)) {
+                       const std::map<std::string, double>& constants,
+                       const std::array<std::string, 2>& coordinates)
+    : parser_(std::make_unique<Parser>()), place_(std::move(place)), coordinates_(coordinates) {
   require_writable(text, place_);
   mu::Parser& parser = parser_->parser;
   define(parser, place_, constants);
   double p = 0.0;
   double r = 0.0;
   try {
-    parser.DefineVar("p", &p);
-    parser.DefineVar("r", &r);
+    bind(parser, coordinates_, p, r);
     parser.SetExpr(text);
     int n_values = 0;
     (void)parser.Eval(n_values);
@@ -131,16 +142,17 @@ Eigen::VectorXd Expression::at(const Eigen::VectorXd& p, const Eigen::VectorXd& 
   mu::Parser parser = parser_->parser;  // a copy of its own: variables are bound by address
   double p_here = 0.0;
   double r_here = 0.0;
-  parser.DefineVar("p", &p_here);
-  parser.DefineVar("r", &r_here);
+  bind(parser, coordinates_, p_here, r_here);
   Eigen::VectorXd values(p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     p_here = p[i];
     r_here = r[i];
     values[i] = parser.Eval();
     if (!std::isfinite(values[i])) {
-      throw SceneError(fmt::format("{}: expression \"{}\" is {} at p = {} m, r = {} m", place_,
-                                   parser.GetExpr(), values[i], p_here, r_here));
+      const std::string second =
+          coordinates_[1].empty() ? "" : fmt::format(", {} = {} m", coordinates_[1], r_here);
+      throw SceneError(fmt::format("{}: expression \"{}\" is {} at {} = {} m{}", place_,
+                                   parser.GetExpr(), values[i], coordinates_[0], p_here, second));
     }
   }
   return values;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -37,7 +38,7 @@ struct Arguments {
   std::string output;
   std::vector<std::string> overrides;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  int harmonics = 1;
+  std::optional<int> harmonics;
   std::string tolerance;
   std::string budget;
   bool resume = false;
@@ -195,7 +196,8 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   };
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
-  init_command->add_option("kind", a.input, "blade, mesh or modal")->default_str("blade");
+  init_command->add_option("kind", a.input, "blade, mesh, modal, bar or chain")
+      ->default_str("blade");
   with_output(init_command, "file to write; it must not exist");
   with_scene(
       add_command(app, a, chosen, "check",
@@ -219,12 +221,14 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       ->add_option("table", a.input,
                    "CSV file, SI units, one point per row; columns tangential_stiffness, "
                    "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
-                   "v_mean, v_sin, v_cos, optional id and u_mean, in any order")
+                   "v_mean, v_sin, v_cos, optional id, u_mean and harmonics u_sin2, "
+                   "u_cos2, v_sin2, ..., in any order")
       ->required();
   with_output(cycle_command, "JSON file to write; default standard output");
-  cycle_command->add_option("--harmonics", a.harmonics, "highest harmonic of the forces put out")
-      ->check(CLI::Range(1, largest_harmonic))
-      ->capture_default_str();
+  cycle_command
+      ->add_option("--harmonics", a.harmonics,
+                   "highest harmonic of the forces put out; default the highest of the table")
+      ->check(CLI::Range(1, largest_harmonic));
   with_scene(add_command(app, a, chosen, "converge",
                          "what accuracy costs (not available in this version)", []() -> int {
                            throw SceneError(

@@ -93,8 +93,8 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
 
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
   std::vector<std::string> names{
-      "id", "weight", "tangential_stiffness", "normal_stiffness", "friction_coefficient", "preload",
-      "p",  "r"};
+      "id",      "weight", "tangential_stiffness", "tangential_stiffness_r", "normal_stiffness",
+      "friction_coefficient", "preload", "p", "r"};
   for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
     for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
   }
@@ -133,22 +133,6 @@ Eigen::MatrixXd shape_columns(const CsvTable& table, const std::string& stem, Ei
   return shapes;
 }
 
-/// A point that rubs and moves along r needs friction in two directions: never dropped in silence.
-void refuse_second_direction(const CsvTable& table, const ModalModel& model) {
-  for (Eigen::Index mode = 0; mode < model.shapes.w.cols(); ++mode) {
-    const auto column = table.find(fmt::format("phi_w_{}", mode + 1));
-    if (!column) continue;
-    for (std::size_t i = 0; i < table.n_rows(); ++i) {
-      const auto& point = model.points[i];
-      const bool rubs = point.friction_coefficient > 0.0 && point.tangential_stiffness > 0.0;
-      if (!rubs || table.at(i, *column) == 0.0) continue;
-      throw SceneError(table.place(i, *column) +
-                       "is not zero and the point has friction, which acts along p only in this "
-                       "version; turn p along the motion or leave phi_w out");
-    }
-  }
-}
-
 }  // namespace
 
 void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) {
@@ -168,7 +152,12 @@ void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) 
   model.shapes = {shape_columns(table, "phi_u_", n_modes, true),
                   shape_columns(table, "phi_v_", n_modes, false),
                   shape_columns(table, "phi_w_", n_modes, false)};
-  refuse_second_direction(table, model);
+  if (const auto second = table.find("tangential_stiffness_r")) {
+    model.second_stiffness.resize(model.weights.size());
+    for (std::size_t i = 0; i < table.n_rows(); ++i) {
+      model.second_stiffness[static_cast<Eigen::Index>(i)] = not_negative(table, i, *second);
+    }
+  }
   const auto p = table.find("p");
   const auto r = table.find("r");
   if (!p && !r) return;

@@ -38,6 +38,7 @@ void write_points(Hdf5Writer& out, const ReducedModel& model) {
   out.matrix("/contact/frame", model.frame, "1");
   write_shapes(out, "/contact/", model.shapes);
   out.vector("/contact/tangential_stiffness", model.tangential_stiffness, stiffness_unit);
+  out.vector("/contact/tangential_stiffness_r", model.second_stiffness, stiffness_unit);
   out.vector("/contact/normal_stiffness", model.normal_stiffness, stiffness_unit);
   out.vector("/contact/friction_coefficient", model.friction_coefficient, "1");
   out.vector("/contact/preload", model.preload, "Pa");
@@ -51,6 +52,8 @@ void write_vertices(Hdf5Writer& out, const ReducedModel& model) {
   out.integers("/contact/cells", model.cells.cast<std::int64_t>(), "1");
   write_shapes(out, "/contact/vertex_", model.vertex_shapes);
   out.vector("/contact/vertex_tangential_stiffness", model.vertex_tangential_stiffness,
+             stiffness_unit);
+  out.vector("/contact/vertex_tangential_stiffness_r", model.vertex_second_stiffness,
              stiffness_unit);
   out.vector("/contact/vertex_normal_stiffness", model.vertex_normal_stiffness, stiffness_unit);
   out.vector("/contact/vertex_friction_coefficient", model.vertex_friction_coefficient, "1");
@@ -76,6 +79,7 @@ void check_sizes(const std::filesystem::path& file, const ReducedModel& model) {
   check_size(file, "/output", model.output.size(), n_modes);
   check_size(file, "/contact/phi_u", model.shapes.u.rows(), n_points);
   check_size(file, "/contact/tangential_stiffness", model.tangential_stiffness.size(), n_points);
+  check_size(file, "/contact/tangential_stiffness_r", model.second_stiffness.size(), n_points);
   check_size(file, "/contact/normal_stiffness", model.normal_stiffness.size(), n_points);
   check_size(file, "/contact/friction_coefficient", model.friction_coefficient.size(), n_points);
   check_size(file, "/contact/preload", model.preload.size(), n_points);
@@ -116,6 +120,7 @@ ReducedModel read_model(const std::filesystem::path& file) {
   model.frame = frame;
   model.shapes = read_shapes(in, "/contact/");
   model.tangential_stiffness = in.vector("/contact/tangential_stiffness");
+  model.second_stiffness = in.vector("/contact/tangential_stiffness_r");
   model.normal_stiffness = in.vector("/contact/normal_stiffness");
   model.friction_coefficient = in.vector("/contact/friction_coefficient");
   model.preload = in.vector("/contact/preload");
@@ -127,6 +132,7 @@ ReducedModel read_model(const std::filesystem::path& file) {
   model.cells = in.integers("/contact/cells").cast<Eigen::Index>();
   model.vertex_shapes = read_shapes(in, "/contact/vertex_");
   model.vertex_tangential_stiffness = in.vector("/contact/vertex_tangential_stiffness");
+  model.vertex_second_stiffness = in.vector("/contact/vertex_tangential_stiffness_r");
   model.vertex_normal_stiffness = in.vector("/contact/vertex_normal_stiffness");
   model.vertex_friction_coefficient = in.vector("/contact/vertex_friction_coefficient");
   model.vertex_preload = in.vector("/contact/vertex_preload");

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <numbers>
 #include <ostream>
+#include <set>
 #include <system_error>
 
 #include "pipelines/output_file.hpp"
@@ -34,6 +35,11 @@ std::string duration_text(double seconds) {
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
+}
+
+/// What a line of history.csv begins with: curve, frequency, amplitude.
+std::string line_begin(const std::string& curve, const solver::ResponsePoint& point) {
+  return curve + ',' + format_number(hertz(point.frequency)) + ',' + format_number(point.amplitude);
 }
 
 std::string describe(const std::string& curve, const solver::ResponsePoint& point) {
@@ -68,7 +74,8 @@ void Progress::keep_in(const std::filesystem::path& folder) {
   log_->flush_on(spdlog::level::trace);  // a log that is complete when the process is killed
   for (const auto& [level, sentence] : unlogged_) log(level, sentence);
   unlogged_.clear();
-  history_.open(folder / "history.csv", std::ios::trunc);
+  history_file_ = folder / "history.csv";
+  history_.open(history_file_, std::ios::trunc);
   history_ << "curve,frequency_Hz,amplitude_m,stable,stick_share,slip_share,separated_share,"
               "iterations,mark,seconds\n"
            << std::flush;
@@ -110,6 +117,25 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
   } else {
     print_line(line);
   }
+}
+
+void Progress::settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points) {
+  const std::lock_guard lock(mutex_);
+  if (!history_.is_open() || history_lines_[curve] <= points.size()) return;
+  std::set<std::string> held;
+  for (const solver::ResponsePoint& point : points) held.insert(line_begin(curve, point));
+  history_.close();
+  std::ifstream all(history_file_);
+  if (!all) throw ExhaustedError(history_file_.string() + ": cannot be read any more");
+  std::string kept;
+  for (std::string line; std::getline(all, line);) {
+    const std::size_t end = line.find(',', line.find(',', curve.size() + 1) + 1);
+    if (line.starts_with(curve + ',') && !held.contains(line.substr(0, end))) continue;
+    kept.append(line).append("\n");
+  }
+  history_lines_[curve] = points.size();
+  write_whole(history_file_, kept);
+  history_.open(history_file_, std::ios::app);
 }
 
 void Progress::info(const std::string& sentence) { say(Level::info, sentence); }
@@ -207,8 +233,8 @@ void Progress::append_history(const std::string& curve, const solver::ResponsePo
   const char* mark = "";
   if (point.mark == solver::PointMark::peak) mark = "peak";
   if (point.mark == solver::PointMark::fold) mark = "fold";
-  history_ << curve << ',' << format_number(hertz(point.frequency)) << ','
-           << format_number(point.amplitude) << ',' << static_cast<int>(point.stability) << ','
+  ++history_lines_[curve];
+  history_ << line_begin(curve, point) << ',' << static_cast<int>(point.stability) << ','
            << format_number(point.report.stick_share) << ','
            << format_number(point.report.slip_share) << ','
            << format_number(point.report.separated_share) << ',' << point.iterations << ',' << mark

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -46,6 +47,10 @@ class Progress {
   /// A point of a curve is finished.
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
+  /// A curve is finished: lines of history.csv that it does not hold (of a sweep that was given up for
+  /// one from the other end) are taken out, the file written anew.
+  /// @throws ExhaustedError  it cannot be.
+  void settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points);
   void info(const std::string& sentence);
   void warning(const std::string& sentence);
   /// The error that ends a run: to the log; the program prints it itself.
@@ -85,6 +90,8 @@ class Progress {
   std::vector<std::pair<Level, std::string>> unlogged_;  ///< said before there was a log
   std::shared_ptr<spdlog::logger> log_;                  // shared: the library's own handle type
   std::ofstream history_;
+  std::filesystem::path history_file_;
+  std::map<std::string, std::size_t> history_lines_;  ///< of each curve
 };
 
 }  // namespace microslip::pipelines

@@ -9,17 +9,13 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "contact/patch_force.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-bool is_modal(const SceneDescription& scene) {
-  return std::holds_alternative<ModalModel>(scene.model);
-}
 
 /// Pressure of each point: the unit field times the load, or the gap the load stands for.
 Eigen::VectorXd pressures(const Eigen::VectorXd& unit, const Eigen::VectorXd& normal_stiffness,
@@ -58,17 +54,21 @@ void make_unique(std::vector<CurveRequest>& requests) {
 
 NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double load,
                 const std::string& name, const solver::ResponsePoint& point) {
-  const double wear = scene.contact ? scene.contact->wear_coefficient : 0.0;
+  const double wear = scene.contact ? scene.contact->wear_coefficient : scene.wear_coefficient;
   const int phases = scene.response->map_phases;
   NamedMap map;
   map.name = name;
   map.frequency_hz = point.frequency / two_pi;
-  map.points = contact::contact_map(point_parameters(model, load, false), model.shapes, point.q,
-                                    phases, wear);
-  if (model.vertices.rows() > 0) {
-    map.vertices = contact::contact_map(point_parameters(model, load, true), model.vertex_shapes,
-                                        point.q, phases, wear);
-  }
+  const bool closed_form = model.effects.closed_form();
+  const auto draw = [&](bool on_vertices) {
+    const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
+    return closed_form ? contact::contact_map(point_parameters(model, load, on_vertices), shapes,
+                                              point.q, phases, wear)
+                       : contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
+                                              point.frequency, phases, wear);
+  };
+  map.points = draw(false);
+  if (model.vertices.rows() > 0) map.vertices = draw(true);
   return map;
 }
 
@@ -76,7 +76,7 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
 
 std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
   std::vector<CurveRequest> requests;
-  if (!is_modal(scene)) {
+  if (!scene.response->preload.empty()) {
     for (const PreloadEntry& entry : scene.response->preload) requests.push_back(request_of(entry));
   } else {
     for (const double scale : scene.response->preload_scale) {
@@ -93,18 +93,19 @@ std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
 
 std::vector<contact::PointParameters> point_parameters(const ReducedModel& model, double load,
                                                        bool on_vertices) {
-  const bool meshed = model.vertices.rows() > 0;
+  const bool in_newtons = model.load_measure == LoadMeasure::force;
   const auto& stiffness = on_vertices ? model.vertex_normal_stiffness : model.normal_stiffness;
   const auto& tangential =
       on_vertices ? model.vertex_tangential_stiffness : model.tangential_stiffness;
   const auto& friction =
       on_vertices ? model.vertex_friction_coefficient : model.friction_coefficient;
   const auto& unit = on_vertices ? model.vertex_preload : model.preload;
-  const double total = meshed ? model.normal_stiffness.dot(model.weights) : 0.0;
-  if (meshed && load < 0.0 && total <= 0.0) {
+  const double total = in_newtons ? model.normal_stiffness.dot(model.weights) : 0.0;
+  if (in_newtons && load < 0.0 && total <= 0.0) {
     throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
   }
-  const Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
+  Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
+  if (!on_vertices && model.preload_offset.size() > 0) preload += model.preload_offset;
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(preload.size()));
   for (Eigen::Index i = 0; i < preload.size(); ++i) {
     points[static_cast<std::size_t>(i)] = {tangential[i], stiffness[i], friction[i], preload[i]};
@@ -116,27 +117,49 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   solver::Scene scene;
   scene.natural_frequency = model.frequency;
   scene.damping_ratio = model.damping_ratio;
-  scene.excitation = excitation(model, 1);
+  scene.excitation = excitation(model, model.effects.n_harmonics);
   scene.output = model.output;
-  if (model.weights.size() > 0) {
-    scene.contact = std::make_unique<contact::PatchForce>(
-        contact::ContactPatch(model.weights, point_parameters(model, load, false)), model.shapes);
-  }
+  scene.contact = contact_force(model, load);
   return scene;
 }
 
-void require_held(const ReducedModel& model) {
+void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
-  const solver::Scene scene = solver_scene(model, 1.0);
+  const solver::Scene problem = solver_scene(model, 1.0);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
-  if (scene.contact) stuck += scene.contact->stuck_stiffness();
+  if (problem.contact) stuck += problem.contact->stuck_stiffness();
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
   if (factors.isInvertible()) return;
+  const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
       "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
-      "with every contact point stuck): name the clamped surfaces in [supports] clamped",
-      n_rigid, model.frequency.size(), factors.dimensionOfKernel()));
+      "with every contact point stuck): {}",
+      n_rigid, model.frequency.size(), factors.dimensionOfKernel(),
+      has_supports ? "name the clamped surfaces in [supports] clamped"
+                   : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
+}
+
+void require_loads(const ReducedModel& model, const SceneDescription& scene) {
+  if (model.preload_offset.size() == 0) return;
+  double least = 0.0;  // load under which the first cell is just unloaded
+  for (Eigen::Index i = 0; i < model.preload.size(); ++i) {
+    if (model.preload_offset[i] < 0.0) {
+      least = std::max(least, -model.preload_offset[i] / model.preload[i]);
+    }
+  }
+  const auto refuse = [&](double load) {
+    throw RefusedError(fmt::format(
+        "preload_moment: under {:g} N some cells are unloaded by the moment; a unilateral equilibrium is "
+        "not available in this version: give at least {:.6g} N",
+        load, least));
+  };
+  for (const CurveRequest& request : curve_requests(scene)) {
+    const auto* load = std::get_if<double>(&request.preload);
+    if (load != nullptr && *load < least) refuse(*load);
+  }
+  const auto& range = scene.response->optimum_range;
+  if (range && (*range)[0] < least) refuse((*range)[0]);
 }
 
 solver::ContinuationOptions continuation_options(const ResponseDescription& response) {
@@ -187,9 +210,13 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
   };
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
-      const solver::Scene problem = solver_scene(model, *load);
-      const auto points = solver::points_at_frequency(
-          problem, result.curve, two_pi * *frequency, continuation_options(*scene.response));
+      const ResponseDescription& range = *scene.response;
+      const bool solved_there = *frequency == range.frequency_begin_hz &&
+                                *frequency == range.frequency_end_hz;
+      const auto points =
+          solved_there ? result.curve.points
+                       : solver::points_at_frequency(solver_scene(model, *load), result.curve,
+                                                     two_pi * *frequency, continuation_options(range));
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }

@@ -11,8 +11,8 @@
 
 namespace microslip::pipelines {
 
-/// What one curve is asked for: a preload (mesh kinds), a scale of the preload (modal scenes), or a
-/// linear limit.
+/// What one curve is asked for: a preload, a scale of the preload (modal scenes and bars), or a linear
+/// limit.
 struct CurveRequest {
   std::string name;                          ///< stem of the CSV
   std::variant<double, LimitName> preload;   ///< [N], or the scale
@@ -21,8 +21,8 @@ struct CurveRequest {
 /// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.
 [[nodiscard]] std::vector<CurveRequest> curve_requests(const SceneDescription& scene);
 
-/// Constants of the contact points under a preload. Mesh kinds: `load` is the total normal force [N],
-/// uniform pressure; negative: a uniform gap −load/∬k_v dA. Modal scenes: `load` scales the column.
+/// Constants of the contact points under a preload. By the measure of the model, `load` is the total normal
+/// force [N] (negative: a uniform gap −load/∬k_v dA) or scales the preload of the points.
 /// @throws RefusedError  a gap where the normal stiffness is zero.
 [[nodiscard]] std::vector<contact::PointParameters> point_parameters(const ReducedModel& model,
                                                                      double load, bool on_vertices);
@@ -30,10 +30,15 @@ struct CurveRequest {
 /// The same patch as the solver takes it. Modes and excitation of the model are copied.
 [[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
 
+/// A moment beside the preload leaves every cell loaded, for all loads the scene asks for: then the linear
+/// distribution of theory section 12 is the equilibrium.
+/// @throws RefusedError  it does not; the message names the least load that would do.
+void require_loads(const ReducedModel& model, const SceneDescription& scene);
+
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
-void require_held(const ReducedModel& model);
+void require_held(const ReducedModel& model, const SceneDescription& scene);
 
 /// Traces one curve: a solution at one frequency when the range has no width.
 [[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,

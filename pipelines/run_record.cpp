@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "fem/slepc_session.hpp"
+#include "mesh/element_shape.hpp"
 #include "pipelines/effects.hpp"
 #include "pipelines/exit_code.hpp"
 #include "pipelines/interrupt.hpp"
@@ -68,7 +69,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.title = scene.title;
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
-  summary_.effects = effects_of(scene);
+  summary_.effects = effects_of(scene, nullptr);
   if (!writes_) return;
   make_folder(folder_);
   require_writable(folder_);
@@ -129,6 +130,7 @@ void RunRecord::stage(const std::string& name) {
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   progress_.info(describe_mesh(mesh, density));
+  for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
   summary_.mesh = MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(),
                               density * mesh.volume()};
@@ -166,6 +168,11 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
 }
 
+void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
+  const std::lock_guard lock(mutex_);
+  summary_.effects = std::move(effects);
+}
+
 void RunRecord::keep_model(const ReducedModel& model) {
   const std::lock_guard lock(mutex_);
   Eigen::VectorXd residual(0);
@@ -200,10 +207,11 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                       : std::string()));
   CurveSummary summary = summarise(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
-      scale != nullptr && model.vertices.rows() == 0 && model.weights.size() > 0) {
+      scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }
+  progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
   summary_.curves.push_back(std::move(summary));
   write_curve(folder_, result, model.frequency.size());

@@ -47,6 +47,7 @@ class RunRecord {
   void keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
                   const Eigen::VectorXd& damping_ratio);
   /// model.h5; a modal scene's modes.csv as well.
+  void keep_effects(std::vector<EffectRecord> effects);
   void keep_model(const ReducedModel& model);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);

@@ -19,6 +19,22 @@
 
 namespace microslip::pipelines {
 
+/// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
+struct ContactEffects {
+  int n_harmonics = 1;
+  bool second_direction = false;
+  double motion_ratio = 0.0;  ///< motion along r against that along p in the linear limits [-]
+  std::optional<contact::FrictionLaw> friction_law;
+  std::optional<contact::RoughSurface> roughness;
+  /// With rough surfaces: stiffness of the surfaces in full contact, bodies not included [N/m³].
+  std::optional<double> local_tangential_stiffness, local_normal_stiffness;
+
+  /// The closed form of one harmonic and one direction does.
+  [[nodiscard]] bool closed_form() const {
+    return n_harmonics == 1 && !second_direction && !friction_law && !roughness;
+  }
+};
+
 /// What the response stage needs, and model.h5 holds. Contact arrays have n_points rows.
 struct ReducedModel {
   Eigen::VectorXd frequency;      ///< ω_n [rad/s], N
@@ -29,18 +45,24 @@ struct ReducedModel {
   Eigen::VectorXd weights;        ///< [m²]
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< rows p, q (outward normal), r
   contact::ModalShapes shapes;    ///< at the points
-  Eigen::VectorXd tangential_stiffness;  ///< [N/m³], residual part included
+  Eigen::VectorXd tangential_stiffness;  ///< along p [N/m³], residual part included
+  Eigen::VectorXd second_stiffness;      ///< along r [N/m³], likewise
   Eigen::VectorXd normal_stiffness;
   Eigen::VectorXd friction_coefficient;
-  Eigen::VectorXd preload;        ///< [Pa] at unit scale: total 1 N for mesh kinds, as given for modal ones
+  Eigen::VectorXd preload;        ///< [Pa] at unit load: total 1 N, or as given where the load is a scale
+  LoadMeasure load_measure = LoadMeasure::force;
+  Eigen::VectorXd preload_offset; ///< [Pa] added under every load: what moments give; empty: none
   int fit_degree = -1;            ///< −1: no fit
   Eigen::VectorXd fit_error;      ///< per mode; empty without a fit
   /// Cells of the patch for pictures: cell c belongs to point c. No cells: points only.
   Eigen::MatrixX3d vertices;
   mesh::Connectivity cells;       ///< n_points × 3 or 4
   contact::ModalShapes vertex_shapes;
-  Eigen::VectorXd vertex_tangential_stiffness, vertex_normal_stiffness;
+  Eigen::VectorXd vertex_tangential_stiffness, vertex_second_stiffness, vertex_normal_stiffness;
   Eigen::VectorXd vertex_friction_coefficient, vertex_preload;
+  /// Compliance of the omitted modes along p, q, r [m³/N]; without rows where there is none.
+  Eigen::MatrixX3d compliance, vertex_compliance;
+  ContactEffects effects;
 };
 
 struct NamedMap {

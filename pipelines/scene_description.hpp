@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 
 #include "contact/contact_patch.hpp"
+#include "contact/friction_law.hpp"
+#include "contact/rough_surface.hpp"
 #include "fem/material.hpp"
 #include "mesh/blade_geometry.hpp"
 
@@ -28,7 +30,13 @@ struct MeshFileModel {
   double length_unit = 1.0;    ///< metres per unit of the file
 };
 
-/// Modes and contact points given directly (interfaces.md, modal scenes).
+enum class ResidualKind { none, stiffness };
+
+/// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
+enum class LoadMeasure { scale, force };
+
+/// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
+/// `bar` and `chain`.
 struct ModalModel {
   Eigen::VectorXd frequency_hz;
   Eigen::VectorXd damping_ratio;
@@ -37,15 +45,17 @@ struct ModalModel {
   Eigen::VectorXd weights;
   std::vector<contact::PointParameters> points;
   contact::ModalShapes shapes;
+  Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
   Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
+  LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
+  Eigen::VectorXd preload_offset;  ///< added under every load [Pa]: what moments give; empty: none
+  ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
 };
 
 struct RayleighDamping {
   double alpha = 0.0;  ///< [1/s]
   double beta = 0.0;   ///< [s]
 };
-
-enum class ResidualKind { none, stiffness };
 
 struct ModesDescription {
   int count = 10;
@@ -55,13 +65,14 @@ struct ModesDescription {
 
 struct ContactDescription {
   std::string surface;
+  std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   double friction_coefficient = 0.0;
   std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
   std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
   enum class Fit { automatic, degree, none } fit = Fit::automatic;
   int fit_degree = 0;
-  double wear_coefficient = 0.0;  ///< [m²/N]
+  double wear_coefficient = 0.0;  ///< Archard [m²/N]
   int n_points = 300;             ///< at least so many contact points
 };
 
@@ -70,11 +81,13 @@ struct ForceDescription {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< normalised
   double amplitude = 0.0;                                ///< [N], total over the nodes of `at`
   double phase_deg = 0.0;
+  std::string place;  ///< "file:line: key" of `at`, for messages
 };
 
 struct OutputDescription {
   std::string at;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  std::string place;  ///< "file:line: key" of `at`, for messages
 };
 
 enum class LimitName { free, stuck };
@@ -96,14 +109,23 @@ struct ResponseDescription {
   int map_phases = 72;
 };
 
+/// What the constants of a point do not say about its contact.
+struct ContactLaws {
+  std::optional<contact::FrictionLaw> friction;      ///< in place of the coefficient of points that rub
+  std::optional<contact::RoughSurface> roughness;    ///< none: smooth
+};
+
 struct SceneDescription {
   std::string title;
   std::filesystem::path file;  ///< the scene file, "" for text
   std::variant<BladeModel, MeshFileModel, ModalModel> model;
   fem::Material material;
   std::vector<std::string> clamped;
+  std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   ModesDescription modes;
   std::optional<ContactDescription> contact;
+  ContactLaws laws;
+  double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml

@@ -9,8 +9,12 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "pipelines/bar_scene.hpp"
+#include "pipelines/chain_scene.hpp"
+#include "pipelines/contact_section.hpp"
 #include "pipelines/csv_table.hpp"
 #include "pipelines/modal_scene.hpp"
+#include "pipelines/modes_section.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
@@ -21,7 +25,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
-constexpr std::array<std::string_view, 3> kinds{"blade", "mesh", "modal"};
+constexpr std::array<std::string_view, 5> kinds{"blade", "mesh", "modal", "bar", "chain"};
 
 /// The scene while it is read: what was given, and the completed scene that grows beside it.
 struct Reading {
@@ -41,8 +45,12 @@ struct Reading {
   }
 
   SectionReader section(std::string_view name, std::string_view spec) {
+    return section(name, section_spec(spec));
+  }
+
+  SectionReader section(std::string_view name, SectionSpec spec) {
     const auto [position, added] = complete.insert_or_assign(name, toml::table{});
-    return {table(name), section_spec(spec), std::string(name), file, *position->second.as_table()};
+    return {table(name), spec, std::string(name), file, *position->second.as_table()};
   }
 };
 
@@ -149,97 +157,22 @@ std::vector<std::string> read_names(const SectionReader& s, std::string_view key
   return names;
 }
 
-double damping_in(const SectionReader& s, const toml::node& node) {
-  const double value = s.number_in(node, "damping_ratio");
-  if (value < 0.0) s.fail("damping_ratio", fmt::format("{:g} is negative", value), &node);
-  return value;
-}
-
 ModesDescription read_modes(const SectionReader& s) {
   ModesDescription modes;
   modes.count = s.integer("count");
-  const toml::node& damping = *s.node("damping_ratio");
-  if (const toml::table* table = damping.as_table()) {
-    RayleighDamping rayleigh;
-    for (const auto& [key, value] : *table) {
-      const bool alpha = key.str() == "alpha";
-      if (!alpha && key.str() != "beta") {
-        s.fail("damping_ratio", fmt::format("unknown key \"{}\"; known: alpha, beta", key.str()),
-               &value);
-      }
-      (alpha ? rayleigh.alpha : rayleigh.beta) = damping_in(s, value);
-    }
-    modes.damping = rayleigh;
-  } else if (const toml::array* list = damping.as_array()) {
-    std::vector<double> ratios;
-    for (const toml::node& entry : *list) ratios.push_back(damping_in(s, entry));
-    if (static_cast<int>(ratios.size()) != modes.count) {
-      s.fail(
-          "damping_ratio",
-          fmt::format("{} values for {} modes; give one, or one each", ratios.size(), modes.count),
-          &damping);
-    }
-    modes.damping = ratios;
-  } else {
-    modes.damping = std::vector<double>{damping_in(s, damping)};
+  modes.damping = read_damping(s);
+  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
+  const toml::node* given = s.node("damping_ratio");
+  if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
+    s.fail(
+        "damping_ratio",
+        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
+        given);
   }
   constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
   modes.residual =
       s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::stiffness;
   return modes;
-}
-
-std::optional<double> read_stiffness(const SectionReader& s, std::string_view key) {
-  const toml::node& node = *s.node(key);
-  if (node.is_string() && *node.value<std::string>() == "rigid") return std::nullopt;
-  constexpr std::array<std::string_view, 1> words{"rigid"};
-  return s.number_or_word_in(node, key, words);
-}
-
-double read_friction(const SectionReader& s) {
-  const toml::node& node = *s.node("friction_coefficient");
-  if (node.is_string()) {
-    try {
-      static_cast<void>(to_si(*node.value<std::string>(), "1"));
-    } catch (const UnitError& error) {
-      s.fail(
-          "friction_coefficient",
-          fmt::format("{}; expressions in p and r are not available in this version", error.what()),
-          &node);
-    }
-  }
-  return s.number("friction_coefficient");
-}
-
-ContactDescription read_contact(const SectionReader& s) {
-  ContactDescription contact;
-  if (const toml::node* surface = s.node("surface"); surface->is_array()) {
-    s.fail("surface", "two facing bodies are not available in this version; name one surface",
-           surface);
-  }
-  contact.surface = s.text("surface");
-  contact.slip_direction = s.direction("slip_direction");
-  contact.friction_coefficient = read_friction(s);
-  contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
-  contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
-  contact.wear_coefficient = s.number("wear_coefficient");
-  contact.n_points = s.integer("points");
-  const toml::node& fit = *s.node("fit");
-  if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
-    if (*word != "auto" && *word != "none") {
-      s.fail("fit", "expected a degree, \"auto\" or \"none\"", &fit);
-    }
-    contact.fit =
-        *word == "auto" ? ContactDescription::Fit::automatic : ContactDescription::Fit::none;
-  } else {
-    const auto degree = fit.value<std::int64_t>();
-    if (!fit.is_integer() || *degree < 0 || *degree > 30) {
-      s.fail("fit", "expected a degree from 0 to 30, \"auto\" or \"none\"", &fit);
-    }
-    contact.fit = ContactDescription::Fit::degree;
-    contact.fit_degree = static_cast<int>(*degree);
-  }
-  return contact;
 }
 
 std::vector<ForceDescription> read_forces(SectionReader& s) {
@@ -256,6 +189,7 @@ std::vector<ForceDescription> read_forces(SectionReader& s) {
                               s.file(), complete);
     ForceDescription description;
     description.at = force.text("at");
+    description.place = force.place("at");
     description.direction = force.direction("direction");
     description.amplitude = force.number("amplitude");
     description.phase_deg = force.number("phase");
@@ -272,7 +206,7 @@ OutputDescription read_output(const SectionReader& s) {
   toml::table complete;
   const SectionReader output(node.as_table(), section_spec("output"), "response.output", s.file(),
                              complete);
-  return {output.text("at"), output.direction("direction")};
+  return {output.text("at"), output.direction("direction"), output.place("at")};
 }
 
 double frequency_in(const SectionReader& s, const toml::node& node) {
@@ -320,10 +254,11 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   constexpr std::array<std::string_view, 1> methods{"harmonic_balance"};
   static_cast<void>(s.word("method", methods));
   const toml::node& harmonics = *s.node("harmonics");
-  if (!harmonics.is_integer() || *harmonics.value<std::int64_t>() != 1) {
-    s.fail("harmonics", "mean and first harmonic only in this version: expected 1", &harmonics);
+  if (!harmonics.is_integer()) {
+    s.fail("harmonics", "expected a whole number; \"auto\" is not available in this version",
+           &harmonics);
   }
-  response.harmonics = 1;
+  response.harmonics = s.integer("harmonics");
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
@@ -336,9 +271,9 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
   return s.number_or_word_in(entry, "preload", words);
 }
 
-ResponseDescription read_response(const SectionReader& s) {
+/// Range, method, preloads and maps: what scenes with a preload in newtons share.
+ResponseDescription read_loads(const SectionReader& s) {
   ResponseDescription response;
-  response.output = read_output(s);
   read_range(s, response);
   read_method(s, response);
   const toml::node& preload = *s.node("preload");
@@ -372,6 +307,13 @@ ResponseDescription read_response(const SectionReader& s) {
   return response;
 }
 
+ResponseDescription read_response(const SectionReader& s) {
+  const OutputDescription output = read_output(s);
+  ResponseDescription response = read_loads(s);
+  response.output = output;
+  return response;
+}
+
 ResponseDescription read_modal_response(const SectionReader& s) {
   ResponseDescription response;
   read_range(s, response);
@@ -394,21 +336,35 @@ ResponseDescription read_modal_response(const SectionReader& s) {
   return response;
 }
 
-/// Effects this version simulates wherever the scene has them, and those it does not have yet.
+/// An effect that a key of another section switches: a setting that contradicts it is refused.
+void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
+                         const SceneDescription& scene) {
+  const bool has = name == "higher_harmonics" ? scene.response && scene.response->harmonics > 1
+                   : name == "roughness"      ? scene.laws.roughness.has_value()
+                                              : scene.laws.friction.has_value();
+  const char* key = name == "higher_harmonics" ? "response.harmonics"
+                    : name == "roughness"      ? "contact.roughness"
+                                               : "a law of contact.friction_coefficient";
+  if (setting == "on" && !has) s.fail(name, fmt::format("needs {}", key), s.node(name));
+  if (setting == "off" && has) {
+    s.fail(name, fmt::format("contradicts {}: leave that out", key), s.node(name));
+  }
+}
+
 /// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
 std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
+                                                              const SceneDescription& scene,
                                                               bool has_residual) {
   constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
-  constexpr std::array<std::string_view, 4> later{"second_direction", "higher_harmonics",
-                                                  "roughness", "rate_dependence"};
+  // Simulated where the scene asks for them elsewhere.
+  constexpr std::array<std::string_view, 3> by_key{"higher_harmonics", "roughness",
+                                                   "rate_dependence"};
   std::vector<std::pair<std::string, std::string>> effects;
   for (const KeySpec& key : section_spec("effects").keys) {
     const std::string setting = s.word(key.name, settings);
-    const bool comes_later = std::find(later.begin(), later.end(), key.name) != later.end();
-    if (comes_later && setting == "on") {
-      s.fail(key.name, "is not available in this version", s.node(key.name));
-    }
-    if (!comes_later && setting == "off") {
+    if (std::find(by_key.begin(), by_key.end(), key.name) != by_key.end()) {
+      check_effect_of_key(s, key.name, setting, scene);
+    } else if (key.name != "second_direction" && setting == "off") {
       s.fail(key.name, "cannot be switched off in this version; expected auto or on",
              s.node(key.name));
     }
@@ -437,10 +393,12 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
     scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
   }
   scene.material = read_material(reading.section("material", "material"));
-  scene.clamped = read_names(reading.section("supports", "supports"), "clamped");
+  const SectionReader supports = reading.section("supports", "supports");
+  scene.clamped = read_names(supports, "clamped");
+  scene.clamped_place = supports.place("clamped");
   scene.modes = read_modes(reading.section("modes", "modes"));
   if (reading.given.contains("contact")) {
-    scene.contact = read_contact(reading.section("contact", "contact"));
+    scene.contact = read_contact(reading.section("contact", "contact"), scene.laws);
   }
   SectionReader excitation = reading.section("excitation", "excitation");
   scene.forces = read_forces(excitation);
@@ -454,9 +412,31 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
 void read_modal_scene(Reading& reading, SceneDescription& scene) {
   static_cast<void>(reading.section("model", "model.modal"));
   scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
+  scene.laws = read_contact_laws(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     scene.response = read_modal_response(reading.section("response", "response.modal"));
   }
+}
+
+/// The kinds that have formulas for their modes end in the same model as a modal scene.
+void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  const auto section = [&](std::string_view name) {
+    return reading.section(name, section_spec(name, kind));
+  };
+  const LeanSections sections{section("model"), section("modes"), section("contact"),
+                              section("excitation")};
+  std::string output;
+  if (reading.given.contains("response")) {
+    const SectionReader response = section("response");
+    scene.response = kind == "bar" ? read_modal_response(response) : read_loads(response);
+    if (kind == "chain") output = response.text("output");
+  }
+  const ModalModel model = kind == "bar" ? read_bar(sections) : read_chain(sections, output);
+  if (model.points.empty() && reading.given.contains("response")) {
+    refuse_contact_keys(section("response"));
+  }
+  scene.modes.residual = model.residual;
+  scene.model = model;
 }
 
 }  // namespace
@@ -479,11 +459,13 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   reading.complete.insert_or_assign("title", scene.title);
   if (kind == "modal") {
     read_modal_scene(reading, scene);
+  } else if (kind == "bar" || kind == "chain") {
+    read_lean_scene(reading, kind, scene);
   } else {
     read_meshed(reading, kind, scene);
   }
   const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
-  scene.effects = read_effects(reading.section("effects", "effects"), has_residual);
+  scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

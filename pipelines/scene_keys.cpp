@@ -18,7 +18,7 @@ constexpr KeySpec length_key(std::string_view name, std::string_view preset,
   return {name, number, "m", preset, 0.0, 10.0, true, meaning};
 }
 
-constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal"};
+constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal | bar | chain"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
 constexpr std::array blade_keys{
@@ -52,6 +52,31 @@ constexpr std::array mesh_keys{
 
 constexpr std::array modal_model_keys{kind_key};
 
+constexpr std::array bar_model_keys{
+    kind_key,
+    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"area", number, "m^2", "", 0.0, unbounded, true, "A, cross-section"},
+    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+    KeySpec{"length", number, "m", "", 0.0, unbounded, true, "L; the left end is x = 0, the right one is free"},
+    KeySpec{"end_stiffness", other, "N/m", "\"clamped\"", 0, 0, false,
+            "β, spring that holds the left end: a stiffness, \"clamped\", or 0 (free)"},
+};
+
+constexpr std::array chain_model_keys{
+    kind_key,
+    KeySpec{"coordinates", other, "", "", 0, 0, false,
+            "names of the coordinates; else m1, m2, … in order", true},
+    KeySpec{"masses", other, "kg", "", 0, 0, false,
+            "a chain: m1 … mn (with springs; the alternatives are matrices, or modes)", true},
+    KeySpec{"springs", other, "N/m", "", 0, 0, false,
+            "a chain: ground–m1, m1–m2, …, and, if one more is given, mn–ground; 0: none", true},
+    KeySpec{"mass_matrix", other, "kg", "", 0, 0, false, "any system: M, symmetric, a list of rows", true},
+    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false, "any system: K, symmetric, a list of rows", true},
+    KeySpec{"frequency", other, "Hz", "", 0, 0, false, "given modes: natural frequencies, one per mode", true},
+    KeySpec{"mode_shapes", other, "1/kg^0.5", "", 0, 0, false,
+            "given modes: one row per mode, mass-normalised, a number per coordinate", true},
+};
+
 constexpr std::array material_keys{
     KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
     KeySpec{"poissons_ratio", number, "1", "", -1.0, 0.4999, true, "ν"},
@@ -62,25 +87,94 @@ constexpr std::array support_keys{
     KeySpec{"clamped", other, "", "[]", 0, 0, false, "names of surfaces, or sets of edges or nodes, that are held"},
 };
 
+constexpr KeySpec damping_key{"damping_ratio", other, "1", "0.002", 0, 0, false,
+                              "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"};
+
 constexpr std::array mode_keys{
     KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes"},
-    KeySpec{"damping_ratio", other, "1", "0.002", 0, 0, false,
-            "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"},
+    damping_key,
     KeySpec{"residual", text, "", "\"stiffness\"", 0, 0, false,
             "omitted modes on the contact: stiffness | none"},
+};
+
+constexpr std::array bar_mode_keys{
+    KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes, the lowest ones"},
+    KeySpec{"which", other, "", "", 0, 0, false,
+            "the modes by number, whatever the count: [2] keeps the second alone", true},
+    damping_key,
+    KeySpec{"residual", text, "", "\"none\"", 0, 0, false,
+            "omitted modes on the contact: stiffness | none"},
+};
+
+constexpr std::array chain_mode_keys{
+    KeySpec{"count", integer, "", "", 1, 1000, false, "number of modes, the lowest ones; else all", true},
+    damping_key,
+};
+
+constexpr KeySpec friction_key{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"};
+
+constexpr std::array bar_contact_keys{
+    KeySpec{"tangential_stiffness", number, "N/m^2", "", 0.0, unbounded, false, "per length of the bar"},
+    friction_key,
+    KeySpec{"load", other, "N/m", "", 0, 0, false,
+            "normal force per length, constant in time: a number, or an expression in x and L such as "
+            "\"2000*(0.2 + 0.8*(2*x/L - 1)^2)\""},
+    KeySpec{"points", integer, "", "200", 1, 10'000'000, false, "contact points along the bar"},
+};
+
+constexpr std::array bar_excitation_keys{
+    KeySpec{"force", number, "N", "", -unbounded, unbounded, false, "F in F sin θ along the bar, at its right end"},
+};
+
+constexpr std::array chain_contact_keys{
+    KeySpec{"points", other, "", "[]", 0, 0, false, "contacts, a list of tables"},
+};
+
+constexpr std::array chain_contact_point_keys{
+    KeySpec{"slip", other, "1", "", 0, 0, false,
+            "coordinate that rubs, or a relative motion { m1 = 1, m2 = -1 }"},
+    KeySpec{"approach", other, "1", "", 0, 0, false, "the same for the normal motion, positive when it closes", true},
+    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "k_u of the contact"},
+    KeySpec{"normal_stiffness", number, "N/m", "0", 0.0, unbounded, false, "k_v; 0: constant load"},
+    friction_key,
+    KeySpec{"share", number, "1", "1", 0.0, unbounded, false, "of the total preload, relative to the other contacts"},
+    KeySpec{"cells", other, "", "[1, 1]", 0, 0, false, "an area instead of a point: cells along p (slip) and r"},
+    KeySpec{"size", other, "m", "", 0.0, unbounded, true, "of the area along p and r", true},
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false, "about p and r, given to the cells beside the force"},
+};
+
+constexpr std::array chain_force_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "coordinate"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "F in F sin(θ + phase)"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr KeySpec roughness_key{"roughness", other, "m", "", 0.0, unbounded, false,
+                                "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two", true};
+constexpr KeySpec wear_key{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
+                           "Archard: depth per (pressure × slip distance)"};
+
+constexpr std::array modal_contact_keys{
+    KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
+            "of all points that rub, in place of their coefficient: { law = \"exponential\", static = …, "
+            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }", true},
+    roughness_key,
+    wear_key,
 };
 
 constexpr std::array contact_keys{
     KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
     KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
-    KeySpec{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"},
+    KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
+            "μ, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "{ law = \"hyperbolic\", static = …, rate = … }"},
+    roughness_key,
     KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
             "local stiffness per area, or \"rigid\": the residual stiffness alone"},
     KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
     KeySpec{"fit", other, "", "\"auto\"", 0, 0, false,
             "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
-    KeySpec{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
-            "Archard: depth per (pressure × slip distance)"},
+    wear_key,
     KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
 };
 
@@ -103,21 +197,40 @@ constexpr std::array output_keys{
 constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
                                 "from, to (either order): a curve; a single value: the solution there"};
 constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false, "harmonic_balance"};
-constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 1, false, "highest harmonic"};
+constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
 constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};
+
+constexpr KeySpec preload_key{
+    "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
+    "total normal force, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
+constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
+                              "\"preload\": solve for the best one", true};
+constexpr KeySpec optimum_range_key{
+    "optimum_range", other, "N", "", 0, 0, false,
+    "[low, high] of the search; else the smallest and largest positive preload", true};
 
 constexpr std::array response_keys{
     KeySpec{"output", other, "", "", 0, 0, false, "{ at = …, direction = […] }: the displacement that is told"},
     frequency_key,
     method_key,
     harmonics_key,
-    KeySpec{"preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
-            "total normal force, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""},
-    KeySpec{"optimum", text, "", "", 0, 0, false, "\"preload\": solve for the best one", true},
-    KeySpec{"optimum_range", other, "N", "", 0, 0, false,
-            "[low, high] of the search; else the smallest and largest positive preload", true},
+    preload_key,
+    optimum_key,
+    optimum_range_key,
+    maps_key,
+    phases_key,
+};
+
+constexpr std::array chain_response_keys{
+    KeySpec{"output", text, "", "", 0, 0, false, "coordinate that is told"},
+    frequency_key,
+    method_key,
+    harmonics_key,
+    preload_key,
+    optimum_key,
+    optimum_range_key,
     maps_key,
     phases_key,
 };
@@ -152,7 +265,7 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
-constexpr std::array<SectionSpec, 14> sections{{
+constexpr std::array<SectionSpec, 27> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -160,6 +273,7 @@ constexpr std::array<SectionSpec, 14> sections{{
     {"supports", support_keys},
     {"modes", mode_keys},
     {"contact", contact_keys},
+    {"contact.modal", modal_contact_keys},
     {"excitation", excitation_keys},
     {"force", force_keys},
     {"output", output_keys},
@@ -167,11 +281,26 @@ constexpr std::array<SectionSpec, 14> sections{{
     {"response.modal", modal_response_keys},
     {"modal", modal_keys},
     {"effects", effect_keys},
+    {"model.bar", bar_model_keys},
+    {"modes.bar", bar_mode_keys},
+    {"contact.bar", bar_contact_keys},
+    {"excitation.bar", bar_excitation_keys},
+    {"response.bar", modal_response_keys},
+    {"model.chain", chain_model_keys},
+    {"modes.chain", chain_mode_keys},
+    {"contact.chain", chain_contact_keys},
+    {"contact.chain.point", chain_contact_point_keys},
+    {"response.chain", chain_response_keys},
+    {"force.chain", chain_force_keys},
+    {"excitation.chain", excitation_keys},
 }};
 
 constexpr std::array<std::string_view, 8> mesh_sections{
     "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
-constexpr std::array<std::string_view, 4> modal_sections{"model", "modal", "response", "effects"};
+constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
+                                                         "effects"};
+constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain
+    "model", "modes", "contact", "excitation", "response", "effects"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -197,8 +326,16 @@ SectionSpec section_spec(std::string_view name) {
   throw std::logic_error("no scene section " + std::string(name));
 }
 
+SectionSpec section_spec(std::string_view section, std::string_view kind) {
+  const std::string own = fmt::format("{}.{}", section, kind);
+  const bool has_own = std::any_of(sections.begin(), sections.end(),
+                                   [&](const SectionSpec& spec) { return spec.name == own; });
+  return section_spec(has_own ? std::string_view(own) : section);
+}
+
 std::span<const std::string_view> sections_of_kind(std::string_view kind) {
   if (kind == "modal") return modal_sections;
+  if (kind == "bar" || kind == "chain") return lean_sections;
   return mesh_sections;
 }
 

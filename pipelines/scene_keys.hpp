@@ -38,10 +38,14 @@ struct SectionSpec {
   std::span<const KeySpec> keys;
 };
 
-/// Keys of a section. `name` "model.blade", "model.mesh", "model.modal" are the three kinds of [model];
-/// "force" and "output" the inline tables of that name.
+/// Keys of a section by the name of its table: "material"; "model.blade" and the like where a kind has
+/// keys of its own; "force", "output", "contact.chain.point" the inline tables of that name.
 /// @throws std::logic_error  no such section: a mistake of the program.
 [[nodiscard]] SectionSpec section_spec(std::string_view name);
+
+/// Keys of a section as scenes of a kind know it: "section.kind" where there is one, else "section".
+/// @throws std::logic_error  as above.
+[[nodiscard]] SectionSpec section_spec(std::string_view section, std::string_view kind);
 
 /// Sections a scene of a kind may have, in the order of a template.
 [[nodiscard]] std::span<const std::string_view> sections_of_kind(std::string_view kind);

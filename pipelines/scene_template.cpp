@@ -1,8 +1,11 @@
 #include "pipelines/scene_template.hpp"
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_keys.hpp"
@@ -11,8 +14,10 @@ namespace microslip::pipelines {
 namespace {
 
 /// Values for keys without a default: an example that runs.
-const std::map<std::string, std::string, std::less<>>& examples() {
-  static const std::map<std::string, std::string, std::less<>> values{
+using Examples = std::map<std::string, std::string, std::less<>>;
+
+const Examples& mesh_examples() {
+  static const Examples values{
       {"model.file", "\"blade.msh\""},
       {"material.youngs_modulus", "\"210 GPa\""},
       {"material.poissons_ratio", "0.3"},
@@ -33,8 +38,8 @@ const std::map<std::string, std::string, std::less<>>& examples() {
   return values;
 }
 
-const std::map<std::string, std::string, std::less<>>& modal_examples() {
-  static const std::map<std::string, std::string, std::less<>> values{
+const Examples& modal_examples() {
+  static const Examples values{
       {"modal.frequency", "[15.9, 41.4]"},
       {"modal.damping_ratio", "[0.01, 0.01]"},
       {"modal.force_sine", "[0.0, 0.3]"},
@@ -49,44 +54,95 @@ const std::map<std::string, std::string, std::less<>>& modal_examples() {
   return values;
 }
 
-void add_section(std::string& text, std::string_view name, std::string_view spec,
-                 const std::map<std::string, std::string, std::less<>>& values,
-                 std::string_view kind) {
-  text += fmt::format("\n[{}]\n", name);
+const Examples& bar_examples() {
+  static const Examples values{
+      {"model.youngs_modulus", "\"200 GPa\""},
+      {"model.area", "\"1 cm^2\""},
+      {"model.density", "\"7800 kg/m^3\""},
+      {"model.length", "\"1.03 m\""},
+      {"model.end_stiffness", "\"80 kN/mm\""},
+      {"contact.tangential_stiffness", "\"1e7 N/m^2\""},
+      {"contact.friction_coefficient", "0.3"},
+      {"contact.load", "\"2000*(0.2 + 0.8*(2*x/L - 1)^2)\""},
+      {"excitation.force", "\"200 N\""},
+      {"response.frequency", "[\"900 Hz\", \"1200 Hz\"]"},
+      {"response.maps", "[\"peak\"]"},
+  };
+  return values;
+}
+
+const Examples& chain_examples() {
+  static const Examples values{
+      {"model.masses", "[\"1 kg\", \"1 kg\"]"},
+      {"model.springs", "[\"41 kN/m\", \"41 kN/m\"]"},
+      {"modes.damping_ratio", "\"2 %\""},
+      {"excitation.forces", "[\n  { at = \"m2\", amplitude = \"10 N\", phase = 0 },\n]"},
+      {"contact.points",
+       "[\n  { slip = \"m1\", tangential_stiffness = \"40 kN/m\", friction_coefficient = 0.5 "
+       "},\n]"},
+      {"response.output", "\"m2\""},
+      {"response.frequency", "[\"18 Hz\", \"28 Hz\"]"},
+      {"response.preload", "[\"free\", 10, 30, 100, \"stuck\"]"},
+  };
+  return values;
+}
+
+const Examples& examples_of(std::string_view kind) {
+  if (kind == "modal") return modal_examples();
+  if (kind == "bar") return bar_examples();
+  if (kind == "chain") return chain_examples();
+  return mesh_examples();
+}
+
+/// Meaning, unit, range and default of a key. @param value  as the template writes it.
+std::string description(const KeySpec& key, const std::string& value) {
+  std::string text(key.meaning);
+  if (!key.unit.empty() && key.unit != "1") text += fmt::format(" [{}]", key.unit);
+  if (key.type == KeyType::number || key.type == KeyType::integer) text += "; " + range_text(key);
+  if (!key.preset.empty() && value != key.preset) text += fmt::format("; default {}", key.preset);
+  return text;
+}
+
+/// The keys of the tables in a list, told above the list.
+void add_table_keys(std::string& text, std::string_view spec) {
   for (const KeySpec& key : section_spec(spec).keys) {
+    text += fmt::format("#   {}: {}{}\n", key.name, description(key, ""),
+                        key.optional ? "; optional" : "");
+  }
+}
+
+void add_section(std::string& text, std::string_view name, std::string_view kind) {
+  const Examples& values = examples_of(kind);
+  text += fmt::format("\n[{}]\n", name);
+  for (const KeySpec& key : section_spec(name, kind).keys) {
     std::string value(key.preset);
     if (name == "model" && key.name == "kind") value = fmt::format("\"{}\"", kind);
     const auto example = values.find(fmt::format("{}.{}", name, key.name));
     if (example != values.end()) value = example->second;
-    text += fmt::format("# {}", key.meaning);
-    if (!key.unit.empty() && key.unit != "1") text += fmt::format(" [{}]", key.unit);
-    if (key.type == KeyType::number || key.type == KeyType::integer) {
-      text += "; " + range_text(key);
+    text += "# " + description(key, value);
+    if (value.empty()) {
+      text += fmt::format("; optional\n# {} =\n", key.name);
+      continue;
     }
-    if (!key.preset.empty() && value != key.preset) text += fmt::format("; default {}", key.preset);
-    text += value.empty() ? fmt::format("; optional\n# {} =\n", key.name)
-                          : fmt::format("\n{} = {}\n", key.name, value);
+    text += '\n';
+    if (kind == "chain" && key.name == "points") add_table_keys(text, "contact.chain.point");
+    text += fmt::format("{} = {}\n", key.name, value);
   }
 }
 
 }  // namespace
 
 std::string scene_template(std::string_view kind) {
-  if (kind != "blade" && kind != "mesh" && kind != "modal") {
-    throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: blade, mesh, "
-                                 "modal", kind));
+  constexpr std::array<std::string_view, 5> kinds{"blade", "mesh", "modal", "bar", "chain"};
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+    throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: {}", kind,
+                                 fmt::join(kinds, ", ")));
   }
   std::string text = fmt::format(
       "# A scene of kind \"{0}\". Values are SI, or texts with a unit: \"210 GPa\", \"2.5 mm\", "
       "\"0.2 %\".\ntitle = \"A {0} scene\"\n",
       kind);
-  const bool modal = kind == "modal";
-  for (const std::string_view section : sections_of_kind(kind)) {
-    std::string spec(section);
-    if (section == "model") spec = fmt::format("model.{}", kind);
-    if (section == "response" && modal) spec = "response.modal";
-    add_section(text, section, spec, modal ? modal_examples() : examples(), kind);
-  }
+  for (const std::string_view section : sections_of_kind(kind)) add_section(text, section, kind);
   return text;
 }
 

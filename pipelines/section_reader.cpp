@@ -195,6 +195,11 @@ Eigen::Vector3d SectionReader::direction(std::string_view key) const {
   return vector / size;
 }
 
+std::string SectionReader::place(std::string_view key) const {
+  const toml::node* node = given(key) ? given_->get(key) : given_;
+  return fmt::format("{}: {}{}{}", place_of(node, file_), path_, path_.empty() ? "" : ".", key);
+}
+
 void SectionReader::fail(std::string_view key, const std::string& message,
                          const toml::node* at) const {
   const toml::node* node = at != nullptr ? at : given_;

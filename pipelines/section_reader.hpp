@@ -50,6 +50,8 @@ class SectionReader {
   /// "file:line: path.key: message" as a SceneError.
   [[noreturn]] void fail(std::string_view key, const std::string& message,
                          const toml::node* at = nullptr) const;
+  /// "file:line: path.key", what messages about the value of a key begin with.
+  [[nodiscard]] std::string place(std::string_view key) const;
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& path() const { return path_; }
 

@@ -6,8 +6,23 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/contact_stage.hpp"
+#include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
+namespace {
+
+/// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
+template <typename LookUp>
+void require_name(const std::string& place, const LookUp& look_up) {
+  try {
+    static_cast<void>(look_up());
+  } catch (const mesh::MeshError& error) {
+    throw SceneError(place + ": " + error.what());
+  }
+}
+
+}  // namespace
+
 mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
     mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file);
@@ -32,10 +47,19 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
 }
 
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  for (const std::string& name : scene.clamped) static_cast<void>(mesh.node_set(name));
-  for (const ForceDescription& force : scene.forces) static_cast<void>(mesh.node_set(force.at));
-  if (scene.response) static_cast<void>(mesh.node_set(scene.response->output.at));
-  if (scene.contact) static_cast<void>(contact_frame(mesh, *scene.contact));
+  for (const std::string& name : scene.clamped) {
+    require_name(scene.clamped_place, [&] { return mesh.node_set(name); });
+  }
+  for (const ForceDescription& force : scene.forces) {
+    require_name(force.place, [&] { return mesh.node_set(force.at); });
+  }
+  if (scene.response) {
+    const OutputDescription& output = scene.response->output;
+    require_name(output.place, [&] { return mesh.node_set(output.at); });
+  }
+  if (!scene.contact) return;
+  require_name(scene.contact->place, [&] { return mesh.surface(scene.contact->surface); });
+  static_cast<void>(contact_frame(mesh, *scene.contact));
 }
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {

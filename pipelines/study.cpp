@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "mesh/element_shape.hpp"
+#include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/curve_family.hpp"
+#include "pipelines/effects.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/run_record.hpp"
 #include "pipelines/structure_stage.hpp"
@@ -18,7 +21,9 @@ namespace {
 /// mesh → modes → contact: the finite-element half, or the numbers a modal scene gives.
 ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    const ReducedModel model = reduced_model(*modal);
+    ReducedModel model = reduced_model(*modal);
+    model.effects = contact_effects(model, scene);
+    record.keep_effects(effects_of(scene, &model));
     record.keep_model(model);
     return model;
   }
@@ -31,10 +36,12 @@ ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
   record.keep_modes(mesh, structure, damping_ratios(scene.modes, structure.basis.frequency));
   record.stage("contact");
   std::vector<std::string> warnings;
-  const ReducedModel model =
+  ReducedModel model =
       reduce_to_contact(mesh, scene, structure.basis,
                         structure.residual ? &*structure.residual : nullptr, warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
+  model.effects = contact_effects(model, scene);
+  record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);
   record.keep_structure(mesh, std::move(structure.basis));
   return model;
@@ -53,7 +60,8 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
   return record.run([&] {
     require_response(scene);
     const ReducedModel model = reduce(scene, record);
-    require_held(model);
+    require_held(model, scene);
+    require_loads(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.stage("maps");
@@ -78,8 +86,9 @@ int modes_study(const SceneDescription& scene, const RunOptions& options) {
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {
   const mesh::Mesh mesh = obtain_mesh(scene, options.output);
   check_names(mesh, scene);
-  std::cout << describe_mesh(mesh, scene.material.density) << "\nwritten: " << options.output.string()
-            << '\n';
+  std::cout << describe_mesh(mesh, scene.material.density) << '\n';
+  for (const std::string& warning : mesh::shape_warnings(mesh)) std::cerr << "warning: " << warning << '\n';
+  std::cout << "written: " << options.output.string() << '\n';
   return static_cast<int>(ExitCode::complete);
 }
 

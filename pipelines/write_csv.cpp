@@ -49,7 +49,8 @@ std::string cell(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n
 std::string curve_table(const solver::ResponseCurve& curve) {
   std::string table =
       "frequency_Hz,amplitude_m,amplitude_1_m,mean_m,phase_deg,stable,stick_share,slip_share,"
-      "separated_share,three_states_share,residual,energy_imbalance,dissipation_mismatch,mark\n";
+      "separated_share,three_states_share,residual,energy_imbalance,dissipation_mismatch,mark,"
+      "awake_share,iterations\n";
   for (const solver::ResponsePoint& point : curve.points) {
     append_row(table, {point.frequency / two_pi, point.amplitude, point.first_amplitude, point.mean,
                        point.phase * degrees});
@@ -59,7 +60,7 @@ std::string curve_table(const solver::ResponseCurve& curve) {
                        point.residual, point.energy_imbalance, point.dissipation_mismatch});
     table += ",";
     table += mark_name(point.mark);
-    table += "\n";
+    table += fmt::format(",{},{}\n", format_number(point.report.awake_share), point.iterations);
   }
   return table;
 }

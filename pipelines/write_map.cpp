@@ -72,6 +72,8 @@ void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map
   add_array(data, "dissipated_energy_J_per_m2", map.dissipated_energy);
   add_array(data, "slip_distance_m", map.slip_distance);
   add_array(data, "wear_depth_m", map.wear_depth);
+  add_array(data, "slip_duration", map.slip_duration);
+  add_array(data, "separation_duration", map.separation_duration);
 }
 
 void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eigen::Index phase) {
@@ -81,6 +83,10 @@ void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eig
   add_array(data, "relative_displacement_m", map.relative_displacement.col(phase));
   add_array(data, "approach_m", map.approach.col(phase));
   add_array(data, "slip_m", map.slip.col(phase));
+  if (map.slip_r.cols() == 0) return;
+  add_array(data, "friction_traction_r_Pa", map.friction_traction_r.col(phase));
+  add_array(data, "relative_displacement_r_m", map.relative_displacement_r.col(phase));
+  add_array(data, "slip_r_m", map.slip_r.col(phase));
 }
 
 double in_degrees(double phase) {
@@ -151,6 +157,13 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
   out.vector("/dissipated_energy_J_per_m2", map.points.dissipated_energy, "J/m^2");
   out.vector("/slip_distance_m", map.points.slip_distance, "m");
   out.vector("/wear_depth_m", map.points.wear_depth, "m");
+  out.vector("/slip_duration", map.points.slip_duration, "1");
+  out.vector("/separation_duration", map.points.separation_duration, "1");
+  if (map.points.slip_r.cols() > 0) {
+    out.matrix("/friction_traction_r_Pa", map.points.friction_traction_r, "Pa");
+    out.matrix("/relative_displacement_r_m", map.points.relative_displacement_r, "m");
+    out.matrix("/slip_r_m", map.points.slip_r, "m");
+  }
   out.write(file);
 }
 

@@ -114,16 +114,15 @@ std::string curve_row(const Json& curve) {
 }
 
 std::string curves_text(const Json& run) {
-  const bool modal = run.at("mesh").is_null();
-  std::string text = fmt::format(
-      "| {} | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n|---:|---:|---:|---|---|---|\n",
-      modal ? "preload scale" : "preload [N]");
+  std::string text =
+      "| preload [N] | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n"
+      "|---:|---:|---:|---|---|---|\n";
   for (const Json& curve : run.at("curves")) text += curve_row(curve);
   if (const Json& optimum = run.at("optimum"); !optimum.is_null()) {
     const bool found = optimum.at("found").get<bool>();
-    text += fmt::format("\n{}: {:.6g}{}, peak {:.5g} m at {:.4f} Hz.{}\n",
+    text += fmt::format("\n{}: {:.6g} N, peak {:.5g} m at {:.4f} Hz.{}\n",
                         found ? "Best preload" : "Best preload not found; lowest peak seen",
-                        optimum.at("preload_N").get<double>(), modal ? "" : " N",
+                        optimum.at("preload_N").get<double>(),
                         optimum.at("amplitude_m").get<double>(),
                         optimum.at("frequency_Hz").get<double>(),
                         found ? "" : fmt::format(" {}", optimum.at("message").get<std::string>()));

@@ -60,13 +60,6 @@ std::string value_text(const toml::node& node) {
   return node.value_or(false) ? "true" : "false";
 }
 
-/// The keys of a section as its templates list them.
-SectionSpec spec_of(std::string_view section, std::string_view kind) {
-  if (section == "model") return section_spec(fmt::format("model.{}", kind));
-  if (section == "response" && kind == "modal") return section_spec("response.modal");
-  return section_spec(section);
-}
-
 }  // namespace
 
 std::string scene_as_toml(const toml::table& scene, std::string_view kind) {
@@ -78,7 +71,7 @@ std::string scene_as_toml(const toml::table& scene, std::string_view kind) {
     const toml::node* node = scene.get(section);
     if (node == nullptr || !node->is_table()) continue;
     text += fmt::format("\n[{}]\n", section);
-    for (const KeySpec& key : spec_of(section, kind).keys) {
+    for (const KeySpec& key : section_spec(section, kind).keys) {
       if (const toml::node* value = node->as_table()->get(key.name)) {
         text += fmt::format("{} = {}\n", key.name, value_text(*value));
       }

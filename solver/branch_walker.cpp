@@ -9,9 +9,11 @@ namespace {
 
 // Lengths in scaled variables: a share of the amplitude, or of the width of the nearest resonance.
 constexpr double longest_step = 0.2;
+constexpr double longest_leap = 0.05;  // over a kink; farther on may be another branch
 constexpr double shortest_step = 1e-7;
 // Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
 constexpr double kink_step = 2e-4;
+constexpr double kink_correction = 10.0;  // of the step: a turn by 84°; beyond, it is another branch
 constexpr double cosine_limit = 0.93;      // 21.5°: beyond, the curve would look angular
 constexpr double angle_wanted = 0.13;      // rad per step
 constexpr double correction_limit = 0.3;   // of the step: beyond, the point may be another branch's
@@ -107,17 +109,38 @@ void BranchWalker::choose_step(const Trial& trial) {
   step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
 }
 
+void BranchWalker::remember(const char* remedy) {
+  remedies_.push_back({now_.solution.point.parameter, remedy});
+}
+
 bool BranchWalker::advance() {
+  bool failed = false;
   while (step_ >= shortest_step) {
     Trial trial = attempt(step_, 10);
-    if (trial.converged && (smooth(trial) || step_ < kink_step)) {
+    const bool kink = step_ < kink_step && trial.correction < kink_correction;
+    if (trial.converged && (smooth(trial) || kink)) {
+      if (failed) remember("shorter-step");
       choose_step(trial);
       accept(std::move(trial));
       return true;
     }
+    failed = failed || !trial.converged;
     step_ *= 0.5;
   }
   return turn_at_kink() || leap();
+}
+
+Stall BranchWalker::stall() const {
+  constexpr double chattering = 1e-3;  // relative change of the Jacobian over a step of 1e-6
+  constexpr double vertical = 0.1;     // share of the parameter in the tangent
+  const Eigen::MatrixXd& here = now_.solution.evaluation.jacobian;
+  for (const double ahead : {-1e-6, 1e-6}) {
+    const BranchVector probe = moved(now_.solution.point, now_.tangent, ahead, now_.scaling);
+    const Eigen::MatrixXd there = system_(probe.x, probe.parameter).jacobian;
+    ++evaluations_;
+    if (!((there - here).norm() <= chattering * here.norm())) return Stall::chatter;
+  }
+  return std::abs(now_.tangent.parameter) < vertical ? Stall::fold : Stall::newton;
 }
 
 bool BranchWalker::turn_at_kink() {
@@ -137,6 +160,7 @@ bool BranchWalker::turn_at_kink() {
       const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
                           trial.orientation == orientation_;
       if (!onward) continue;
+      remember("kink-turn");
       step_ = distance;
       accept(std::move(trial));
       return true;
@@ -147,9 +171,10 @@ bool BranchWalker::turn_at_kink() {
 
 bool BranchWalker::leap() {
   // A kink the corrector cannot cross in small steps may be crossed in a long one.
-  for (double distance = 1e-5; distance < 2.0 * longest_step; distance *= 3.0) {
+  for (double distance = 1e-5; distance < longest_leap; distance *= 3.0) {
     Trial trial = attempt(distance, 40);
     if (!trial.converged || trial.correction > 1.0) continue;
+    remember("long-step");
     step_ = std::min(distance, 1e-2);
     accept(std::move(trial));
     return true;
@@ -165,10 +190,13 @@ std::optional<WalkerPoint> BranchWalker::between(double share) const {
   chord.x /= size;
   chord.parameter /= size;
   const BranchVector start = moved(before_.solution.point, chord, share * size, scaling);
-  NewtonResult solution = solve_newton(system_, start, chord, scaling, {});
+  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
+  NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
-  if (!solution.converged) return std::nullopt;
+  const double tolerance = std::max(NewtonOptions{}.tolerance, scaling.rounding);
+  if (!(solution.residual <= tolerance)) return std::nullopt;
+  solution.converged = true;
   const Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
   return WalkerPoint{std::move(solution), tangent.direction, scaling};
 }

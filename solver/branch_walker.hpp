@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "solver/newton.hpp"
 
@@ -20,6 +21,15 @@ struct WalkerPoint {
   BranchVector tangent;  ///< in scaled variables of `scaling`
   Scaling scaling;
 };
+
+/// What helped where Newton's method had failed.
+struct Remedy {
+  double parameter = 0.0;
+  const char* name = "";  ///< shorter-step, kink-turn, long-step
+};
+
+/// Why no step was possible.
+enum class Stall { newton, fold, chatter };
 
 class BranchWalker {
  public:
@@ -40,6 +50,9 @@ class BranchWalker {
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
   [[nodiscard]] double step() const { return step_; }
+  [[nodiscard]] const std::vector<Remedy>& remedies() const { return remedies_; }
+  /// After advance() was false.
+  [[nodiscard]] Stall stall() const;
 
  private:
   struct Trial {
@@ -57,6 +70,7 @@ class BranchWalker {
   [[nodiscard]] bool smooth(const Trial& trial) const;
   void accept(Trial trial);
   void choose_step(const Trial& trial);
+  void remember(const char* remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
 
@@ -66,6 +80,7 @@ class BranchWalker {
   WalkerPoint before_;
   double step_ = 0.05;
   double orientation_ = 0.0;  ///< 0: not known yet
+  std::vector<Remedy> remedies_;
   mutable long evaluations_ = 0;
   mutable long iterations_ = 0;
 };

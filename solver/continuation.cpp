@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "solver/certificate.hpp"
 #include "solver/curve_tracer.hpp"
+#include "solver/linear_certificate.hpp"
 #include "solver/linear_force.hpp"
 #include "solver/start_point.hpp"
 
@@ -56,6 +58,49 @@ ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
   return curve;
 }
 
+Eigen::MatrixXd limit_stiffness(const Scene& scene, LinearLimit limit) {
+  const Eigen::Index n = scene.n_modes();
+  if (limit == LinearLimit::free) return Eigen::MatrixXd::Zero(n, n);
+  return scene.contact->stuck_stiffness();
+}
+
+/// The scene with another force in the place of its contact.
+Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force) {
+  Scene other;
+  other.natural_frequency = scene.natural_frequency;
+  other.damping_ratio = scene.damping_ratio;
+  other.excitation = scene.excitation;
+  other.output = scene.output;
+  other.contact = std::move(force);
+  return other;
+}
+
+/// What was evaluated was linear.
+void forget_evaluations(ResponseCurve& curve) {
+  curve.contact_evaluations = 0;
+  for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
+}
+
+/// The linear curve where it is proved to be one; nothing nonlinear is evaluated.
+std::optional<ResponseCurve> trace_certified(const Scene& scene, const ContinuationOptions& options,
+                                             const PointObserver& observe) {
+  if (!options.linear_certificate || !scene.contact) return std::nullopt;
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  const LinearCertificate proof =
+      certify_linear(HarmonicBalance(scene, options.n_harmonics), low, high);
+  if (proof.state == contact::LinearState::unknown) return std::nullopt;
+  const bool stuck = proof.state == contact::LinearState::stuck;
+  const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
+  const Scene linear = with_force(
+      scene, std::make_unique<LinearForce>(limit_stiffness(scene, limit), *scene.contact));
+  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  forget_evaluations(curve);
+  curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
+                      " over the whole range (" + std::to_string(proof.n_intervals) +
+                      " frequency intervals): the linear response is a solution; others may exist";
+  return curve;
+}
+
 }  // namespace
 
 ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
@@ -65,12 +110,18 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     return solve_at_frequency(scene, options.frequency_begin, options);
   }
   const Stopwatch watch;
-  ResponseCurve curve = CurveTracer(scene, options, observe).run();
-  if (!curve.complete && curve.diagnosis != "interrupted") {
+  std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
+  ResponseCurve curve =
+      certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
+  if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
-    if (other.complete || other.points.size() > curve.points.size()) curve = std::move(other);
+    if (other.complete || other.points.size() > curve.points.size()) {
+      other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
+      other.log.push_back({options.frequency_end, "other-end"});
+      curve = std::move(other);
+    }
     curve.iterations = iterations;
     curve.contact_evaluations = evaluations;
   }
@@ -94,6 +145,8 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
     const auto stability =
         assess_stability(balance, start.solution->evaluation.jacobian, frequency);
     curve.points.push_back(certified_point(balance, *start.solution, frequency, stability));
+    curve.points.back().contact_evaluations = start.evaluations;
+    curve.points.back().seconds = watch.seconds();
     curve.complete = true;
   } else {
     curve.diagnosis = "no-start";
@@ -130,21 +183,16 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
 
 ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                            const ContinuationOptions& options) {
-  Scene linear;
-  linear.natural_frequency = scene.natural_frequency;
-  linear.damping_ratio = scene.damping_ratio;
-  linear.excitation = scene.excitation;
-  linear.output = scene.output;
+  std::unique_ptr<contact::ModalForce> force;
   if (scene.contact) {
-    const Eigen::Index n = scene.n_modes();
-    linear.contact = limit == LinearLimit::stuck
-                         ? std::make_unique<LinearForce>(scene.contact->stuck_stiffness(),
-                                                         contact::CycleReport{1.0, 0.0, 0.0})
-                         : std::make_unique<LinearForce>(Eigen::MatrixXd::Zero(n, n),
-                                                         contact::CycleReport{0.0, 0.0, 1.0});
+    const bool stuck = limit == LinearLimit::stuck;
+    force = std::make_unique<LinearForce>(
+        limit_stiffness(scene, limit),
+        stuck ? contact::CycleReport{1.0, 0.0, 0.0} : contact::CycleReport{0.0, 0.0, 1.0});
   }
+  const Scene linear = with_force(scene, std::move(force));
   ResponseCurve curve = trace_response(linear, options);
-  curve.contact_evaluations = 0;  // nothing nonlinear was evaluated
+  forget_evaluations(curve);
   return curve;
 }
 

@@ -16,6 +16,8 @@ struct ContinuationOptions {
   int n_harmonics = 1;
   double residual_tolerance = 1e-11;  ///< relative, see ResponsePoint::residual
   int max_points = 20000;
+  /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
+  bool linear_certificate = true;
 };
 
 /// Called after each accepted point; false stops the curve (diagnosis "interrupted").

@@ -18,6 +18,25 @@ namespace {
 constexpr double widest = 0.1;
 constexpr double narrowest = 1e-7;
 
+// Share of the response by which it may change where the branch is interrupted, beyond what its tangent
+// tells; more is another branch.
+constexpr double same_branch = 0.05;
+constexpr double longest_extrapolation = 0.3;  // of the response: a steep tangent tells no more
+constexpr int most_restarts = 20;
+
+bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
+  const BranchVector& from = last.solution.point;
+  const double ahead = (next.parameter - from.parameter) / last.scaling.parameter;
+  const double along = std::abs(ahead / last.tangent.parameter) * last.tangent.x.norm() * last.scaling.x;
+  const double size = from.x.norm();
+  return (next.x - from.x).norm() <= same_branch * size + std::min(along, longest_extrapolation * size);
+}
+
+const char* stall_name(Stall stall) {
+  if (stall == Stall::fold) return "fold-lost";
+  return stall == Stall::chatter ? "event-chatter" : "newton-stall";
+}
+
 std::string at_hertz(const std::string& text, double frequency) {
   std::ostringstream stream;
   stream.precision(8);
@@ -60,8 +79,26 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
 }
 
 bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
-  curve_.points.push_back(certified(at, mark));
+  ResponsePoint point = certified(at, mark);
+  const Clock::time_point now = Clock::now();
+  point.contact_evaluations = curve_.contact_evaluations - point_evaluations_;
+  point.seconds = std::chrono::duration<double>(now - last_time_).count();
+  point_evaluations_ = curve_.contact_evaluations;
+  last_time_ = now;
+  curve_.points.push_back(std::move(point));
   return !observe_ || observe_(curve_.points.back());
+}
+
+/// Counts what the walker has done since it was asked last.
+void CurveTracer::take_stock(const BranchWalker& walker) {
+  curve_.contact_evaluations += walker.evaluations() - walker_evaluations_;
+  curve_.iterations += walker.iterations() - walker_iterations_;
+  walker_evaluations_ = walker.evaluations();
+  walker_iterations_ = walker.iterations();
+  for (; n_remedies_ < walker.remedies().size(); ++n_remedies_) {
+    const Remedy& remedy = walker.remedies()[n_remedies_];
+    curve_.log.push_back({remedy.parameter, remedy.name});
+  }
 }
 
 void CurveTracer::stop(const std::string& diagnosis, const std::string& message) {
@@ -70,7 +107,9 @@ void CurveTracer::stop(const std::string& diagnosis, const std::string& message)
 }
 
 bool CurveTracer::add_specials(const BranchWalker& walker, double share_of_segment) {
-  for (const SpecialPoint& special : special_points(walker, balance_)) {
+  const std::vector<SpecialPoint> found = special_points(walker, balance_);
+  take_stock(walker);
+  for (const SpecialPoint& special : found) {
     if (special.share < share_of_segment && !add(special.solution, special.mark)) return false;
   }
   return true;
@@ -81,6 +120,7 @@ bool CurveTracer::finish(const BranchWalker& walker) {
   const double now = walker.now().solution.point.parameter;
   const double share = (options_.frequency_end - before) / (now - before);
   const NewtonResult last = walker.at_parameter(options_.frequency_end, share);
+  take_stock(walker);
   if (!last.converged) {
     stop("newton-stall", at_hertz("no solution found", options_.frequency_end));
     return false;
@@ -89,35 +129,90 @@ bool CurveTracer::finish(const BranchWalker& walker) {
     stop("interrupted", at_hertz("stopped", options_.frequency_end));
     return false;
   }
-  curve_.complete = true;
+  curve_.complete = curve_.diagnosis.empty();
   return true;
 }
 
-void CurveTracer::walk(BranchWalker& walker) {
-  while (static_cast<int>(curve_.points.size()) < options_.max_points) {
-    if (!walker.advance()) {
-      stop("newton-stall", at_hertz("Newton's method stalled and no remedy helped",
-                                    walker.now().solution.point.parameter));
-      return;
-    }
+/// A branch that was entered by a jump may be detached: then it comes back to where it was entered.
+bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
+  constexpr int fewest = 10;  // steps away from the entry
+  if (!entry_ || n_steps < fewest) return false;
+  const Scaling& scaling = walker.now().scaling;
+  const auto distance = [&](const BranchVector& a, const BranchVector& b) {
+    return std::hypot((a.x - b.x).norm() / scaling.x,
+                      (a.parameter - b.parameter) / scaling.parameter);
+  };
+  const BranchVector& now = walker.now().solution.point;
+  return distance(now, *entry_) < distance(now, walker.before().solution.point);
+}
+
+bool CurveTracer::walk(BranchWalker& walker) {
+  for (int n_steps = 0; static_cast<int>(curve_.points.size()) < options_.max_points; ++n_steps) {
+    const bool stepped = walker.advance();
+    take_stock(walker);
+    if (!stepped) return true;
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
       static_cast<void>(finish(walker));
-      return;
+      return false;
     }
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
       stop("interrupted", at_hertz("stopped", frequency));
-      return;
+      return false;
     }
     if (progress(frequency) < -1e-9) {
       curve_.points.pop_back();
       stop("out-of-range",
            at_hertz("the branch turned back out of the range", options_.frequency_begin));
-      return;
+      return false;
+    }
+    if (closed(walker, n_steps)) {
+      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->parameter));
+      return false;
     }
   }
-  stop("loop", "the branch did not reach the end within " + std::to_string(options_.max_points) +
-                   " points");
+  stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
+                     " points");
+  return false;
+}
+
+BranchWalker CurveTracer::walker_from(NewtonResult start) {
+  const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
+    return balance_.evaluate(x, frequency);
+  };
+  walker_evaluations_ = walker_iterations_ = 0;
+  n_remedies_ = 0;
+  const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
+  return {system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start),
+          forward};
+}
+
+/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies
+/// from the linear limits, at growing distances.
+std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
+  const BranchVector& from = stalled.now().solution.point;
+  NewtonOptions newton;
+  newton.tolerance = options_.residual_tolerance;
+  newton.max_iterations = 40;
+  for (const double ahead : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2}) {
+    const double frequency =
+        from.parameter + ahead * (options_.frequency_end - options_.frequency_begin);
+    if (progress(frequency) >= 1.0) break;
+    NewtonResult corrected = solve_at(balance_, from.x, frequency, newton);
+    curve_.contact_evaluations += corrected.evaluations;
+    curve_.iterations += corrected.iterations;
+    const bool plain = corrected.converged;
+    if (!plain) {
+      StartPoint start = find_start(balance_, frequency, options_.residual_tolerance);
+      curve_.contact_evaluations += start.evaluations;
+      curve_.iterations += start.iterations;
+      if (!start.solution) continue;
+      corrected = std::move(*start.solution);
+    }
+    curve_.log.push_back({from.parameter, plain ? "fixed-frequency" : "homotopy"});
+    return corrected;
+  }
+  return std::nullopt;
 }
 
 ResponseCurve CurveTracer::run() {
@@ -129,19 +224,26 @@ ResponseCurve CurveTracer::run() {
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
     return std::move(curve_);
   }
-  const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
-    return balance_.evaluate(x, frequency);
-  };
-  const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
-  BranchWalker walker(
-      system, [this](const NewtonResult& at) { return scaling_at(at); }, *start.solution, forward);
-  if (add(*start.solution)) {
-    walk(walker);
-  } else {
-    stop("interrupted", "stopped at the first point");
+  std::optional<NewtonResult> next = std::move(start.solution);
+  for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
+    if (!add(*next)) {
+      stop("interrupted", at_hertz("stopped", next->point.parameter));
+      return std::move(curve_);
+    }
+    BranchWalker walker = walker_from(std::move(*next));
+    if (!walk(walker)) return std::move(curve_);
+    const double last = walker.now().solution.point.parameter;
+    const char* name = stall_name(walker.stall());
+    next = restart(walker);
+    if (!next) {
+      stop(name, at_hertz("Newton's method stalled and no remedy helped", last));
+    } else if (!on_the_branch(walker.now(), next->point)) {
+      stop("branch-jump", at_hertz(std::string(name) + ", and another branch beyond it", last));
+      curve_.log.push_back({last, "other-branch"});
+      entry_ = next->point;
+    }
   }
-  curve_.iterations += walker.iterations();
-  curve_.contact_evaluations += walker.evaluations();
+  if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
   return std::move(curve_);
 }
 

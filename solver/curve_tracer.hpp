@@ -3,6 +3,9 @@
 /// points, ends exactly at the end of the range.
 #pragma once
 
+#include <chrono>
+#include <optional>
+
 #include "solver/branch_walker.hpp"
 #include "solver/continuation.hpp"
 #include "solver/harmonic_balance.hpp"
@@ -24,12 +27,20 @@ class CurveTracer {
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
   /// False: the observer asked to stop.
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
-  void walk(BranchWalker& walker);
+  /// True: the walker stalled; false: the curve has ended one way or another.
+  [[nodiscard]] bool walk(BranchWalker& walker);
+  [[nodiscard]] BranchWalker walker_from(NewtonResult start);
+  /// A solution a little way beyond a point at which the walker stalled; empty: none was found.
+  [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
+  void take_stock(const BranchWalker& walker);
+  [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(const BranchWalker& walker, double share_of_segment);
   [[nodiscard]] bool finish(const BranchWalker& walker);
   void stop(const std::string& diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
+
+  using Clock = std::chrono::steady_clock;
 
   HarmonicBalance balance_;
   ContinuationOptions options_;
@@ -38,6 +49,12 @@ class CurveTracer {
   double range_;
   StabilityReport last_stability_;
   Eigen::VectorXd last_x_;  ///< of last_stability_
+  std::optional<BranchVector> entry_;  ///< where a jump entered the branch walked now
+  std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
+  long walker_evaluations_ = 0;        ///< of the walker, counted already
+  long walker_iterations_ = 0;
+  long point_evaluations_ = 0;         ///< of the curve when the last point was added
+  Clock::time_point last_time_ = Clock::now();
 };
 
 }  // namespace microslip::solver

@@ -15,12 +15,16 @@ class LinearForce final : public contact::ModalForce {
   /// @param report     what every cycle is said to be.
   LinearForce(Eigen::MatrixXd stiffness, const contact::CycleReport& report)
       : stiffness_(std::move(stiffness)), report_(report) {}
+  /// In the place of a contact that is known to be linear: its reports are the contact's own.
+  /// @param contact  borrowed.
+  LinearForce(Eigen::MatrixXd stiffness, const contact::ModalForce& contact)
+      : stiffness_(std::move(stiffness)), contact_(&contact) {}
 
   [[nodiscard]] Eigen::Index n_modes() const override { return stiffness_.rows(); }
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override { return stiffness_; }
-  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
-    return report_;
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q,
+                                            double frequency) const override {
+    return contact_ != nullptr ? contact_->report(q, frequency) : report_;
   }
   [[nodiscard]] contact::ForceAndJacobian evaluate(const contact::Harmonics& q,
                                                    double /*frequency*/) const override {
@@ -38,6 +42,7 @@ class LinearForce final : public contact::ModalForce {
  private:
   Eigen::MatrixXd stiffness_;
   contact::CycleReport report_;
+  const contact::ModalForce* contact_ = nullptr;
 };
 
 }  // namespace microslip::solver

@@ -2,43 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace microslip::solver {
 namespace {
 
-/// Highest solved peak of each parameter asked for, remembered in order.
-class PeakFunction {
- public:
-  PeakFunction(const std::function<Scene(double)>& family, const ContinuationOptions& range,
-               Optimum& result)
-      : family_(family), range_(range), result_(result) {}
-
-  /// Largest amplitude at exp(log_parameter); infinity where no peak was found.
-  double operator()(double log_parameter) {
-    const double parameter = std::exp(log_parameter);
-    const ResponseCurve curve = trace_response(family_(parameter), range_);
-    result_.iterations += curve.iterations;
-    result_.contact_evaluations += curve.contact_evaluations;
-    const ResponsePoint* highest = nullptr;
-    for (const ResponsePoint& point : curve.points) {
-      if (point.mark != PointMark::peak) continue;
-      if (highest == nullptr || point.amplitude > highest->amplitude) highest = &point;
-    }
-    if (!curve.complete || highest == nullptr) return std::numeric_limits<double>::infinity();
-    result_.trace.push_back({parameter, highest->frequency, highest->amplitude});
-    return highest->amplitude;
-  }
-
- private:
-  const std::function<Scene(double)>& family_;
-  const ContinuationOptions& range_;
-  Optimum& result_;
-};
+/// Largest amplitude by position on the scale of the parameter.
+using PeakFunction = std::function<double(double)>;
 
 /// A minimum inside (a, c): f(b) ≤ f(a), f(c).
 struct Bracket {
@@ -54,7 +30,7 @@ double parabola_step(const std::array<double, 3>& at, const std::array<double, 3
 }
 
 /// Golden section with parabolic steps (Brent 1973, chapter 5) until the bracket is below the tolerance.
-void minimise(PeakFunction& f, const Bracket& bracket, double tolerance) {
+void minimise(const PeakFunction& f, const Bracket& bracket, double tolerance) {
   constexpr double golden = 0.3819660112501051;
   double a = bracket.a;
   double c = bracket.c;
@@ -124,48 +100,118 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
 }
 
 void check(const OptimumOptions& options) {
-  if (!(options.lower > 0.0) || !(options.upper > options.lower) || options.n_scan < 3) {
+  const bool positive = options.scale == ParameterScale::linear || options.lower > 0.0;
+  if (!positive || !(options.upper > options.lower) || options.n_scan < 3) {
     throw std::invalid_argument("optimum: bounds " + std::to_string(options.lower) + " to " +
                                 std::to_string(options.upper) + " with " +
                                 std::to_string(options.n_scan) +
-                                " scan points; needs 0 < lower < upper and at least 3 points");
+                                " scan points; needs lower < upper, 0 < lower on the logarithmic "
+                                "scale, and at least 3 points");
   }
 }
 
+class Search {
+ public:
+  Search(const SceneFamily& family, const ContinuationOptions& range, const OptimumOptions& options)
+      : options_(options), peaks_(family, range, trace_options(options)) {}
+
+  Optimum run() {
+    peaks_.trace();
+    const auto followed = [&](double parameter) { return peaks_.highest(parameter).amplitude; };
+    const auto on_whole_curves = [&](double parameter) {
+      static_cast<void>(peaks_.confirm(parameter));
+      return peaks_.highest(parameter).amplitude;
+    };
+    // A peak that only the curve at the optimum shows is followed from there and the search repeated;
+    // each round finds one more.
+    constexpr int rounds = 4;
+    for (int i = 0; i < rounds; ++i) {
+      if (!refine(followed) || peaks_.confirm(result_.best.parameter)) return finished();
+    }
+    result_.notes.emplace_back("peaks followed kept missing the highest one; search on whole curves");
+    static_cast<void>(refine(on_whole_curves));
+    return finished();
+  }
+
+ private:
+  static PeakTraceOptions trace_options(const OptimumOptions& options) {
+    return {.lower = options.lower,
+            .upper = options.upper,
+            .n_values = options.n_scan,
+            .n_checks = 3,
+            .scale = options.scale};
+  }
+
+  [[nodiscard]] double parameter(double position) const {
+    return options_.scale == ParameterScale::logarithmic ? std::exp(position) : position;
+  }
+  [[nodiscard]] double position(double parameter) const {
+    return options_.scale == ParameterScale::logarithmic ? std::log(parameter) : parameter;
+  }
+
+  static std::vector<PeakOfParameter>::const_iterator lowest(
+      const std::vector<PeakOfParameter>& peaks) {
+    return std::min_element(peaks.begin(), peaks.end(), [](const auto& a, const auto& b) {
+      return a.amplitude < b.amplitude;
+    });
+  }
+
+  /// The minimum between the neighbours of the lowest peak known. False: there is none inside.
+  bool refine(const PeakFunction& amplitude) {
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    result_.found = false;
+    if (peaks.empty()) {
+      result_.message = "no peak was found inside the frequency range for any value";
+      return false;
+    }
+    const auto least = lowest(peaks);
+    result_.best = *least;
+    if (least == peaks.begin() || least == std::prev(peaks.end())) {
+      result_.message = sentence("the smallest peak lies at the bound ", least->parameter) + "; " +
+                        valley(peaks, *least);
+      return false;
+    }
+    const Bracket bracket{position(std::prev(least)->parameter), position(least->parameter),
+                          position(std::next(least)->parameter), least->amplitude};
+    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
+    const double tolerance =
+        options_.relative_tolerance * (logarithmic ? 1.0 : options_.upper - options_.lower);
+    minimise([&](double at) { return amplitude(parameter(at)); }, bracket, tolerance);
+    const std::vector<PeakOfParameter> all = peaks_.result().peaks;
+    result_.best = *lowest(all);
+    result_.found = true;
+    return true;
+  }
+
+  Optimum finished() {
+    const PeakTrace trace = peaks_.result();
+    result_.trace = trace.peaks;
+    result_.notes.insert(result_.notes.begin(), trace.notes.begin(), trace.notes.end());
+    result_.n_curves = trace.n_curves;
+    result_.iterations = trace.iterations;
+    result_.contact_evaluations = trace.contact_evaluations;
+    if (result_.found) {
+      result_.best = *lowest(result_.trace);
+      result_.message = valley(result_.trace, result_.best);
+    }
+    return std::move(result_);
+  }
+
+  OptimumOptions options_;
+  PeakFamilies peaks_;
+  Optimum result_;
+};
+
 }  // namespace
 
-Optimum minimise_peak(const std::function<Scene(double)>& family, const ContinuationOptions& range,
+Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
                       const OptimumOptions& options) {
   check(options);
-  Optimum result;
-  PeakFunction peak(family, range, result);
-  const double low = std::log(options.lower);
-  const double spacing = (std::log(options.upper) - low) / (options.n_scan - 1);
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(options.n_scan));
-  for (int i = 0; i < options.n_scan; ++i) values.push_back(peak(low + spacing * i));
-  const auto least = std::min_element(values.begin(), values.end());
-  const auto index = static_cast<int>(least - values.begin());
-  if (!std::isfinite(*least)) {
-    result.message = "no peak was found inside the frequency range for any preload";
-    return result;
-  }
-  if (index == 0 || index == options.n_scan - 1) {
-    result.message =
-        sentence("the smallest peak lies at the bound ", std::exp(low + spacing * index));
-  } else {
-    const Bracket bracket{low + spacing * (index - 1), low + spacing * index,
-                          low + spacing * (index + 1), *least};
-    minimise(peak, bracket, options.relative_tolerance);
-    result.found = true;
-  }
-  result.best =
-      *std::min_element(result.trace.begin(), result.trace.end(),
-                        [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
-  std::sort(result.trace.begin(), result.trace.end(),
-            [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
-  if (result.found) result.message = valley(result.trace, result.best);
-  return result;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  Optimum optimum = Search(family, range, options).run();
+  optimum.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return optimum;
 }
 
 }  // namespace microslip::solver

@@ -1,20 +1,15 @@
 /// @file
-/// The best value of one scene parameter: minimum over the parameter of the highest solved peak.
+/// The best value of one scene parameter: minimum over the parameter of the highest solved peak. The
+/// peaks are followed from value to value (peak_trace.hpp); the optimum itself is confirmed on a whole
+/// curve, and where that keeps failing every value is.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "solver/continuation.hpp"
+#include "solver/peak_trace.hpp"
 
 namespace microslip::solver {
-
-struct PeakOfParameter {
-  double parameter = 0.0;
-  double frequency = 0.0;  ///< [rad/s]
-  double amplitude = 0.0;  ///< [m]
-};
 
 struct Optimum {
   PeakOfParameter best;
@@ -23,20 +18,25 @@ struct Optimum {
   /// Found: the interval that is as good to 1 % among the peaks solved, and minima nearly as good
   /// elsewhere; else why not.
   std::string message;
+  std::vector<std::string> notes;  ///< see PeakTrace
+  int n_curves = 0;                ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;
+  double seconds = 0.0;
 };
 
 struct OptimumOptions {
-  double lower = 0.0;  ///< bracket of the parameter, > 0: searched on a logarithmic scale
+  double lower = 0.0;  ///< bracket of the parameter; > 0 on the logarithmic scale
   double upper = 0.0;
-  double relative_tolerance = 1e-4;  ///< of the parameter
-  int n_scan = 12;                   ///< points of the first scan
+  /// Of the parameter; on the linear scale of upper − lower.
+  double relative_tolerance = 1e-4;
+  int n_scan = 12;  ///< values of the first scan, ≥ 3
+  ParameterScale scale = ParameterScale::logarithmic;
 };
 
 /// @param family  scene for a value of the parameter.
-[[nodiscard]] Optimum minimise_peak(const std::function<Scene(double)>& family,
-                                    const ContinuationOptions& range,
+/// @throws std::invalid_argument  bounds or counts out of range.
+[[nodiscard]] Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
                                     const OptimumOptions& options);
 
 }  // namespace microslip::solver

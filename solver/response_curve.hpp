@@ -31,14 +31,36 @@ struct ResponsePoint {
   Stability stability = Stability::not_assessed;
   double determinant_sign = 0.0;   ///< of ∂R/∂q
   PointMark mark = PointMark::none;
-  int iterations = 0;
+  int iterations = 0;               ///< Newton steps of this point's own solution
+  long contact_evaluations = 0;     ///< since the point before: steps that failed, peaks and folds included
+  double seconds = 0.0;             ///< of work since the point before
+};
+
+/// A remedy that was needed and helped.
+struct SolverEvent {
+  double frequency = 0.0;  ///< [rad/s], where it began
+  /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, or other-branch
+  std::string remedy;
 };
 
 struct ResponseCurve {
   std::vector<ResponsePoint> points;  ///< converged points only
   bool complete = false;
-  std::string diagnosis;              ///< empty when complete; else newton-stall, no-start, …
+  /// Empty when complete; else what ended it, or broke it:
+  ///   no-start       no solution at the begin of the range
+  ///   newton-stall   Newton's method fails and no remedy helps
+  ///   fold-lost      the same next to a fold: the branch turns, no way on was found
+  ///   event-chatter  the same where the Jacobian jumps within the smallest step
+  ///   branch-jump    beyond such a point only another branch was found; points before and after are valid
+  ///   loop           a branch entered by a jump is closed and does not reach the end
+  ///   budget         max_points were not enough
+  ///   out-of-range   the branch turned back out of the range at its begin
+  ///   interrupted    the observer asked to stop
+  std::string diagnosis;
   std::string message;                ///< a sentence with the numbers
+  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
+  std::string certificate;
+  std::vector<SolverEvent> log;       ///< remedies in the order they were needed
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;

@@ -8,6 +8,7 @@
 
 #include "contact/harmonics.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/transient_force.hpp"
 
 namespace microslip::solver {
 
@@ -20,6 +21,8 @@ struct Scene {
   Harmonics excitation;                          ///< Q [N/√kg], mean row included
   Eigen::VectorXd output;                        ///< y = output · q [1/√kg], n_modes
   std::unique_ptr<contact::ModalForce> contact;  ///< nullptr: linear
+  /// The same contact for time integration; nullptr: linear, or not offered by this contact.
+  std::unique_ptr<contact::TransientForce> transient;
 
   [[nodiscard]] Eigen::Index n_modes() const { return natural_frequency.size(); }
 };

@@ -126,9 +126,14 @@ class Segment {
 
 }  // namespace
 
+std::vector<SpecialPoint> peaks_between(const BranchWalker& walker,
+                                        const HarmonicBalance& balance) {
+  return Segment(walker, balance, PointMark::peak).search();
+}
+
 std::vector<SpecialPoint> special_points(const BranchWalker& walker,
                                          const HarmonicBalance& balance) {
-  std::vector<SpecialPoint> found = Segment(walker, balance, PointMark::peak).search();
+  std::vector<SpecialPoint> found = peaks_between(walker, balance);
   for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
     found.push_back(std::move(fold));
   }

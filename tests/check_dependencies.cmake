@@ -3,7 +3,8 @@
 set(allowed_mesh mesh)
 set(allowed_fem fem mesh)
 set(allowed_contact contact)
-set(allowed_solver solver contact/modal_force.hpp contact/harmonics.hpp)
+set(allowed_solver solver contact/modal_force.hpp contact/transient_force.hpp
+  contact/harmonics.hpp)
 set(allowed_pipelines pipelines mesh fem contact solver)
 set(failures "")
 foreach(room mesh fem contact solver pipelines)

@@ -112,7 +112,7 @@ class Run:
         self.folder = folder
         with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
             self.summary = json.load(file)
-        self.modal = self.summary.get("mesh") is None
+        self.scaled = any(c.get("preload_scale") is not None for c in self.summary["curves"])
         self.curves = []
         for curve in self.summary["curves"]:
             path = os.path.join(folder, "curves", curve["name"] + ".csv")
@@ -121,7 +121,7 @@ class Run:
                 self.curves.append((curve, table))
         largest = max((table["amplitude_m"].max() for _, table in self.curves), default=1.0)
         self.unit, self.size = length_unit(largest)
-        loads = sorted({c["preload_N"] for c, _ in self.curves if is_number(c["preload_N"])})
+        loads = sorted({load_of(c) for c, _ in self.curves if is_number(load_of(c))})
         self.colours = {load: plt.cm.viridis(0.0 if len(loads) == 1 else 0.93 * i / (len(loads) - 1))
                         for i, load in enumerate(loads)}
 
@@ -131,9 +131,15 @@ class Run:
     def label(self, load):
         if not is_number(load):
             return load
-        if self.modal:
+        if self.scaled:
             return f"× {load:g}"
         return f"{plain(load)} N" if load >= 0 else f"gap ({plain(load)} N)"
+
+
+def load_of(curve):
+    """What tells the curves of a family apart: a scale of the preload, its sum [N], or a limit."""
+    scale = curve.get("preload_scale")
+    return curve["preload_N"] if scale is None else scale
 
 
 def is_number(value):
@@ -165,7 +171,7 @@ def branches(table):
 
 
 def draw_curve(axes, run, curve, table):
-    load = curve["preload_N"]
+    load = load_of(curve)
     limit = not is_number(load)
     colour = run.colour(load)
     frequency = table["frequency_Hz"]
@@ -184,8 +190,8 @@ def draw_curve(axes, run, curve, table):
 
 
 def plot_curves(run, folder):
-    if not run.curves:
-        return
+    if all(len(np.unique(table["frequency_Hz"])) < 2 for _, table in run.curves):
+        return  # solutions at one frequency are no curves
     figure, axes = plt.subplots(figsize=(7.2, 4.4), layout="constrained")
     for curve, table in run.curves:
         draw_curve(axes, run, curve, table)
@@ -196,12 +202,12 @@ def plot_curves(run, folder):
     axes.set_title(run.summary.get("title", ""), loc="left")
     axes.grid(True, which="major", color="0.92", linewidth=0.6)
     axes.set_axisbelow(True)
-    loads = [curve["preload_N"] for curve, _ in run.curves]
+    loads = [load_of(curve) for curve, _ in run.curves]
     order = (["free"] if "free" in loads else []) + list(run.colours) + (
         ["stuck"] if "stuck" in loads else [])
     lines = [Line2D([], [], color=run.colour(load), label=run.label(load)) for load in order]
     axes.legend(handles=lines, loc="upper left", bbox_to_anchor=(1.0, 1.02), alignment="left",
-                title="preload scale" if run.modal else "preload")
+                title="preload scale" if run.scaled else "preload")
     kinds = [Line2D([], [], color="0.3", label="stable"),
              Line2D([], [], color="0.3", linestyle=(0, (2.5, 1.6)), label="unstable"),
              Line2D([], [], color="0.3", marker="o", markersize=4, linestyle="", label="peak"),
@@ -221,10 +227,10 @@ def peaks_of(run):
         peak = curve["peak"]
         if peak is None:
             continue
-        if is_number(curve["preload_N"]):
-            family.append((curve["preload_N"], peak["frequency_Hz"], peak["amplitude_m"]))
+        if is_number(load_of(curve)):
+            family.append((load_of(curve), peak["frequency_Hz"], peak["amplitude_m"]))
         else:
-            limits[curve["preload_N"]] = (peak["frequency_Hz"], peak["amplitude_m"])
+            limits[load_of(curve)] = (peak["frequency_Hz"], peak["amplitude_m"])
     return sorted(family), limits
 
 
@@ -269,9 +275,9 @@ def mark_optimum(column, run, optimum):
         axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
                      linewidth=0.6, zorder=5)
         axes.axvline(best[0], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
-    unit = "× " if run.modal else ""
+    unit = "× " if run.scaled else ""
     column[0].annotate(
-        f"best preload {unit}{best[0]:.4g}{'' if run.modal else ' N'}:\n"
+        f"best preload {unit}{best[0]:.4g}{'' if run.scaled else ' N'}:\n"
         f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", (best[0], best[1]), color=ACCENT,
         xytext=(0.97, 0.95), textcoords="axes fraction", ha="right", va="top", fontsize=8)
 
@@ -293,7 +299,7 @@ def plot_peaks(run, folder):
         column = grid[:, i]
         draw_peaks(column, run, family, trace, side)
         draw_limits(column, run, limits, named=i == len(sides) - 1)
-        name = "preload scale [–]" if run.modal else "preload [N]" if side > 0 else "gap: −preload [N]"
+        name = "preload scale [–]" if run.scaled else "preload [N]" if side > 0 else "gap: −preload [N]"
         column[1].set_xlabel(name)
     if optimum and optimum.get("found", True) and sides[-1] > 0:
         mark_optimum(grid[:, -1], run, optimum)
@@ -424,12 +430,25 @@ def plot_row(contact):
 
 
 def plot_map(path, folder, title):
+    import plot_bar  # which draws with what is defined here
     contact = ContactMap(path)
-    row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
-    figure = plot_row(contact) if row else plot_patch(contact)
-    state_legend(figure, contact)
+    name = os.path.splitext(os.path.basename(path))[0]
+    run_folder = os.path.dirname(os.path.dirname(path))
+    position = plot_bar.line_positions(run_folder) if contact.cells is None else None
+    if position is not None:
+        figure = plot_bar.plot_line(run_folder, name, position)
+    else:
+        row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
+        figure = plot_row(contact) if row else plot_patch(contact)
+        state_legend(figure, contact)
     figure.suptitle(f"{title}, {contact.frequency:.6g} Hz", x=0.01, ha="left", fontsize=9)
-    save(figure, folder, "map_" + os.path.splitext(os.path.basename(path))[0])
+    save(figure, folder, "map_" + name)
+
+
+def place_in_words(suffix):
+    """peak, fold 2, solution 1: the frequency of "315Hz_1" stands in the title anyway."""
+    first, _, rest = suffix.partition("_")
+    return f"solution {rest}" if first.endswith("Hz") else suffix.replace("_", " ")
 
 
 def map_tasks(run, folder):
@@ -438,9 +457,9 @@ def map_tasks(run, folder):
         for name in curve.get("maps", []):
             path = os.path.join(run.folder, "maps", name + ".h5")
             if os.path.exists(path):
-                place = name[len(curve["name"]):].strip("_").replace("_", " ")
-                word = "preload scale" if run.modal else "preload"
-                title = f"{word} {run.label(curve['preload_N'])}, {place}"
+                place = place_in_words(name[len(curve["name"]):].strip("_"))
+                word = "preload scale" if run.scaled else "preload"
+                title = f"{run.summary.get('title', '')}: {word} {run.label(load_of(curve))}, {place}"
                 yield lambda path=path, title=title: plot_map(path, folder, title)
 
 

@@ -11,7 +11,7 @@ libraries="libeigen3-dev libslepc-real-dev libgmsh-dev libopenblas-pthread-dev l
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libudunits2-dev libhdf5-dev
   libmuparser-dev nlohmann-json3-dev"
 # The build makes the tests as well unless it is told not to, so their libraries belong here.
-testing="libgtest-dev librapidcheck-dev libbenchmark-dev"
+testing="libgtest-dev librapidcheck-dev libbenchmark-dev libsundials-dev"
 plots="python3-numpy python3-matplotlib python3-meshio python3-h5py"
 test_programs="calculix-ccx openmpi-bin"
 

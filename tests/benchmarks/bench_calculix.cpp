@@ -1,5 +1,5 @@
 // Ten modes of mesh number 2 of bench_fem by CalculiX (one thread), to stand beside
-// `bench_fem --benchmark_filter=ten_modes/blocks/2`. Goal: five times slower or more.
+// `bench_fem --benchmark_filter=ten_modes/2`. Goal: five times slower or more.
 
 #include <cstdio>
 

@@ -4,13 +4,21 @@
 /// the counter `per_point`; BM_cycle and BM_kernels split it into its parts.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "contact/block_kernels.hpp"
+#include "contact/event_law.hpp"
 #include "contact/patch_force.hpp"
 #include "contact/point_motions.hpp"
+#include "contact/sampled_cycle.hpp"
+
+#include "contact/preload_equilibrium.hpp"
+#include "contact/surface_law.hpp"
 
 namespace {
 
@@ -128,6 +136,120 @@ void jacobian_only(benchmark::State& state) {
   count_points(state, block_points);
 }
 BENCHMARK(jacobian_only);
+
+// ---- many harmonics: exact, event by event, and sampled
+
+// Motions of H harmonics that fall as 1/h², states as in setup().
+struct LawSetup {
+  std::vector<PointParameters> points;
+  std::vector<Harmonics> motions;
+};
+
+LawSetup law_setup(int n_harmonics) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  LawSetup s;
+  for (int i = 0; i < 1000; ++i) {
+    s.points.push_back({1e12, 1e12, 0.4, 1e6 * (1.5 + uniform(random))});
+    Harmonics motion(n_harmonics, n_point_signals);
+    for (Eigen::Index row = 0; row < motion.rows().rows(); ++row) {
+      const double h = row == 0 ? 1.0 : 0.5 * static_cast<double>(row + 1);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        motion.rows()(row, k) = 2e-6 * uniform(random) / (std::floor(h) * std::floor(h));
+      }
+    }
+    s.motions.push_back(motion);
+  }
+  return s;
+}
+
+void event_law(benchmark::State& state) {
+  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
+  PointTraction result;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      EventLaw(s.points[i]).traction(s.motions[i], 1000.0, result);
+      benchmark::DoNotOptimize(result.jacobian.data());
+    }
+  }
+  count_points(state, s.points.size());
+}
+BENCHMARK(event_law)->Arg(1)->Arg(3)->Arg(5);
+
+// Largest and root mean square error of a coefficient, relative to k_u |u| + μ (|n₀| + k_v |v|).
+void count_errors(benchmark::State& state, const LawSetup& s, int n_samples) {
+  double largest = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    PointTraction exact;
+    PointTraction sampled;
+    EventLaw(s.points[i]).traction(s.motions[i], 1000.0, exact);
+    SampledLaw(SurfaceLaw(s.points[i], 0.0), n_samples).traction(s.motions[i], 1000.0, sampled);
+    const auto& rows = s.motions[i].rows();
+    const double load = std::abs(s.points[i].preload + 1e12 * rows(0, 1)) +
+                        1e12 * rows.col(1).tail(rows.rows() - 1).norm();
+    const double scale = 1e12 * rows.col(0).tail(rows.rows() - 1).norm() + 0.4 * load;
+    const double error =
+        (sampled.force.rows() - exact.force.rows()).col(0).cwiseAbs().maxCoeff() / scale;
+    largest = std::max(largest, error);
+    squares += error * error;
+  }
+  state.counters["largest_error"] = largest;
+  state.counters["rms_error"] = std::sqrt(squares / static_cast<double>(s.points.size()));
+}
+
+// Harmonics, samples.
+void sampled_law(benchmark::State& state) {
+  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
+  const int n_samples = static_cast<int>(state.range(1));
+  PointTraction result;
+  std::vector<SurfaceLaw> surfaces;
+  for (const PointParameters& point : s.points) surfaces.emplace_back(point, 0.0);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      SampledLaw(surfaces[i], n_samples).traction(s.motions[i], 1000.0, result);
+      benchmark::DoNotOptimize(result.jacobian.data());
+    }
+  }
+  count_points(state, s.points.size());
+  count_errors(state, s, n_samples);
+}
+BENCHMARK(sampled_law)->Args({1, 128})->Args({3, 128})->Args({5, 128})->Args({3, 512});
+
+// One call of a surface law, approaches that sweep from separation through the heights to full
+// contact; with bodies in series an equation is solved in every call.
+void surface_law(benchmark::State& state, const std::optional<RoughSurface>& roughness,
+                 double compliance) {
+  const SurfaceLaw law({1e12, 1e12, 0.4, 5e5}, 1e12, FrictionLaw::exponential(0.4, 0.3, 10.0),
+                       roughness, {0.0, compliance, 0.0});
+  std::vector<double> approaches(1024);
+  for (std::size_t i = 0; i < approaches.size(); ++i) {
+    approaches[i] = 3e-6 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 1024.0);
+  }
+  for (auto _ : state) {
+    for (const double approach : approaches) {
+      benchmark::DoNotOptimize(law.at(approach, 0.01));
+    }
+  }
+  count_points(state, approaches.size());
+}
+BENCHMARK_CAPTURE(surface_law, smooth, std::nullopt, 0.0);
+BENCHMARK_CAPTURE(surface_law, cubic, RoughSurface::cubic(2e-6), 0.0);
+BENCHMARK_CAPTURE(surface_law, gaussian, RoughSurface::matching_gaussian(2e-6), 0.0);
+BENCHMARK_CAPTURE(surface_law, cubic_in_series, RoughSurface::cubic(2e-6), 1e-12);
+BENCHMARK_CAPTURE(surface_law, gaussian_in_series, RoughSurface::matching_gaussian(2e-6), 1e-12);
+
+// Pressure at rest under force and moment, a third of the cells lifted off.
+void preload_equilibrium_of_area(benchmark::State& state) {
+  const auto side = static_cast<int>(state.range(0));
+  const ContactArea area(rectangle_cells(0.1, 0.1, side, side));
+  const NormalLaw law = one_sided_springs(Eigen::VectorXd::Constant(area.n_cells(), 1e12));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(preload_equilibrium(area, law, {1000.0, 28.0, 0.0}));
+  }
+  count_points(state, static_cast<std::size_t>(area.n_cells()));
+}
+BENCHMARK(preload_equilibrium_of_area)->Arg(4)->Arg(32)->Arg(128);
 
 }  // namespace
 

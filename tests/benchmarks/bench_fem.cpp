@@ -51,11 +51,11 @@ void assembly(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * mesh.n_elements());
 }
 
-void ten_modes(benchmark::State& state, fem::ModeSearch search) {
+void ten_modes(benchmark::State& state) {
   const mesh::Mesh& mesh = mesh_of(state);
   for (auto _ : state) {
     fem::Structure blade(mesh, steel, {"root"});
-    const fem::ModalBasis basis = blade.solve_modes({.n_modes = 10, .search = search});
+    const fem::ModalBasis basis = blade.solve_modes({.n_modes = 10});
     const fem::ModalTimings& t = blade.timings();
     state.counters["dofs"] = static_cast<double>(blade.n_dofs());
     state.counters["assembly_s"] = t.assembly;
@@ -77,10 +77,7 @@ void register_all() {
   };
   benchmark::RegisterBenchmark("element_matrices", element_matrices);
   add("assembly", assembly);
-  add("ten_modes/blocks",
-      [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::blocks); });
-  add("ten_modes/krylov_schur",
-      [](benchmark::State& state) { ten_modes(state, fem::ModeSearch::krylov_schur); });
+  add("ten_modes", ten_modes);
 }
 
 }  // namespace

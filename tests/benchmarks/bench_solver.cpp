@@ -1,5 +1,6 @@
 // One frequency point and one whole curve of harmonic balance: 10 modes, 300 contact points, varying load with
-// separation, mean and first harmonic. Goals: a point ≤ 1 ms, a curve of 250 points ≤ 0.3 s, on one core.
+// separation, mean and first harmonic. Goals: a point ≤ 1 ms, a curve of 250 points ≤ 0.3 s, on one core;
+// the peak against 30 preloads over three decades ≤ 3 s.
 
 #include <cmath>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "contact/patch_force.hpp"
 #include "solver/continuation.hpp"
+#include "solver/peak_trace.hpp"
 #include "solver/start_point.hpp"
 
 namespace {
@@ -18,7 +20,7 @@ using namespace microslip;
 constexpr Eigen::Index n_modes = 10;
 
 /// A strip of n points under modes that bend along it: some stick, some slip, some separate.
-solver::Scene strip(Eigen::Index n_points) {
+solver::Scene strip(Eigen::Index n_points, double preload = 0.2) {
   solver::Scene s;
   s.natural_frequency.resize(n_modes);
   s.output = Eigen::VectorXd::LinSpaced(n_modes, 1.0, 0.1);
@@ -26,7 +28,7 @@ solver::Scene strip(Eigen::Index n_points) {
   s.excitation = contact::Harmonics(1, n_modes);
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(n_points, 1.0 / static_cast<double>(n_points));
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(n_points),
-                                               {0.3, 0.4, 0.4, 0.2});
+                                               {0.3, 0.4, 0.4, preload});
   contact::ModalShapes shapes{Eigen::MatrixXd(n_points, n_modes), Eigen::MatrixXd(n_points, n_modes),
                               {}};
   for (Eigen::Index k = 0; k < n_modes; ++k) {
@@ -78,8 +80,38 @@ void whole_curve(benchmark::State& state) {
       n / 250.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+solver::PeakTraceOptions preloads() {
+  solver::PeakTraceOptions options;
+  options.lower = 0.01;
+  options.upper = 10.0;
+  options.n_values = 30;
+  return options;
+}
+
+void peak_against_preload(benchmark::State& state) {
+  const auto family = [&](double preload) { return strip(state.range(0), preload); };
+  solver::PeakTrace trace;
+  for (auto _ : state) trace = solver::trace_peaks(family, range(), preloads());
+  state.counters["peaks"] = static_cast<double>(trace.peaks.size());
+  state.counters["curves"] = trace.n_curves;
+  state.counters["evaluations"] = static_cast<double>(trace.contact_evaluations);
+}
+
+/// What peak_against_preload saves: the same peaks from one whole curve each.
+void peak_on_whole_curves(benchmark::State& state) {
+  const auto family = [&](double preload) { return strip(state.range(0), preload); };
+  auto options = preloads();
+  options.n_checks = options.n_values;
+  solver::PeakTrace trace;
+  for (auto _ : state) trace = solver::trace_peaks(family, range(), options);
+  state.counters["peaks"] = static_cast<double>(trace.peaks.size());
+  state.counters["curves"] = trace.n_curves;
+}
+
 BENCHMARK(one_frequency_point)->Arg(300)->Unit(benchmark::kMicrosecond);
 BENCHMARK(whole_curve)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
+BENCHMARK(peak_against_preload)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(peak_on_whole_curves)->Arg(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

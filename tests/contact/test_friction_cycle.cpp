@@ -284,6 +284,29 @@ TEST(FrictionCycle, ForceAtAPhaseHasTheFourierCoefficients) {
   }
 }
 
+TEST(FrictionCycle, ForceOfAPointThatHardlySticksIsExactToTheForceNotToItsSprings) {
+  // Constant load, k_u a up to 1e10 μn: sticks 1e-5 of the cycle (theory section 5, case b = 0). The
+  // springs alone would leave eps k_u a.
+  const PointParameters point{1.0, 0.0, 0.5, 2.0};
+  const double q = 1.0;
+  for (const double amplitude : {1e2, 1e4, 1e6, 1e8, 1e10}) {
+    const PointMotion motion{.u_sin = amplitude * std::cos(0.7), .u_cos = amplitude * std::sin(0.7)};
+    const long double a = std::hypot(static_cast<long double>(motion.u_sin),
+                                     static_cast<long double>(motion.u_cos));
+    const long double psi = 2.0L * std::atan2(std::sqrt(1.0L), std::sqrt(a - 1.0L));
+    const long double half_turn = 3.14159265358979323846264338327950288L;
+    const long double in_phase = a / half_turn * (psi - 0.5L * std::sin(2.0L * psi));
+    const long double quadrature = 4.0L * (1.0L - 1.0L / a) / half_turn;
+    const long double c = motion.u_sin / a;
+    const long double s = motion.u_cos / a;
+    const CycleForce force = cycle_force(point, motion);
+    // The reference itself cancels to eps (80 bits) times a ψ.
+    EXPECT_NEAR(force.friction.sin, static_cast<double>(in_phase * c - quadrature * s), 5e-15 * q);
+    EXPECT_NEAR(force.friction.cos, static_cast<double>(in_phase * s + quadrature * c), 5e-15 * q);
+    EXPECT_NEAR(force.friction.mean, 0.0, 5e-15 * q);
+  }
+}
+
 TEST(FrictionCycle, SliderRestsInStickAndFollowsInSeparation) {
   const PointParameters point{1.0, 1.0, 0.4, 0.3};
   const PointMotion motion{.u_mean = 0.2, .u_sin = 1.0, .v_sin = 0.3, .v_cos = 0.8};

@@ -1,9 +1,13 @@
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +18,7 @@ namespace microslip::mesh {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 class Blade : public ::testing::Test {
  protected:
@@ -123,6 +128,50 @@ TEST_F(Blade, AMesherWithoutMemoryIsNamed) {
 TEST_F(Blade, NothingIsLeftBesideTheMesh) {
   mesh_blade({}, 0.012, folder_ / "blade.msh");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+// The mesher has a moment to go after the process that started it.
+bool is_empty_soon(const fs::path& folder) {
+  for (int i = 0; i < 500; ++i) {
+    if (fs::is_empty(folder)) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+/// Starts meshing in a process of its own and kills that once `ready`.
+template <typename Ready>
+void kill_while_meshing(const fs::path& file, double element_size, const Ready& ready) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    mesh_blade({}, element_size, file);
+    ::_exit(0);
+  }
+  for (int i = 0; i < 60000 && !ready(); ++i) std::this_thread::sleep_for(1ms);
+  EXPECT_TRUE(ready());
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+}
+
+TEST_F(Blade, AnEndWhileMeshingLeavesNothing) {
+  const auto start = std::chrono::steady_clock::now();
+  kill_while_meshing(folder_ / "blade.msh", 0.008, [&] {
+    EXPECT_TRUE(fs::is_empty(folder_)) << "nothing beside the mesh while meshing either";
+    return std::chrono::steady_clock::now() - start > 100ms;
+  });
+  std::this_thread::sleep_for(2s);  // had the mesher gone on, it would have written by now
+  EXPECT_TRUE(is_empty_soon(folder_));
+}
+
+TEST_F(Blade, AnEndWhileWritingLeavesAWholeMeshOrNone) {
+  kill_while_meshing(folder_ / "blade.msh", 0.006, [&] { return !fs::is_empty(folder_); });
+  if (fs::exists(folder_ / "blade.msh")) {  // it was quicker
+    EXPECT_NO_THROW(read_gmsh(folder_ / "blade.msh"));
+    fs::remove(folder_ / "blade.msh");
+  }
+  EXPECT_TRUE(is_empty_soon(folder_));
 }
 
 }  // namespace

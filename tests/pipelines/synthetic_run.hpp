@@ -134,6 +134,8 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
   map.dissipated_energy = Eigen::VectorXd::LinSpaced(n, 0.0, 2.0);
   map.slip_distance = Eigen::VectorXd::LinSpaced(n, 0.0, 4e-6);
   map.wear_depth = Eigen::VectorXd::LinSpaced(n, 0.0, 1e-12);
+  map.slip_duration = Eigen::VectorXd::LinSpaced(n, 0.0, 0.7);
+  map.separation_duration = Eigen::VectorXd::LinSpaced(n, 0.3, 0.0);
   return map;
 }
 

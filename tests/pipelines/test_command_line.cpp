@@ -316,7 +316,8 @@ TEST_F(Program, ABadSceneLeavesNoRunFolder) {
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
-         {"rigid-body"});
+         {"rigid-body", "contact points"});
+  EXPECT_EQ(content_of(path(".err")).find("supports"), std::string::npos) << "a modal scene has none";
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
 }
 
@@ -346,6 +347,19 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   EXPECT_EQ(WEXITSTATUS(status), 3);
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 3);
   EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+}
+
+/// Names the mesh does not have are told where the scene gives them.
+TEST_F(Program, AnUnknownNameIsToldByFileAndLine) {
+  const std::string head = "[model]\nkind = \"blade\"\nelement_size = \"12 mm\"\n[material]\nyoungs_modulus = 2e11\n"
+                           "poissons_ratio = 0.3\ndensity = 7800\n";
+  write(path("support.toml"), head + "[supports]\nclamped = [\"rot\"]\n");
+  expect("check support.toml", 1, {"support.toml:9: supports.clamped: nothing is named \"rot\"", "\"root\""});
+  write(path("force.toml"), head + "[supports]\nclamped = [\"root\"]\n[excitation]\n"
+                            "forces = [ { at = \"C\", direction = [1, 0, 0], amplitude = 1 } ]\n");
+  expect("check force.toml", 1, {"force.toml:11: excitation.forces.at: nothing is named \"C\"", "\"B\""});
+  expect("check force.toml --set excitation.forces=[]"
+         " --set supports.clamped='[\"foot\"]'", 1, {"--set supports.clamped", "nothing is named \"foot\""});
 }
 
 TEST_F(Program, TwoRunsDoNotShareAFolder) {

@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "contact/event_law.hpp"
 #include "contact/friction_cycle.hpp"
-#include "pipelines/cycle_harmonics.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -24,7 +25,7 @@ const std::string header =
     "tangential_stiffness,normal_stiffness,friction_coefficient,preload,u_sin,u_cos,v_mean,v_sin,"
     "v_cos\n";
 
-Json cycles(const std::string& table, int n_harmonics = 1) {
+Json cycles(const std::string& table, std::optional<int> n_harmonics = std::nullopt) {
   return Json::parse(cycles_as_json(CsvTable::parse(table, "points.csv"), n_harmonics));
 }
 
@@ -169,24 +170,30 @@ TEST(CycleHarmonics, AreTheIntegralsOfTheForcesOverThePeriod) {
   const contact::PointMotion motion{0.2, 2.5, -0.7, 0.1, 1.5, 0.4};
   for (const auto& point : points) {
     const auto cycle = contact::friction_cycle(point, motion);
-    const auto higher = higher_harmonics(cycle, point, motion, n_harmonics);
-    for (int h = 2; h <= n_harmonics; ++h) {
+    const Json row = cycles(header.substr(0, header.size() - 1) + ",u_mean\n" +
+                                std::to_string(point.tangential_stiffness) + "," +
+                                std::to_string(point.normal_stiffness) + "," +
+                                std::to_string(point.friction_coefficient) + "," +
+                                std::to_string(point.preload) + ",2.5,-0.7,0.1,1.5,0.4,0.2\n",
+                            n_harmonics)[0];
+    for (std::size_t h = 1; h <= n_harmonics; ++h) {
       std::array<double, 4> sums{};
       for (int i = 0; i < n; ++i) {
         const double phase = 2.0 * pi * i / n;
         const auto now = contact::at_phase(cycle, point, motion, phase);
-        const double s = std::sin(h * phase) * 2.0 / n;
-        const double c = std::cos(h * phase) * 2.0 / n;
+        const double s = std::sin(static_cast<double>(h) * phase) * 2.0 / n;
+        const double c = std::cos(static_cast<double>(h) * phase) * 2.0 / n;
         sums[0] += now.friction * s;
         sums[1] += now.friction * c;
         sums[2] += now.normal * s;
         sums[3] += now.normal * c;
       }
-      const auto i = static_cast<std::size_t>(h - 2);
-      EXPECT_NEAR(higher.friction.sin[i], sums[0], 1e-8) << point.preload << " h = " << h;
-      EXPECT_NEAR(higher.friction.cos[i], sums[1], 1e-8) << point.preload << " h = " << h;
-      EXPECT_NEAR(higher.normal.sin[i], sums[2], 1e-8) << point.preload << " h = " << h;
-      EXPECT_NEAR(higher.normal.cos[i], sums[3], 1e-8) << point.preload << " h = " << h;
+      const Json& friction = row["friction"];
+      const Json& normal = row["normal"];
+      EXPECT_NEAR(friction["sin"][h - 1].get<double>(), sums[0], 1e-8) << point.preload << h;
+      EXPECT_NEAR(friction["cos"][h - 1].get<double>(), sums[1], 1e-8) << point.preload << h;
+      EXPECT_NEAR(normal["sin"][h - 1].get<double>(), sums[2], 1e-8) << point.preload << h;
+      EXPECT_NEAR(normal["cos"][h - 1].get<double>(), sums[3], 1e-8) << point.preload << h;
     }
   }
 }
@@ -213,6 +220,65 @@ TEST(CycleHarmonics, TheFirstDoesNotDependOnHowManyAreAsked) {
   EXPECT_EQ(cycles(table, 5)[0]["jacobian"], cycles(table)[0]["jacobian"]);
   EXPECT_THROW(static_cast<void>(cycles(table, 0)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(cycles(table, largest_harmonic + 1)), std::invalid_argument);
+}
+
+// ---- motion of many harmonics
+
+std::string with_columns(const std::string& columns, const std::string& values) {
+  return header.substr(0, header.size() - 1) + "," + columns + "\n1,1,0.5,1,3,0.3,0,0.2,0.1," +
+         values + "\n";
+}
+
+TEST(CycleOfManyHarmonics, IsThatOfTheEventLaw) {
+  const Json row = cycles(with_columns("u_sin2,v_cos3,u_cos3,u_mean", "0.7,-0.4,1.1,0.3"))[0];
+  contact::Harmonics motion(3, 3);
+  motion.rows().col(0) << 0.3, 3.0, 0.3, 0.7, 0.0, 0.0, 1.1;
+  motion.rows().col(1) << 0.0, 0.2, 0.1, 0.0, 0.0, 0.0, -0.4;
+  const auto history = contact::EventLaw({1.0, 1.0, 0.5, 1.0}).history(motion, 0.0, {}, 3);
+  EXPECT_EQ(row["dissipated_energy"].get<double>(), history.dissipated_energy);
+  EXPECT_EQ(row["slip_distance"].get<double>(), history.slip_distance);
+  EXPECT_EQ(row["segments"].size(), history.segments.size());
+  EXPECT_EQ(row["friction"]["mean"].get<double>(), history.force.mean()[0]);
+  for (int h = 1; h <= 3; ++h) {
+    const auto i = static_cast<std::size_t>(h - 1);
+    EXPECT_EQ(row["friction"]["sin"][i].get<double>(), history.force.sine(h)[0]);
+    EXPECT_EQ(row["friction"]["cos"][i].get<double>(), history.force.cosine(h)[0]);
+    EXPECT_EQ(row["normal"]["sin"][i].get<double>(), history.force.sine(h)[1]);
+    EXPECT_EQ(row["normal"]["cos"][i].get<double>(), history.force.cosine(h)[1]);
+  }
+  EXPECT_FALSE(row.contains("jacobian"));  // single-harmonic motion only
+}
+
+TEST(CycleOfManyHarmonics, AsManyArePutOutAsTheTableHas) {
+  for (const char* force : {"friction", "normal"}) {
+    EXPECT_EQ(cycles(with_columns("u_sin7", "0.1"))[0][force]["sin"].size(), 7U);
+    EXPECT_EQ(cycles(with_columns("v_cos4", "0.1"))[0][force]["cos"].size(), 4U);
+    EXPECT_EQ(cycles(with_columns("v_cos4", "0.1"), 2)[0][force]["cos"].size(), 2U);
+    EXPECT_EQ(cycles(with_columns("v_cos4", "0.1"), 9)[0][force]["cos"].size(), 9U);
+  }
+}
+
+TEST(CycleOfManyHarmonics, ZerosAreMotionOfOneHarmonic) {
+  const Json plain = cycles(header + "1,1,0.5,1,3,0.3,0,0.2,0.1\n")[0];
+  const Json zeros = cycles(with_columns("u_sin2,v_cos5", "0,0"), 1)[0];
+  EXPECT_EQ(zeros, plain);
+}
+
+// A motion of only the second harmonic runs through two cycles of the first: same forces, twice the
+// work.
+TEST(CycleOfManyHarmonics, AMotionTwiceAsFastIsTheSameCycleTwice) {
+  const Json once = cycles(header + "1,1,0.5,1,3,0.3,0,0.2,1.5\n")[0];
+  const Json twice = cycles(header.substr(0, header.size() - 1) +
+                            ",u_sin2,u_cos2,v_sin2,v_cos2\n1,1,0.5,1,0,0,0,0,0,3,0.3,0.2,1.5\n")[0];
+  const double rounding = 1e-14;  // some ten roundings of forces of size 3, twice the phases
+  EXPECT_NEAR(twice["friction"]["sin"][1].get<double>(), once["friction"]["sin"][0].get<double>(),
+              rounding);
+  EXPECT_NEAR(twice["normal"]["mean"].get<double>(), once["normal"]["mean"].get<double>(),
+              rounding);
+  EXPECT_NEAR(twice["friction"]["cos"][0].get<double>(), 0.0, rounding);
+  EXPECT_NEAR(twice["dissipated_energy"].get<double>(),
+              2.0 * once["dissipated_energy"].get<double>(), 10.0 * rounding);
+  EXPECT_EQ(twice["segments"].size(), 2 * once["segments"].size());
 }
 
 // ---- bad tables
@@ -244,13 +310,21 @@ TEST(BadCycleTable, ColumnsAreTold) {
   expect_complaint("", {"empty"});
 }
 
-TEST(BadCycleTable, LaterMotionsAreRefusedUnlessZero) {
-  for (const char* column : {"u_sin2", "v_cos3", "w_sin", "w_cos", "w_mean", "w_sin2"}) {
+TEST(BadCycleTable, TheSecondDirectionIsRefusedUnlessZero) {
+  for (const char* column : {"w_sin", "w_cos", "w_mean", "w_sin2"}) {
     const std::string columns = header.substr(0, header.size() - 1) + "," + column + "\n";
     EXPECT_EQ(complaint(columns + "1,1,0.5,1,3,0,0,0.2,0,0\n"), "") << column;
     expect_complaint(columns + "1,1,0.5,1,3,0,0,0.2,0,0\n1,1,0.5,1,3,0,0,0.2,0,0.1\n",
                      {std::string("points.csv:3: ") + column, "not available in this version"});
   }
+}
+
+TEST(BadCycleTable, HarmonicsHaveOneNameEach) {
+  for (const char* column : {"u_sin1", "u_sin0", "u_sin02", "u_sin1001", "u_sin2x", "u_sin-2",
+                             "u_sin 2", "u_mean2", "x_sin2", "usin2", "u_", "u_si"}) {
+    expect_complaint(with_columns(column, "0"), {"points.csv:1: ", "unknown column", column});
+  }
+  EXPECT_EQ(complaint(with_columns("u_sin1000", "0")), "");
 }
 
 TEST(BadCycleTable, ForcesBeyondDoublePrecisionAreNotWrittenAsNull) {
@@ -267,8 +341,9 @@ TEST(BadCycleTable, AnyMutationEndsInJsonOrAnError) {
   const auto next = [&](std::size_t n) {
     return ((state = state * 1664525U + 1013904223U) >> 8) % static_cast<unsigned>(n);
   };
-  const std::string table = "id," + header + "a,1e6,2e6,0.4,100,1e-3,0,0,2e-5,1e-6\n" +
-                            "b,1e6,0,0.4,-100,1e-3,1e-4,0,2e-5,1e-6\n\nc,0,1,0,0,0,0,0,0,0\n";
+  const std::string table =
+      "id,u_sin3,v_cos2," + header + "a,1e-4,0,1e6,2e6,0.4,100,1e-3,0,0,2e-5,1e-6\n" +
+      "b,0,1e-5,1e6,0,0.4,-100,1e-3,1e-4,0,2e-5,1e-6\n\n" + "c,0,0,0,1,0,0,0,0,0,0,0\n";
   constexpr char all_bytes[] =
       ",\n\r\" \t#0123459.+-eEnaif_uvw\0\xFF\xC3";  // a zero byte is among them
   const std::string_view bytes(all_bytes, sizeof(all_bytes) - 1);

@@ -241,7 +241,7 @@ TEST(SceneFile, TextsOfTheCompletedSceneSurviveQuotesAndControls) {
 }
 
 TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
-  for (const char* kind : {"blade", "mesh", "modal"}) {
+  for (const char* kind : {"blade", "mesh", "modal", "bar", "chain"}) {
     EXPECT_EQ(complaint(scene_template(kind)), "") << kind;
   }
   expect_complaint(
@@ -253,7 +253,7 @@ TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
         }
         return std::string();
       }(),
-      {"step", "blade, mesh, modal"});
+      {"step", "blade, mesh, modal, bar, chain"});
 }
 
 // ---- overrides
@@ -400,7 +400,6 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
     EXPECT_NE(message.find("available"), std::string::npos) << assignment << ": " << message;
   };
   refused(blade_text, "model.kind=step");
-  refused(blade_text, "model.kind=bar");
   refused(blade_text, "modes.residual=attachment");
   refused(blade_text, "response.method=time");
   refused(blade_text, "contact.roughness={ law = \"cubic\", height = \"10 um\" }");

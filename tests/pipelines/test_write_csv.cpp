@@ -57,7 +57,9 @@ TEST(WriteCsv, CurveHasTheColumnsOfTheInterface) {
                      "residual",
                      "energy_imbalance",
                      "dissipation_mismatch",
-                     "mark"};
+                     "mark",
+                     "awake_share",
+                     "iterations"};
   ASSERT_EQ(rows.size(), 4U);
   for (const Row& row : rows) EXPECT_EQ(row.size(), expected.size());
   EXPECT_EQ(rows[0], expected);
@@ -72,11 +74,11 @@ TEST(WriteCsv, CurveValuesStandInTheirColumns) {
   EXPECT_EQ(std::stod(first[3]), -0.01 * 1e-4);
   EXPECT_DOUBLE_EQ(std::stod(first[4]), -45.0);
   EXPECT_EQ(Row(first.begin() + 5, first.end()),
-            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", ""}));
+            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", "", "1", "3"}));
   EXPECT_EQ(rows[2][5], "1");
-  EXPECT_EQ(rows[2].back(), "peak");
+  EXPECT_EQ(rows[2][13], "peak");
   EXPECT_EQ(rows[3][5], "0");
-  EXPECT_EQ(rows[3].back(), "fold");
+  EXPECT_EQ(rows[3][13], "fold");
   EXPECT_EQ(std::stod(rows[3][1]), 1.0 / 3e4) << "digits are lost";
 }
 

@@ -22,6 +22,8 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
   EXPECT_EQ(values(data, "dissipated_energy_J_per_m2"), map.dissipated_energy);
   EXPECT_EQ(values(data, "slip_distance_m"), map.slip_distance);
   EXPECT_EQ(values(data, "wear_depth_m"), map.wear_depth);
+  EXPECT_EQ(values(data, "slip_duration"), map.slip_duration);
+  EXPECT_EQ(values(data, "separation_duration"), map.separation_duration);
 }
 
 TEST(WriteMap, SeriesGoesOnceAroundThePeriodInDegrees) {

@@ -209,7 +209,7 @@ TEST(Continuation, NamesACurveThatDoesNotEnd) {
   options.max_points = 20;
   const auto curve = trace_response(Duffing{}.scene(), options);
   EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.diagnosis, "loop");
+  EXPECT_EQ(curve.diagnosis, "budget");
   EXPECT_FALSE(curve.message.empty());
 }
 

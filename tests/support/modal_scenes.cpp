@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/patch_force.hpp"
+#include "contact/patch_transient.hpp"
 
 namespace microslip::tests {
 namespace {
@@ -196,6 +197,11 @@ solver::Scene turned_scene(const solver::Scene& scene, double phase) {
       sine * scene.excitation.rows().row(1) + cosine * scene.excitation.rows().row(2);
   copy.contact = copied_patch(scene, 1.0);
   return copy;
+}
+
+void add_transient(solver::Scene& scene) {
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  scene.transient = std::make_unique<contact::PatchTransient>(patch.patch(), patch.shapes());
 }
 
 }  // namespace microslip::tests

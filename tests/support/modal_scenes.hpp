@@ -30,4 +30,8 @@ struct PatchScene {
 /// A copy with the excitation turned by a phase [rad].
 [[nodiscard]] solver::Scene turned_scene(const solver::Scene& scene, double phase);
 
+/// Gives a scene of these builders the same contact for time integration.
+/// @throws std::bad_cast  the contact is not a PatchForce.
+void add_transient(solver::Scene& scene);
+
 }  // namespace microslip::tests

@@ -1,0 +1,40 @@
+/// @file
+/// Root of a continuous function between two points where its sign differs: regula falsi with the
+/// weight of a stale end halved (Illinois), and bisection where that is slow.
+#pragma once
+
+#include <cmath>
+
+namespace microslip::contact {
+
+/// @param f          function of one number.
+/// @param low, high  ends of the bracket; f(low) and f(high) have opposite signs or one is zero.
+/// @return a point where f changes sign, to the rounding of `low` and `high`.
+template <typename Function>
+[[nodiscard]] double bracketed_root(const Function& f, double low, double high, double f_low,
+                                    double f_high) {
+  if (f_low == 0.0) return low;
+  if (f_high == 0.0) return high;
+  for (int i = 0; i < 200; ++i) {
+    const double width = high - low;
+    const double size = std::abs(low) + std::abs(high);
+    if (std::abs(width) <= 2e-16 * size) break;  // neighbouring doubles
+    double middle = high - f_high * (width / (f_high - f_low));
+    const bool inside = (middle - low) * (high - middle) > 0.0;
+    if (!inside || i % 8 == 7) middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    const double f_middle = f(middle);
+    if (f_middle == 0.0) return middle;
+    if ((f_middle > 0.0) == (f_high > 0.0)) {
+      f_low *= 0.5;
+    } else {
+      low = high;
+      f_low = f_high;
+    }
+    high = middle;
+    f_high = f_middle;
+  }
+  return high;
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,44 @@
+/// @file
+/// Modal force of a friction patch whose points follow any law (point_law.hpp), for any number of
+/// harmonics and both tangential directions (theory section 13):
+///
+///   G^(k)_m = Σ_i w_i [ φ_u,im f_p,i + φ_v,im (n_i − n_ref,i δ_k0) + φ_w,im f_r,i ]^(k)
+///   ∂G/∂q   = Σ_i w_i Φ_iᵀ J_i Φ_i,      J_i the Jacobian of the point
+///
+/// PatchForce does the same faster where the closed form of one harmonic and one tangential direction is
+/// enough.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/contact_patch.hpp"
+#include "contact/modal_force.hpp"
+#include "contact/point_law.hpp"
+
+namespace microslip::contact {
+
+class LawPatchForce final : public ModalForce {
+ public:
+  /// @param weights  area of each point [m²], n ≥ 1, ≥ 0.
+  /// @param laws     one per point, n; shared by patches of one scene.
+  /// @param shapes   relative mode shapes at the points, n × n_modes; w may be empty (no motion along r).
+  /// @throws std::invalid_argument  sizes differ or a value is not finite.
+  LawPatchForce(Eigen::VectorXd weights, std::vector<std::shared_ptr<const PointLaw>> laws,
+                ModalShapes shapes);
+
+  [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
+  /// @throws std::invalid_argument  another number of modes, or no harmonic.
+  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
+  /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+
+ private:
+  Eigen::VectorXd weights_;
+  std::vector<std::shared_ptr<const PointLaw>> laws_;
+  ModalShapes shapes_;
+  std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w
+};
+
+}  // namespace microslip::contact

@@ -1,0 +1,81 @@
+/// @file
+/// What a planar slider sees: the motion of one contact point at any phase, and the disc that drags the
+/// slider along, free of units.
+///
+///   x(θ) = (u, w) without means,   n = N(v),   |f| ≤ μ n,   f = g K₀ (x − s)                  (1)
+///   |K₀ (x − s)| ≤ r(θ),   r = μ n / g,   K₀ = diag(k_u, k_w)                                 (2)
+///
+/// (2) holds for every surface law: stiffness that depends on the load enters through r alone. Lengths
+/// are counted in L₀ = F₀/k₀ and r in F₀, the force scale of the cycle, so that K₀ and the numbers in
+/// (2) are of order one.
+///
+/// A direction without stiffness carries no friction: its motion is taken away and its force is zero.
+///
+/// Source: theory sections 3, 9, 10, 11.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "contact/harmonics.hpp"
+#include "contact/surface_law.hpp"
+
+namespace microslip::contact {
+
+/// One phase. Rates are with respect to θ.
+struct PlanarInstant {
+  double phase = 0.0;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x / L₀
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' / L₀
+  double approach_rate = 0.0;                          ///< v' [m]
+  SurfaceState surface;                                ///< in units of the law
+  double radius = 0.0;                                 ///< r / F₀
+  double radius_rate = 0.0;                            ///< r' / F₀
+  double radius_by_approach = 0.0;                     ///< ∂r/∂v / F₀ [1/m]
+  double radius_by_rate = 0.0;                         ///< ∂r/∂σ / F₀ [s/m]
+  double speed = 0.0;                                  ///< hypot(u', w') [m]
+  Eigen::Vector2d heading = Eigen::Vector2d::Zero();   ///< (u', w') / speed; 0 at rest
+};
+
+class PlanarMotion {
+ public:
+  /// @param law     of the point; kept by reference.
+  /// @param motion  u, v, w [m], H ≥ 1; kept by reference.
+  PlanarMotion(const SurfaceLaw& law, const Harmonics& motion, double frequency);
+
+  [[nodiscard]] PlanarInstant at(double phase) const;
+  /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where the
+  /// law has a kink.
+  [[nodiscard]] PlanarInstant at(double phase, double nudge) const;
+  [[nodiscard]] double approach(double phase) const;
+  [[nodiscard]] double approach_rate(double phase) const;
+
+  /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
+  [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
+  [[nodiscard]] double force_scale() const { return force_scale_; }    ///< F₀ [Pa]
+  [[nodiscard]] double length_scale() const { return length_scale_; }  ///< L₀ [m]
+  /// K₀ L₀/F₀, diagonal, both > 0.
+  [[nodiscard]] const Eigen::Vector2d& stiffness() const { return stiffness_; }
+  [[nodiscard]] const Eigen::Vector2d& compliance() const { return compliance_; }
+  /// Which directions carry friction: 1 or 0 along p, r.
+  [[nodiscard]] const Eigen::Vector2d& active() const { return active_; }
+  /// Virgin slider, s = 0: −(u₀, w₀)/L₀ beside the moving part of the motion.
+  [[nodiscard]] Eigen::Vector2d virgin_slider() const;
+  [[nodiscard]] int n_harmonics() const { return harmonics_.n_harmonics(); }
+  [[nodiscard]] const Harmonics& harmonics() const { return harmonics_; }
+  [[nodiscard]] const SurfaceLaw& law() const { return law_; }
+  [[nodiscard]] double frequency() const { return frequency_; }
+
+ private:
+  void set_scales();
+
+  const SurfaceLaw& law_;
+  const Harmonics& harmonics_;
+  double frequency_;
+  double force_scale_ = 0.0;
+  double length_scale_ = 1.0;
+  Eigen::Vector2d stiffness_ = Eigen::Vector2d::Ones();
+  Eigen::Vector2d compliance_ = Eigen::Vector2d::Ones();
+  Eigen::Vector2d active_ = Eigen::Vector2d::Ones();
+};
+
+}  // namespace microslip::contact

@@ -1,0 +1,369 @@
+#include "contact/planar_orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/bracketed_root.hpp"
+
+namespace microslip::contact {
+namespace {
+
+using Eigen::Vector2d;
+
+/// What |K₀ (x − s)| may exceed r by and still count as stuck: rounding of numbers of order one.
+constexpr double stick_slack = 4e-15;
+/// Shortest advance of a walk that would otherwise not move: what it skips is below rounding.
+constexpr double shortest_step = 1e-11;
+
+/// Guard of a stuck point, |F| − r with F = K₀ (x − s), and its rate.
+struct Guard {
+  double value = 0.0;
+  double rate = 0.0;
+};
+
+Guard stick_guard(const PlanarInstant& now, const Vector2d& slider, const Vector2d& stiffness) {
+  const Vector2d force = stiffness.cwiseProduct(now.position - slider);
+  const Vector2d force_rate = stiffness.cwiseProduct(now.velocity);
+  const double size = force.norm();
+  const double growth = size > stick_slack ? force.dot(force_rate) / size : force_rate.norm();
+  return {size - now.radius, growth - now.radius_rate};
+}
+
+/// Length of a step for a tolerance. The share of the highest polynomial falls as εⁿ with its degree n,
+/// so that the error of a step, of degree nine, is its power 9/5; 3/2 leaves room.
+double allowed_top_term(double tolerance) { return std::pow(tolerance, 1.0 / 1.5); }
+
+/// The rule of Radau integrates a wave of k oscillations per 2π over a length h with an error of about
+/// 1e-8 (kh/2)⁹; 2 is where the shape of a step would be lost.
+double longest_step_length(const OrbitOptions& options) {
+  return std::min(2.0, 2.0 * std::pow(1e8 * options.tolerance, 1.0 / 9.0)) /
+         options.highest_harmonic;
+}
+
+class Walk {
+ public:
+  Walk(const PlanarMotion& motion, const OrbitOptions& options, PlanarOrbit& orbit)
+      : motion_(motion),
+        allowed_(allowed_top_term(options.tolerance)),
+        longest_(longest_step_length(options)),
+        next_length_(std::min(0.6 / motion.n_harmonics(), longest_)),
+        orbit_(orbit) {}
+
+  void start(const Vector2d& slider) { slider_ = slider; }
+
+  void cross(const PlanarInterval& interval, bool first) {
+    if (!interval.in_contact) {
+      slipping_ = false;
+      orbit_.separates = true;
+      PlanarPiece open;
+      open.state = ContactState::separated;
+      open.begin = interval.begin;
+      open.end = interval.end;
+      orbit_.pieces.push_back(std::move(open));
+      return;
+    }
+    interval_ = &interval;
+    time_ = interval.begin;
+    enter(first);
+    int idle = 0;
+    while (time_ < interval.end) {
+      const double before = time_;
+      slipping_ ? slip() : stick();
+      idle = time_ > before ? 0 : idle + 1;
+      if (idle > 3) creep();
+    }
+  }
+
+  [[nodiscard]] const Vector2d& slider() const { return slider_; }
+
+ private:
+  [[nodiscard]] const Vector2d& stiffness() const { return motion_.stiffness(); }
+
+  void open_piece(ContactState state, PlanarEntry entry, const PlanarInstant& now) {
+    PlanarPiece piece;
+    piece.state = state;
+    piece.entry = entry;
+    piece.begin = time_;
+    piece.end = time_;
+    piece.at_begin = now;
+    piece.slider = slider_;
+    orbit_.pieces.push_back(std::move(piece));
+    if (state == ContactState::slip) orbit_.slips = true;
+  }
+
+  /// State at the begin of an interval in contact.
+  void enter(bool first) {
+    const PlanarInstant& now = interval_->grid.front();
+    entry_ = PlanarEntry::continued;
+    // Load that only grazes zero wipes the memory as well.
+    heading_.setZero();
+    if (interval_->touches_down || (!first && now.radius <= stick_slack)) {
+      slider_ = now.position;
+      entry_ = PlanarEntry::touch_down;
+      const Vector2d pull = stiffness().cwiseProduct(now.velocity);
+      slipping_ = pull.norm() > now.radius_rate;
+      if (slipping_) heading_ = returned_force(pull, stiffness(), now.radius_rate);
+      return;
+    }
+    if (first) return_slider(now);
+    if (slipping_) {
+      const Vector2d force = stiffness().cwiseProduct(now.position - slider_);
+      const double size = force.norm();
+      slipping_ = size <= 0.0 || slip_rate(now, force / size, motion_.compliance()) > 0.0;
+    }
+  }
+
+  /// The slider a period begins with may lie outside its ellipse: virgin, or proposed by Newton.
+  void return_slider(const PlanarInstant& now) {
+    const Vector2d trial = stiffness().cwiseProduct(now.position - slider_);
+    const double excess = trial.norm() - now.radius;
+    constexpr double on_edge = 1e-12;  // closer than this it is taken to rest on the edge
+    slipping_ = excess > -on_edge;
+    if (excess <= stick_slack) return;
+    const Vector2d before = slider_;
+    const Vector2d force = returned_force(trial, stiffness(), now.radius);
+    slider_ = now.position - motion_.compliance().cwiseProduct(force);
+    open_piece(ContactState::slip, PlanarEntry::returned, now);
+    orbit_.pieces.back().before = before;
+  }
+
+  void stick() {
+    const PlanarInstant now =
+        time_ == interval_->begin ? interval_->grid.front() : motion_.at(time_);
+    open_piece(ContactState::stick, entry_, now);
+    entry_ = PlanarEntry::continued;
+    time_ = end_of_stick(now);
+    slipping_ = time_ < interval_->end;
+    orbit_.pieces.back().end = time_;
+  }
+
+  [[nodiscard]] double end_of_stick(const PlanarInstant& from) const {
+    const auto& grid = interval_->grid;
+    const auto after = [](double phase, const PlanarInstant& x) { return phase < x.phase; };
+    PlanarInstant low = from;
+    for (auto next = std::upper_bound(grid.begin(), grid.end(), from.phase, after);
+         next != grid.end(); ++next) {
+      const double found = breach_in_cell(low, *next);
+      if (found <= next->phase) return found;
+      low = *next;
+    }
+    return interval_->end;
+  }
+
+  [[nodiscard]] double force_growth(const PlanarInstant& now) const {
+    return stiffness().cwiseProduct(now.position - slider_).dot(
+        stiffness().cwiseProduct(now.velocity));
+  }
+
+  /// First phase at which the guard of stick is broken, or beyond the cell. Where the force passes
+  /// through a minimum the guard may have an edge: both sides are looked at.
+  [[nodiscard]] double breach_in_cell(const PlanarInstant& low, const PlanarInstant& high) const {
+    const double growth_low = force_growth(low);
+    const double growth_high = force_growth(high);
+    if (!(growth_low < 0.0 && growth_high > 0.0)) return breach_between(low, high);
+    const auto growth = [this](double phase) { return force_growth(motion_.at(phase)); };
+    const double smallest =
+        bracketed_root(growth, low.phase, high.phase, growth_low, growth_high);
+    const double aside = 1e-6 * (high.phase - low.phase);  // the force is no larger in between
+    const PlanarInstant left = motion_.at(std::max(smallest - aside, low.phase));
+    const PlanarInstant right = motion_.at(std::min(smallest + aside, high.phase));
+    const double found = breach_between(low, left);
+    return found <= left.phase ? found : breach_between(right, high);
+  }
+
+  /// The same where the force has no minimum inside.
+  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high) const {
+    const auto guard = [this](const PlanarInstant& now) {
+      return stick_guard(now, slider_, stiffness());
+    };
+    const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
+    const Guard before = guard(low);
+    const Guard after = guard(high);
+    double end = high.phase;
+    double value = after.value - stick_slack;
+    if (value <= 0.0 && before.rate > 0.0 && after.rate < 0.0) {
+      const auto rate = [&](double phase) { return guard(motion_.at(phase)).rate; };
+      end = bracketed_root(rate, low.phase, end, before.rate, after.rate);
+      value = excess(end);
+    }
+    if (value <= 0.0) return high.phase + 1.0;
+    const double start = before.value - stick_slack;
+    return start < 0.0 ? bracketed_root(excess, low.phase, end, start, value) : low.phase;
+  }
+
+  void slip() {
+    const PlanarInstant now =
+        time_ == interval_->begin ? interval_->grid.front() : motion_.at(time_);
+    open_piece(ContactState::slip, entry_, now);
+    entry_ = PlanarEntry::continued;
+    while (slipping_ && time_ < interval_->end) {
+      SlipStep step = longest_step();
+      const double fraction = first_reversal(step);
+      if (fraction <= 1.0) {
+        finish_slip(step, fraction);
+        slipping_ = false;
+        if (step.length <= shortest_step) break;
+      }
+      time_ = step.end() >= interval_->end ? interval_->end : step.end();
+      slider_ = step.end_slider();
+      orbit_.pieces.back().steps.push_back(step);
+    }
+    orbit_.pieces.back().end = time_;
+  }
+
+  bool solve(SlipStep& step, double length) const {
+    step.begin = time_;
+    step.slider = slider_;
+    step.length = length;
+    const bool last = time_ + length >= interval_->end;
+    return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step);
+  }
+
+  /// The longest step from here within the tolerance.
+  SlipStep longest_step() {
+    SlipStep step;
+    const double left = interval_->end - time_;
+    double length = std::min(next_length_, left);
+    if (length < left && length > 0.6 * left) length = 0.6 * left;
+    for (;;) {
+      const bool solved = solve(step, length) && turns_slowly(step);
+      const double factor =
+          solved ? 0.9 * std::pow(allowed_ / std::max(step.top_term, 1e-300), 0.2) : 0.25;
+      if ((solved && step.top_term <= allowed_) || length <= shortest_step) {
+        next_length_ = std::min(longest_, length * std::clamp(factor, 0.3, 4.0));
+        return step;
+      }
+      length *= std::clamp(factor, 0.1, 0.8);
+    }
+  }
+
+  /// Whether no two neighbouring stages differ by more than 60 degrees: else slip may have ended and
+  /// begun again between them.
+  [[nodiscard]] bool turns_slowly(const SlipStep& step) const {
+    const Vector2d begin = motion_.compliance().cwiseInverse().cwiseProduct(
+        motion_.at(step.begin).position - step.slider);
+    constexpr double has_direction = 1e-11;  // below it rounding turns the force
+    const bool touches = time_ == interval_->begin && begin.norm() <= has_direction;
+    const Vector2d along = touches ? heading_ : begin;
+    const double size = along.norm();
+    if ((touches || size > has_direction) && along.dot(step.direction.col(0)) < 0.5 * size) {
+      return false;
+    }
+    for (int i = 1; i < n_stages; ++i) {
+      if (step.direction.col(i - 1).dot(step.direction.col(i)) < 0.5) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] double rate_at(const SlipStep& step, double x) const {
+    const PlanarInstant now = motion_.at(step.begin + x * step.length);
+    const Vector2d force = stiffness().cwiseProduct(now.position - step.slider_at(x));
+    const double size = force.norm();
+    return size > 0.0 ? slip_rate(now, force / size, motion_.compliance()) : 0.0;
+  }
+
+  /// Fraction of the step at which the slip rate first falls to 0; above 1 if it does not.
+  [[nodiscard]] double first_reversal(const SlipStep& step) const {
+    const RadauNodes& rule = radau_nodes();
+    double low = 0.0;
+    double rate_low = 1.0;
+    std::array<double, n_stages> rate;
+    for (int i = 0; i < n_stages; ++i) {
+      rate[static_cast<std::size_t>(i)] = step.rate(i, motion_.compliance());
+    }
+    const auto rate_of = [&](double x) { return rate_at(step, x); };
+    for (std::size_t i = 0; i < n_stages; ++i) {
+      if (rate[i] <= 0.0) {
+        if (low == 0.0) rate_low = std::max(rate[i] * -1.0, 1e-300);
+        return bracketed_root(rate_of, low, rule.node[i], rate_low, rate[i]);
+      }
+      if (i > 0 && i + 1 < n_stages && rate[i] < rate[i - 1] && rate[i] < rate[i + 1]) {
+        const double dip = lowest_between(rule, rate, i);
+        const double rate_dip = rate_of(dip);
+        if (rate_dip <= 0.0) {
+          return bracketed_root(rate_of, rule.node[i - 1], dip, rate[i - 1], rate_dip);
+        }
+      }
+      low = rule.node[i];
+      rate_low = rate[i];
+    }
+    return 2.0;
+  }
+
+  /// Vertex of the parabola through three nodes.
+  static double lowest_between(const RadauNodes& rule, const std::array<double, n_stages>& rate,
+                               std::size_t i) {
+    const double left = rule.node[i - 1] - rule.node[i];
+    const double right = rule.node[i + 1] - rule.node[i];
+    const double slope_left = (rate[i - 1] - rate[i]) / left;
+    const double slope_right = (rate[i + 1] - rate[i]) / right;
+    const double curvature = (slope_right - slope_left) / (right - left);
+    return rule.node[i] - 0.5 * (slope_left - curvature * left) / curvature;
+  }
+
+  /// Solves for the length of a step that ends where the slip rate is 0.
+  void finish_slip(SlipStep& step, double fraction) const {
+    constexpr double delta = 1e-4;
+    const double slope = (rate_at(step, fraction) - rate_at(step, std::max(fraction - delta, 0.0))) /
+                         (step.length * std::min(delta, fraction));
+    double length = fraction * step.length;
+    double before = 0.0;
+    double rate_before = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      if (length <= shortest_step || !solve(step, length)) break;
+      const double rate = step.rate(n_stages - 1, motion_.compliance());
+      // The slider misses its end by the square of this, far below rounding.
+      if (std::abs(rate) <= 1e-12) break;
+      const double secant = i == 0 ? slope : (rate - rate_before) / (length - before);
+      before = length;
+      rate_before = rate;
+      if (!(secant < 0.0)) break;
+      const double next = std::clamp(length - rate / secant, 0.5 * length, 1.5 * length);
+      if (next == length || time_ + next > interval_->end) break;
+      length = next;
+    }
+    if (length <= shortest_step) step.length = length;
+  }
+
+  /// A walk that does not get on takes one shortest step by the return alone.
+  void creep() {
+    time_ = std::min(time_ + shortest_step, interval_->end);
+    const PlanarInstant now = motion_.at(time_);
+    const Vector2d trial = stiffness().cwiseProduct(now.position - slider_);
+    slider_ =
+        now.position -
+        motion_.compliance().cwiseProduct(returned_force(trial, stiffness(), now.radius));
+    slipping_ = false;
+  }
+
+  const PlanarMotion& motion_;
+  double allowed_;
+  double longest_;
+  double next_length_;
+  PlanarOrbit& orbit_;
+  const PlanarInterval* interval_ = nullptr;
+  double time_ = 0.0;
+  Vector2d slider_ = Vector2d::Zero();
+  Vector2d heading_ = Vector2d::Zero();  // direction of slip, any length, where contact begins in slip
+  PlanarEntry entry_ = PlanarEntry::continued;
+  bool slipping_ = false;
+};
+
+}  // namespace
+
+PlanarOrbit walk_orbit(const PlanarMotion& motion, const std::vector<PlanarInterval>& intervals,
+                       const Eigen::Vector2d& slider, const OrbitOptions& options) {
+  PlanarOrbit orbit;
+  orbit.begin = slider;
+  Walk walk(motion, options, orbit);
+  walk.start(slider);
+  bool first = true;
+  for (const PlanarInterval& interval : intervals) {
+    walk.cross(interval, first);
+    first = false;
+  }
+  orbit.end = walk.slider();
+  return orbit;
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,74 @@
+/// @file
+/// Integrals over parts of a period: Gauss–Legendre panels, eight nodes each, as many as the harmonics
+/// and the curvature of the surface law ask for.
+#pragma once
+
+#include <cmath>
+#include <array>
+#include <numbers>
+
+#include <Eigen/Core>
+
+#include "contact/planar_motion.hpp"
+
+namespace microslip::contact {
+
+inline constexpr int n_gauss = 8;
+
+/// On [−1, 1], with the share of the highest Legendre polynomial, degree 7.
+struct GaussNodes {
+  std::array<double, n_gauss> node{};
+  std::array<double, n_gauss> weight{};
+  std::array<double, n_gauss> top{};
+};
+[[nodiscard]] const GaussNodes& gauss_nodes();
+
+/// 1, sin θ, cos θ, sin 2θ, … (size 2H+1).
+void trigonometric_basis(int n_harmonics, double phase, Eigen::VectorXd& value);
+/// The derivative of the basis, from its values.
+void basis_rate(const Eigen::VectorXd& value, Eigen::VectorXd& rate);
+
+/// One panel; visits its nodes if the law is resolved there, else its halves.
+template <typename Visit>
+void visit_panel(const PlanarMotion& motion, double begin, double end, int depth,
+                 const Visit& visit) {
+  const GaussNodes& rule = gauss_nodes();
+  std::array<PlanarInstant, n_gauss> instant;
+  const double half = 0.5 * (end - begin);
+  double load = 0.0;
+  double ratio = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < instant.size(); ++i) {
+    instant[i] = motion.at(0.5 * (begin + end) + half * rule.node[i]);
+    load += rule.top[i] * instant[i].surface.load;
+    ratio += rule.top[i] * instant[i].surface.stiffness_ratio;
+    size = std::max(size, instant[i].surface.load);
+  }
+  // The rule is exact to degree 15: what is left out is about the square of the term of degree 7.
+  constexpr double resolved = 1e-7;
+  const bool rough = !motion.law().is_smooth();
+  if (rough && depth > 0 && (std::abs(load) > resolved * size || std::abs(ratio) > resolved)) {
+    visit_panel(motion, begin, begin + half, depth - 1, visit);
+    visit_panel(motion, begin + half, end, depth - 1, visit);
+    return;
+  }
+  for (std::size_t i = 0; i < instant.size(); ++i) visit(instant[i], half * rule.weight[i]);
+}
+
+/// Calls visit(instant, weight) at the nodes of [begin, end], for products of the motion with
+/// harmonics up to `highest`.
+template <typename Visit>
+void visit_nodes(const PlanarMotion& motion, double begin, double end, int highest,
+                 const Visit& visit) {
+  // A wave of k oscillations per 2π over a panel of length h errs by 2e-18 (kh/2)¹⁶.
+  const double longest = 3.0 / (motion.n_harmonics() + highest);
+  const int n = static_cast<int>(std::ceil((end - begin) / longest));
+  constexpr int deepest = 12;
+  for (int i = 0; i < n; ++i) {
+    const double from = begin + (end - begin) * i / n;
+    const double to = begin + (end - begin) * (i + 1) / n;
+    visit_panel(motion, from, to, deepest, visit);
+  }
+}
+
+}  // namespace microslip::contact

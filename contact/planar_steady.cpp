@@ -1,0 +1,146 @@
+#include "contact/planar_steady.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace microslip::contact {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+/// Periods marched before Newton's method may help: what a pushed slider needs to come to rest.
+constexpr int patience = 2;
+/// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
+constexpr int most_periods = 60;
+
+/// A slider of order one that moves by less in a period cannot be told from one that rests.
+constexpr double rounding = 4e-15;
+
+/// (I − M)⁻¹ b; a direction that the period leaves alone is left alone.
+Eigen::Matrix2Xd solve_fixed_point(const Matrix2d& M, const Eigen::Matrix2Xd& b) {
+  Eigen::FullPivLU<Matrix2d> lu(Matrix2d::Identity() - M);
+  lu.setThreshold(1e-13);  // rounding of a period
+  return lu.solve(b);
+}
+
+Matrix2d period_derivative(const PlanarMotion& motion, const PlanarOrbit& orbit) {
+  OrbitVariation variation(motion, OrbitVariation::Columns::slider_only);
+  variation.carry(orbit);
+  return variation.slider();
+}
+
+double force_of(const PlanarMotion& motion, const Vector2d& slider) {
+  return motion.stiffness().cwiseProduct(slider).norm();
+}
+
+/// Newton's method on the period map, with the march as its safeguard.
+class FixedPoint {
+ public:
+  FixedPoint(const PlanarMotion& motion, const std::vector<PlanarInterval>& intervals,
+             const OrbitOptions& options)
+      : motion_(motion), intervals_(intervals), options_(options) {}
+
+  SteadyOrbit solve() {
+    SteadyOrbit steady = iterate();
+    const bool stuck = !steady.orbit.slips;
+    if (stuck && helped_) steady = march();
+    steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
+    return steady;
+  }
+
+ private:
+  SteadyOrbit iterate() {
+    SteadyOrbit steady;
+    Vector2d slider = motion_.virgin_slider();
+    Vector2d fallback = slider;
+    double smallest = INFINITY;
+    bool tried = false;
+    for (int period = 0;; ++period) {
+      if (period > 0 && !helped_) steady.history.push_back(std::move(steady.orbit));
+      steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
+      steady.defect = 0.0;
+      if (!steady.orbit.slips) break;
+      const Vector2d moved = steady.orbit.end - slider;
+      const Vector2d newton =
+          solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      steady.defect = force_of(motion_, newton);
+      const double size = force_of(motion_, moved);
+      if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
+      if (period >= most_periods) break;
+      if (tried && !(size < 0.9 * smallest)) {
+        slider = fallback;
+        tried = false;
+        continue;
+      }
+      smallest = std::min(size, smallest);
+      fallback = steady.orbit.end;
+      tried = period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;
+      slider = tried ? Vector2d(slider + newton) : fallback;
+      helped_ = helped_ || tried;
+    }
+    return steady;
+  }
+
+  /// From the virgin slider, period by period, until it no longer moves.
+  SteadyOrbit march() {
+    SteadyOrbit steady;
+    Vector2d slider = motion_.virgin_slider();
+    for (int period = 0; period < most_periods; ++period) {
+      if (period > 0) steady.history.push_back(std::move(steady.orbit));
+      steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
+      steady.defect = force_of(motion_, steady.orbit.end - slider);
+      if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
+      slider = steady.orbit.end;
+    }
+    return steady;
+  }
+
+  const PlanarMotion& motion_;
+  const std::vector<PlanarInterval>& intervals_;
+  const OrbitOptions& options_;
+  bool helped_ = false;
+};
+
+bool any_contact(const std::vector<PlanarInterval>& intervals) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [](const PlanarInterval& x) { return x.in_contact; });
+}
+
+}  // namespace
+
+SteadyOrbit steady_orbit(const PlanarMotion& motion, const std::vector<PlanarInterval>& intervals,
+                         const OrbitOptions& options) {
+  if (!any_contact(intervals)) return {};
+  SteadyOrbit steady;
+  if (intervals.front().touches_down) {
+    steady.orbit = walk_orbit(motion, intervals, Vector2d::Zero(), options);
+    steady.regime = CycleRegime::separation;
+    return steady;
+  }
+  return FixedPoint(motion, intervals, options).solve();
+}
+
+SteadyDerivative steady_derivative(const PlanarMotion& motion, const SteadyOrbit& steady) {
+  OrbitVariation variation(motion, OrbitVariation::Columns::all);
+  const Eigen::Index n = variation.n_parameters();
+  if (steady.regime == CycleRegime::full_stick) {
+    variation.set_virgin_slider();
+    for (const PlanarOrbit& before : steady.history) variation.carry(before);
+  }
+  variation.carry_and_integrate(steady.orbit);
+  SteadyDerivative result;
+  result.first = variation.force(0).leftCols(n);
+  result.second = variation.force(1).leftCols(n);
+  if (steady.regime != CycleRegime::stick_slip) return result;
+  const Eigen::Matrix2Xd memory =
+      solve_fixed_point(variation.slider().rightCols(2), variation.slider().leftCols(n));
+  result.first.noalias() += variation.force(0).rightCols(2) * memory;
+  result.second.noalias() += variation.force(1).rightCols(2) * memory;
+  return result;
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,200 @@
+#include "pipelines/contact_effects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "contact/event_law.hpp"
+#include "contact/law_patch_force.hpp"
+#include "contact/patch_force.hpp"
+#include "contact/planar_cycle.hpp"
+#include "contact/sampled_cycle.hpp"
+#include "contact/surface_law.hpp"
+#include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+// Friction along r turns that along p by the ratio of the motions: 3 % change the work of p by its
+// square, 0.1 %.
+constexpr double negligible_ratio = 0.03;
+constexpr int n_trial_frequencies = 200;
+
+std::string setting_of(const SceneDescription& scene, const char* name) {
+  for (const auto& [effect, setting] : scene.effects) {
+    if (effect == name) return setting;
+  }
+  return "auto";
+}
+
+bool rubs(const ReducedModel& model, Eigen::Index point) {
+  return model.friction_coefficient[point] > 0.0 &&
+         (model.tangential_stiffness[point] > 0.0 || model.second_stiffness[point] > 0.0);
+}
+
+bool any_rubbing_motion_along_r(const ReducedModel& model) {
+  if (model.shapes.w.size() == 0) return false;
+  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
+    if (rubs(model, i) && (model.shapes.w.row(i).array() != 0.0).any()) return true;
+  }
+  return false;
+}
+
+/// Response of the modes with a stiffness added, q_s + i q_c.
+Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
+                                 double frequency) {
+  const Eigen::ArrayXd omega = model.frequency.array();
+  const Eigen::ArrayXcd diagonal =
+      (omega.square() - frequency * frequency).cast<std::complex<double>>() +
+      std::complex<double>(0.0, 2.0 * frequency) * (model.damping_ratio.array() * omega);
+  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
+  dynamic.diagonal() += diagonal.matrix();
+  Eigen::VectorXcd force(model.frequency.size());
+  force.real() = model.force_sine;
+  force.imag() = model.force_cosine;
+  return dynamic.partialPivLu().solve(force);
+}
+
+double rms(const Eigen::MatrixXd& shape, const Eigen::VectorXd& weights, const Eigen::VectorXcd& q) {
+  const Eigen::VectorXcd motion = shape.cast<std::complex<double>>() * q;
+  return std::sqrt(weights.dot(motion.cwiseAbs2()));
+}
+
+Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
+  Eigen::VectorXd u = model.weights.cwiseProduct(model.tangential_stiffness);
+  Eigen::VectorXd w = model.weights.cwiseProduct(model.second_stiffness);
+  const Eigen::VectorXd v = model.weights.cwiseProduct(model.normal_stiffness);
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (model.friction_coefficient[i] == 0.0) u[i] = w[i] = 0.0;
+  }
+  const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
+    return shape.transpose() * k.asDiagonal() * shape;
+  };
+  return part(model.shapes.u, u) + part(model.shapes.v, v) + part(model.shapes.w, w);
+}
+
+/// Constants of a point have its bodies in series; rough surfaces change their part alone.
+contact::SurfaceLaw surface_law(const contact::PointParameters& point, double second_stiffness,
+                                const contact::FrictionLaw& friction, const ContactEffects& effects,
+                                const Eigen::Vector3d& compliance) {
+  if (!effects.roughness || !effects.local_normal_stiffness) {
+    return {point, second_stiffness, friction, effects.roughness};
+  }
+  contact::PointParameters local = point;
+  local.tangential_stiffness = *effects.local_tangential_stiffness;
+  local.normal_stiffness = *effects.local_normal_stiffness;
+  return {local, local.tangential_stiffness, friction, effects.roughness,
+          {compliance[0], compliance[1], compliance[2]}};
+}
+
+}  // namespace
+
+double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene) {
+  if (!scene.response || !any_rubbing_motion_along_r(model)) return 0.0;
+  const double begin = 2.0 * std::numbers::pi * scene.response->frequency_begin_hz;
+  const double end = 2.0 * std::numbers::pi * scene.response->frequency_end_hz;
+  const Eigen::Index n = model.frequency.size();
+  const std::array<Eigen::MatrixXd, 2> limits{Eigen::MatrixXd::Zero(n, n), stuck_stiffness(model)};
+  double along_p = 0.0;
+  double along_r = 0.0;
+  for (const Eigen::MatrixXd& stiffness : limits) {
+    for (int i = 0; i < n_trial_frequencies; ++i) {
+      const double frequency = begin + (end - begin) * i / (n_trial_frequencies - 1);
+      const Eigen::VectorXcd q = linear_response(model, stiffness, frequency);
+      if (!q.allFinite()) continue;  // a resonance without damping
+      along_p = std::max(along_p, rms(model.shapes.u, model.weights, q));
+      along_r = std::max(along_r, rms(model.shapes.w, model.weights, q));
+    }
+  }
+  if (along_r == 0.0) return 0.0;
+  return along_p > 0.0 ? along_r / along_p : std::numeric_limits<double>::infinity();
+}
+
+ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
+  ContactEffects effects;
+  effects.n_harmonics = scene.response ? scene.response->harmonics : 1;
+  effects.friction_law = scene.laws.friction;
+  effects.roughness = scene.laws.roughness;
+  const std::string setting = setting_of(scene, "second_direction");
+  effects.motion_ratio = motion_ratio_along_r(model, scene);
+  const bool meshed = model.vertices.rows() > 0;
+  const bool called_for =
+      meshed ? effects.motion_ratio > negligible_ratio : any_rubbing_motion_along_r(model);
+  effects.second_direction =
+      setting == "on" || (setting == "auto" && called_for && model.weights.size() > 0);
+  if (effects.second_direction && !(model.second_stiffness.minCoeff() >= 0.0)) {
+    throw RefusedError(fmt::format(
+        "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} N/m^3): "
+        "give a finite local stiffness, more modes, or modes.residual = \"none\"",
+        model.second_stiffness.minCoeff()));
+  }
+  if (effects.roughness && meshed) {
+    effects.local_tangential_stiffness = scene.contact->tangential_stiffness;
+    effects.local_normal_stiffness = scene.contact->normal_stiffness;
+    if (!effects.local_tangential_stiffness || !effects.local_normal_stiffness) {
+      throw RefusedError(
+          "contact.roughness: rough surfaces need a stiffness of full contact; give normal_stiffness and "
+          "tangential_stiffness in N/m^3 instead of \"rigid\"");
+    }
+  }
+  return effects;
+}
+
+contact::ModalShapes simulated_shapes(const ReducedModel& model, bool on_vertices) {
+  contact::ModalShapes shapes = on_vertices ? model.vertex_shapes : model.shapes;
+  if (!model.effects.second_direction) shapes.w.resize(0, 0);
+  return shapes;
+}
+
+std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
+                                                                 double load, bool on_vertices) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
+  const Eigen::VectorXd& second =
+      on_vertices ? model.vertex_second_stiffness : model.second_stiffness;
+  const Eigen::MatrixX3d& compliance = on_vertices ? model.vertex_compliance : model.compliance;
+  const ContactEffects& effects = model.effects;
+  std::vector<std::shared_ptr<const contact::PointLaw>> laws;
+  laws.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const contact::PointParameters& point = points[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    if (!effects.second_direction && !effects.friction_law && !effects.roughness) {
+      laws.push_back(std::make_shared<contact::EventLaw>(point));
+      continue;
+    }
+    const bool slides = point.friction_coefficient > 0.0;
+    const contact::FrictionLaw friction =
+        slides && effects.friction_law
+            ? *effects.friction_law
+            : contact::FrictionLaw::constant(point.friction_coefficient);
+    const contact::SurfaceLaw surface = surface_law(
+        point, second[row], friction, effects,
+        compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
+    if (effects.second_direction) {
+      laws.push_back(std::make_shared<contact::PlanarLaw>(surface));
+    } else {
+      laws.push_back(std::make_shared<contact::SampledLaw>(surface));
+    }
+  }
+  return laws;
+}
+
+std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load) {
+  if (model.weights.size() == 0) return nullptr;
+  if (model.effects.closed_form()) {
+    return std::make_unique<contact::PatchForce>(
+        contact::ContactPatch(model.weights, point_parameters(model, load, false)),
+        simulated_shapes(model, false));
+  }
+  return std::make_unique<contact::LawPatchForce>(model.weights, point_laws(model, load, false),
+                                                  simulated_shapes(model, false));
+}
+
+}  // namespace microslip::pipelines

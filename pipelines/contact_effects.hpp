@@ -1,0 +1,33 @@
+/// @file
+/// Which effects of contact a run simulates, and the contact force that simulates them: the closed form
+/// of one harmonic and one direction where that is all a scene calls for, laws of single points else.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/modal_force.hpp"
+#include "contact/point_law.hpp"
+#include "pipelines/run_results.hpp"
+
+namespace microslip::pipelines {
+
+/// Motion of the patch along r against that along p: largest rms over the patch in the free and stuck
+/// linear responses of the frequency range. 0 where nothing moves or nothing rubs.
+[[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
+
+/// Decides what `auto` in [effects] leaves open.
+/// @param model  with its contact arrays.
+[[nodiscard]] ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene);
+
+/// The contact of a model under a preload. @param load  as of point_parameters().
+[[nodiscard]] std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load);
+
+/// The law of each contact point, or of each vertex of the cells.
+[[nodiscard]] std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(
+    const ReducedModel& model, double load, bool on_vertices);
+
+/// Mode shapes as the simulated effects need them: without motion along r where it is left out.
+[[nodiscard]] contact::ModalShapes simulated_shapes(const ReducedModel& model, bool on_vertices);
+
+}  // namespace microslip::pipelines

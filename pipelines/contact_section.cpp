@@ -1,0 +1,165 @@
+#include "pipelines/contact_section.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/units.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+std::optional<double> read_stiffness(const SectionReader& s, std::string_view key) {
+  const toml::node& node = *s.node(key);
+  if (node.is_string() && *node.value<std::string>() == "rigid") return std::nullopt;
+  constexpr std::array<std::string_view, 1> words{"rigid"};
+  return s.number_or_word_in(node, key, words);
+}
+
+/// A number with a unit inside an inline table.
+double entry_of(const SectionReader& s, std::string_view key, const toml::table& table,
+                std::string_view name, const char* unit) {
+  const toml::node* node = table.get(name);
+  if (node == nullptr) s.fail(key, fmt::format("{} is missing", name), &table);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (node->is_number()) {
+    value = *node->value<double>();
+  } else if (node->is_string()) {
+    try {
+      value = to_si(*node->value<std::string>(), unit);
+    } catch (const UnitError& error) {
+      s.fail(key, fmt::format("{}: {}", name, error.what()), node);
+    }
+  }
+  if (!(std::isfinite(value) && value >= 0.0)) {
+    s.fail(key, fmt::format("{}: expected a number, at least 0 [{}]", name, unit), node);
+  }
+  return value;
+}
+
+/// The law named in an inline table whose other keys are among those of the law.
+template <std::size_t N>
+std::string law_of(const SectionReader& s, std::string_view key, const toml::table& table,
+                   const std::array<std::string_view, N>& laws,
+                   const std::vector<std::string_view>& keys) {
+  const auto law = table["law"].value<std::string>();
+  if (!law || std::find(laws.begin(), laws.end(), *law) == laws.end()) {
+    s.fail(key, fmt::format("law: expected one of: {}", fmt::join(laws, ", ")), &table);
+  }
+  for (const auto& [name, value] : table) {
+    if (name.str() == "law" || std::find(keys.begin(), keys.end(), name.str()) != keys.end()) continue;
+    s.fail(key, fmt::format("unknown key \"{}\"; known: law, {}", name.str(), fmt::join(keys, ", ")),
+           &value);
+  }
+  return *law;
+}
+
+contact::FrictionLaw friction_law_in(const SectionReader& s, std::string_view key,
+                                     const toml::table& table) {
+  constexpr std::array<std::string_view, 2> laws{"exponential", "hyperbolic"};
+  const auto entry = [&](std::string_view name, const char* unit) {
+    return entry_of(s, key, table, name, unit);
+  };
+  if (law_of(s, key, table, laws, {"static", "kinetic", "rate"}) == "exponential") {
+    return contact::FrictionLaw::exponential(entry("static", "1"), entry("kinetic", "1"),
+                                             entry("rate", "s/m"));
+  }
+  if (table.contains("kinetic")) {
+    s.fail(key, "kinetic: the hyperbolic law has none; known: law, static, rate", &table);
+  }
+  return contact::FrictionLaw::hyperbolic(entry("static", "1"), entry("rate", "s/m"));
+}
+
+/// Heights of one surface, or of two: variances of independent heights add.
+std::optional<contact::RoughSurface> roughness_in(const SectionReader& s) {
+  if (!s.given("roughness")) return std::nullopt;
+  constexpr std::array<std::string_view, 2> laws{"cubic", "gaussian"};
+  const toml::node& node = *s.node("roughness");
+  double height = 0.0;
+  std::string law;
+  const auto add = [&](const toml::node& entry) {
+    const toml::table* table = entry.as_table();
+    if (table == nullptr) {
+      s.fail("roughness", "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two",
+             &entry);
+    }
+    const std::string one = law_of(s, "roughness", *table, laws, {"height"});
+    if (!law.empty() && one != law) {
+      s.fail("roughness", "a cubic surface against a gaussian one has no law of its own", &entry);
+    }
+    law = one;
+    height = std::hypot(height, entry_of(s, "roughness", *table, "height", "m"));
+  };
+  if (const toml::array* list = node.as_array()) {
+    if (list->empty() || list->size() > 2) s.fail("roughness", "expected one or two surfaces", &node);
+    for (const toml::node& entry : *list) add(entry);
+  } else {
+    add(node);
+  }
+  return law == "cubic" ? contact::RoughSurface::cubic(height)
+                        : contact::RoughSurface::matching_gaussian(height);
+}
+
+void read_fit(const SectionReader& s, ContactDescription& contact) {
+  const toml::node& fit = *s.node("fit");
+  if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
+    if (*word != "auto" && *word != "none") {
+      s.fail("fit", "expected a degree, \"auto\" or \"none\"", &fit);
+    }
+    contact.fit =
+        *word == "auto" ? ContactDescription::Fit::automatic : ContactDescription::Fit::none;
+    return;
+  }
+  const auto degree = fit.value<std::int64_t>();
+  if (!fit.is_integer() || *degree < 0 || *degree > 30) {
+    s.fail("fit", "expected a degree from 0 to 30, \"auto\" or \"none\"", &fit);
+  }
+  contact.fit = ContactDescription::Fit::degree;
+  contact.fit_degree = static_cast<int>(*degree);
+}
+
+}  // namespace
+
+ContactDescription read_contact(const SectionReader& s, ContactLaws& laws) {
+  ContactDescription contact;
+  if (const toml::node* surface = s.node("surface"); surface->is_array()) {
+    s.fail("surface", "two facing bodies are not available in this version; name one surface",
+           surface);
+  }
+  contact.surface = s.text("surface");
+  contact.place = s.place("surface");
+  contact.slip_direction = s.direction("slip_direction");
+  const toml::node& friction = *s.node("friction_coefficient");
+  if (const toml::table* law = friction.as_table()) {
+    laws.friction = friction_law_in(s, "friction_coefficient", *law);
+    contact.friction_coefficient = laws.friction->at_rest();
+  } else {
+    contact.friction_coefficient = s.number("friction_coefficient");
+  }
+  contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
+  contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
+  laws.roughness = roughness_in(s);
+  contact.wear_coefficient = s.number("wear_coefficient");
+  contact.n_points = s.integer("points");
+  read_fit(s, contact);
+  return contact;
+}
+
+ContactLaws read_contact_laws(const SectionReader& s, double& wear_coefficient) {
+  ContactLaws laws;
+  if (s.given("friction_law")) {
+    const toml::node& node = *s.node("friction_law");
+    if (!node.is_table()) s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
+    laws.friction = friction_law_in(s, "friction_law", *node.as_table());
+  }
+  laws.roughness = roughness_in(s);
+  wear_coefficient = s.number("wear_coefficient");
+  return laws;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,17 @@
+/// @file
+/// The [contact] section: surface, stiffness, friction and the laws of the two surfaces.
+#pragma once
+
+#include "pipelines/scene_description.hpp"
+#include "pipelines/section_reader.hpp"
+
+namespace microslip::pipelines {
+
+/// Kinds with a mesh.
+[[nodiscard]] ContactDescription read_contact(const SectionReader& section, ContactLaws& laws);
+
+/// Modal scenes: laws beside the constants that the points carry.
+/// @param wear_coefficient  [m²/N], written.
+[[nodiscard]] ContactLaws read_contact_laws(const SectionReader& section, double& wear_coefficient);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,125 @@
+#include "solver/local_peak.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "solver/branch_walker.hpp"
+#include "solver/output_amplitude.hpp"
+#include "solver/special_points.hpp"
+#include "solver/stability.hpp"
+#include "solver/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// In scaled variables: a share of the amplitude or of the width of the resonance. Farther away lies
+// another peak, or the step between the scenes is too long to tell.
+constexpr double farthest = 0.5;
+constexpr int max_steps = 25;  // uphill; the walker's step grows to 0.2 within four
+// Of the amplitude per scaled length, where curvature is of order one: the peak is met already.
+constexpr double level = 1e-13;
+// Of the frequency: what a resonance is wide.
+constexpr double narrowest = 1e-7;
+constexpr double widest = 0.1;
+
+struct Slope {
+  double value = 0.0;  ///< da/ds [m] per scaled length
+  double amplitude = 0.0;
+};
+
+Slope slope_along(const HarmonicBalance& balance, const Eigen::VectorXd& x,
+                  const BranchVector& tangent, const Scaling& scaling) {
+  const auto output = output_amplitude(balance.harmonics(x), balance.scene().output);
+  return {output.gradient.dot(tangent.x) * scaling.x, output.half_peak_to_peak};
+}
+
+double distance(const BranchVector& a, const BranchVector& b, const Scaling& scaling) {
+  return std::hypot((a.x - b.x).norm() / scaling.x,
+                    (a.parameter - b.parameter) / scaling.parameter);
+}
+
+bool inside(double frequency, const ContinuationOptions& range) {
+  return frequency >= std::min(range.frequency_begin, range.frequency_end) &&
+         frequency <= std::max(range.frequency_begin, range.frequency_end);
+}
+
+/// @param direction  of the branch roughly, in variables of `scaling`.
+LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
+                    const BranchVector& direction, const Scaling& scaling) {
+  LocalPeak peak;
+  peak.point = at.point;
+  peak.scaling = scaling;
+  const double frequency = at.point.parameter;
+  const double width = assess_stability(balance, at.evaluation.jacobian, frequency).nearest;
+  peak.scaling.parameter = std::clamp(width, narrowest * frequency, widest * frequency);
+  const BranchVector along{direction.x,
+                           direction.parameter * scaling.parameter / peak.scaling.parameter};
+  peak.tangent = branch_tangent(at.evaluation, along, peak.scaling).direction;
+  peak.amplitude = slope_along(balance, at.point.x, peak.tangent, scaling).amplitude;
+  return peak;
+}
+
+/// Uphill from a point of the branch until a peak is passed.
+std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& walker,
+                               const BranchVector& guess, const ContinuationOptions& range) {
+  for (int i = 0; i < max_steps && walker.advance(); ++i) {
+    for (const SpecialPoint& peak : peaks_between(walker, balance)) {
+      const Scaling& scaling = walker.now().scaling;
+      const bool near = distance(peak.solution.point, guess, scaling) < farthest;
+      if (!near || !inside(peak.solution.point.parameter, range)) return std::nullopt;
+      return made_peak(balance, peak.solution, walker.now().tangent, scaling);
+    }
+    const WalkerPoint& now = walker.now();
+    if (distance(now.solution.point, guess, now.scaling) > 2.0 * farthest) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const ResponsePoint& peak) {
+  NewtonResult at;
+  at.point = {peak.q.vector(), peak.frequency};
+  at.evaluation = balance.evaluate(at.point.x, peak.frequency);
+  Scaling scaling = natural_scaling(balance, at.point.x, peak.frequency);
+  scaling.parameter = widest * peak.frequency;
+  const auto tangent = null_vector(at.evaluation, scaling, 1.0);
+  if (!tangent) return std::nullopt;
+  return made_peak(balance, at, *tangent, scaling);
+}
+
+std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const LocalPeak& from,
+                                     const BranchVector& guess, const ContinuationOptions& range,
+                                     PeakWork& work) {
+  const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
+    return balance.evaluate(x, frequency);
+  };
+  const ScalingRule rule = [&](const NewtonResult& at) {
+    Scaling scaling = natural_scaling(balance, at.point.x, at.point.parameter);
+    scaling.parameter = from.scaling.parameter;
+    return scaling;
+  };
+  NewtonResult guessed;
+  guessed.point = guess;
+  const Scaling scaling = rule(guessed);
+  NewtonResult start = solve_newton(system, guess, from.tangent, scaling, {});
+  work.iterations += start.iterations;
+  work.contact_evaluations += start.evaluations;
+  if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
+
+  BranchVector tangent = branch_tangent(start.evaluation, from.tangent, scaling).direction;
+  const Slope slope = slope_along(balance, start.point.x, tangent, scaling);
+  if (std::abs(slope.value) <= level * slope.amplitude && inside(start.point.parameter, range)) {
+    return made_peak(balance, start, tangent, scaling);
+  }
+  const double forward = (slope.value > 0.0) == (tangent.parameter > 0.0) ? 1.0 : -1.0;
+  BranchWalker walker(system, rule, std::move(start), forward);
+  std::optional<LocalPeak> peak = climb(balance, walker, guess, range);
+  work.iterations += walker.iterations();
+  work.contact_evaluations += walker.evaluations();
+  return peak;
+}
+
+}  // namespace microslip::solver

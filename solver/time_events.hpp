@@ -1,0 +1,51 @@
+/// @file
+/// Event-locating integration of full order (theory section 18): while contact states are held the right
+/// side is smooth, and steps are taken by the pair of Dormand and Prince of order 5(4) (J. Comput. Appl.
+/// Math. 6 (1980) 19–26); where a state ends the step is cut, the state switched, and integration goes on.
+#pragma once
+
+#include "solver/time_stepper.hpp"
+
+namespace microslip::solver {
+
+class EventStepper final : public TimeStepper {
+ public:
+  /// @throws std::invalid_argument  fixed steps (infinite tolerance) beyond the bound of the method.
+  EventStepper(const TimeSystem& system, const TimeOptions& options);
+  void advance_period(TimeState& state, TimeObserver* observer) override;
+  [[nodiscard]] long n_events() const override { return n_events_; }
+  [[nodiscard]] long n_evaluations() const override { return n_evaluations_; }
+
+ private:
+  /// What a step adds, and its error against the size of the motion.
+  struct Step {
+    Eigen::VectorXd displacement;
+    Eigen::VectorXd velocity;
+    Eigen::VectorXd acceleration_end;
+    double error = 0.0;
+  };
+  [[nodiscard]] contact::GuardScale scale() const;
+  [[nodiscard]] Eigen::VectorXd acceleration(double time, const ModalMotion& motion,
+                                             const TransientMemory& memory);
+  [[nodiscard]] Step try_step(double time, double length, const TimeState& state,
+                              const Eigen::VectorXd& acceleration_begin);
+  /// Shortens `length` until the error is within the tolerance and proposes the next one.
+  [[nodiscard]] Step accepted_step(double time, double& length, const TimeState& state,
+                                   const Eigen::VectorXd& acceleration_begin);
+  /// Ends states that are violated as they stand.
+  void settle(TimeState& state);
+  void count_events(std::size_t n);
+  void observe(TimeObserver* observer, const TimeSegment& segment, double end,
+               const TransientMemory& memory) const;
+
+  const TimeSystem& system_;
+  double tolerance_;
+  double longest_step_;
+  double next_step_;
+  long max_events_;
+  long period_events_ = 0;
+  long n_events_ = 0;
+  long n_evaluations_ = 0;
+};
+
+}  // namespace microslip::solver

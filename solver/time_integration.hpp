@@ -1,0 +1,63 @@
+/// @file
+/// Steady states of a scene by integration in time: an independent method next to harmonic balance
+/// (theory section 18), with the same scene going in and the same numbers coming out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/response_curve.hpp"
+#include "solver/scene.hpp"
+#include "solver/time_options.hpp"
+#include "solver/time_recorder.hpp"
+#include "solver/time_stepper.hpp"
+
+namespace microslip::solver {
+
+/// The end of a run at one frequency.
+struct TimePoint {
+  /// As far as it applies: harmonics, `amplitude` as half the peak-to-peak value of the motion itself,
+  /// first harmonic, mean, phase; `residual` the distance to the periodic motion against its size;
+  /// `energy_imbalance` and `dissipation_mismatch` from the work of forces and sliders; contact report;
+  /// stable = 1 when periodic, not assessed else; `iterations` the periods integrated.
+  ResponsePoint response;
+  bool periodic = false;          ///< with period 1 to 4
+  int period_multiple = 0;        ///< 1: the period of the excitation; 0: none was found
+  int n_periods = 0;              ///< integrated until then
+  long n_events = 0;              ///< changes of contact state in the periods recorded
+  PeriodWork work;                ///< mean of the periods recorded
+  std::vector<int> stick_phases;  ///< of each point, in the periods recorded
+};
+
+struct TimeCurve {
+  std::vector<TimePoint> points;  ///< in the order of the frequencies; periodic or not
+  bool complete = false;          ///< every frequency was integrated
+  std::string diagnosis;          ///< empty when complete; else event-chatter, out-of-range
+  std::string message;            ///< a sentence with the numbers
+  long contact_evaluations = 0;
+  double seconds = 0.0;
+};
+
+/// Integrates until the motion repeats itself or max_periods have passed, then records one period more
+/// (as many as the period multiple; the largest multiple when nothing repeats).
+/// @param state  where to start; left where the run ends, at θ = 0.
+/// @throws std::invalid_argument  as TimeSystem and make_stepper().
+/// @throws TimeError  as TimeStepper::advance_period().
+[[nodiscard]] TimePoint integrate_to_steady_state(const TimeSystem& system,
+                                                  const TimeOptions& options, TimeState& state);
+
+/// The same from rest, or from a solution of harmonic balance: a referee of its points.
+[[nodiscard]] TimePoint steady_state(const Scene& scene, double frequency,
+                                     const TimeOptions& options);
+[[nodiscard]] TimePoint steady_state_from(const Scene& scene, double frequency, const Harmonics& q,
+                                          const TimeOptions& options);
+
+/// Steady states over a list of frequencies, the first from rest, each other from the last state of the
+/// one before: what a slow sweep finds. A list up and back down again shows coexisting states.
+/// @param frequencies  ω [rad/s], > 0.
+/// @throws std::invalid_argument  before anything is integrated where the scene, an option or a frequency is
+///         refused.
+[[nodiscard]] TimeCurve sweep(const Scene& scene, const std::vector<double>& frequencies,
+                              const TimeOptions& options);
+
+}  // namespace microslip::solver

@@ -1,0 +1,101 @@
+// Derivatives of the converged planar cycle against central differences of the forces.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "contact/planar_cycle.hpp"
+
+namespace microslip::contact {
+namespace {
+
+// Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7 and by
+// the third derivative times 1e-10, which is large only beside events that appear or vanish.
+constexpr double step = 1e-5;
+constexpr double tight = 1e-12;
+
+Eigen::VectorXd difference(const PlanarLaw& law, const Harmonics& motion, Eigen::Index j) {
+  Harmonics plus = motion;
+  Harmonics minus = motion;
+  plus.vector()[j] += step;
+  minus.vector()[j] -= step;
+  PointTraction right;
+  PointTraction left;
+  law.traction(plus, 1.0, right);
+  law.traction(minus, 1.0, left);
+  return (right.force.vector() - left.force.vector()) / (2.0 * step);
+}
+
+double jacobian_error(const PlanarLaw& law, const Harmonics& motion, const PointTraction& traction) {
+  double error = 0.0;
+  for (Eigen::Index j = 0; j < motion.vector().size(); ++j) {
+    const Eigen::VectorXd expected = difference(law, motion, j);
+    error = std::max(error, (expected - traction.jacobian.col(j)).cwiseAbs().maxCoeff());
+  }
+  return error / traction.jacobian.cwiseAbs().maxCoeff();
+}
+
+TEST(PlanarLawJacobian, MeetsCentralDifferencesOnRandomOrbits) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> g;
+  int tested = 0;
+  for (int i = 0; i < 90; ++i) {
+    Harmonics motion(1 + i % 3, 3);
+    const PointParameters point{std::exp(g(random)), std::exp(g(random)),
+                                std::exp(0.7 * g(random) - 0.5), 1.5 * g(random) + 0.7};
+    const double k_w = i % 4 == 0 ? point.tangential_stiffness : std::exp(g(random));
+    for (Eigen::Index row = 0; row < motion.rows().rows(); ++row) {
+      for (Eigen::Index signal = 0; signal < 3; ++signal) {
+        motion.rows()(row, signal) = g(random) / (1.0 + static_cast<double>(row / 2));
+      }
+    }
+    const PlanarLaw law(SurfaceLaw(point, k_w), tight);
+    PointTraction traction;
+    law.traction(motion, 1.0, traction);
+    if (traction.regime == CycleRegime::separated) continue;
+    ++tested;
+    EXPECT_LT(jacobian_error(law, motion, traction), 5e-6)
+        << "case " << i << ", regime " << static_cast<int>(traction.regime);
+    EXPECT_TRUE(traction.frequency_derivative.isZero(0.0));
+  }
+  EXPECT_GT(tested, 60);
+}
+
+Harmonics stuck_motion() {
+  Harmonics motion(1, 3);
+  motion.rows() << 0.02, 0.0, -0.01,  //
+      0.05, 0.2, 0.01,                //
+      0.01, 0.1, 0.04;
+  return motion;
+}
+
+TEST(PlanarLawJacobian, OfAVirginStuckPointIsItsStiffness) {
+  const PlanarLaw law(SurfaceLaw({2.0, 1.0, 0.5, 1.0}, 3.0), tight);
+  PointTraction traction;
+  law.traction(stuck_motion(), 1.0, traction);
+  EXPECT_EQ(traction.regime, CycleRegime::full_stick);
+  const Eigen::Vector3d k(2.0, 1.0, 3.0);
+  EXPECT_EQ(law.stuck_stiffness(), k);
+  for (Eigen::Index i = 0; i < 9; ++i) {
+    for (Eigen::Index j = 0; j < 9; ++j) {
+      EXPECT_NEAR(traction.jacobian(i, j), i == j ? k[i % 3] : 0.0, 1e-14);
+    }
+  }
+}
+
+// A large mean drags the virgin slider: the point ends up stuck with a mean that depends on the motion.
+TEST(PlanarLawJacobian, OfADraggedStuckPointMeetsDifferences) {
+  const PlanarLaw law(SurfaceLaw({2.0, 1.0, 0.5, 1.0}, 3.0), tight);
+  Harmonics motion = stuck_motion();
+  motion.rows()(0, 0) = 0.7;
+  motion.rows()(0, 2) = 0.4;
+  PointTraction traction;
+  law.traction(motion, 1.0, traction);
+  EXPECT_EQ(traction.regime, CycleRegime::full_stick);
+  EXPECT_LT(jacobian_error(law, motion, traction), 1e-6);
+  EXPECT_GT(traction.jacobian.row(0).segment(3, 6).norm(), 0.01);
+}
+
+}  // namespace
+}  // namespace microslip::contact

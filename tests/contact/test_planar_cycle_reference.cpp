@@ -1,0 +1,96 @@
+// The planar law against fixed-step marches in extended precision, on random orbits: several harmonics,
+// different stiffness along p and r, variable load, gaps, separation.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "contact/planar_cycle.hpp"
+#include "support/planar_reference.hpp"
+
+namespace microslip::contact {
+namespace {
+
+using test::PlanarCase;
+
+PlanarCase random_case(std::mt19937_64& random, int i) {
+  std::normal_distribution<double> g;
+  PlanarCase c;
+  c.motion = Harmonics(1 + i % 3, 3);
+  c.point = {std::exp(g(random)), std::exp(g(random)), std::exp(0.7 * g(random) - 0.5),
+             1.5 * g(random) + 0.7};
+  c.second_stiffness = i % 4 == 0 ? c.point.tangential_stiffness : std::exp(g(random));
+  for (Eigen::Index row = 0; row < c.motion.rows().rows(); ++row) {
+    for (Eigen::Index signal = 0; signal < 3; ++signal) {
+      c.motion.rows()(row, signal) = g(random) / (1.0 + static_cast<double>(row / 2));
+    }
+  }
+  return c;
+}
+
+double work(const Harmonics& x, const Harmonics& f, Eigen::Index signal) {
+  double sum = 0.0;
+  for (int h = 1; h <= x.n_harmonics(); ++h) {
+    sum += h * (x.sine(h)[signal] * f.cosine(h)[signal] - x.cosine(h)[signal] * f.sine(h)[signal]);
+  }
+  return std::acos(-1.0) * sum;
+}
+
+struct Tally {
+  int stick_slip = 0;
+  int separation = 0;
+  double largest_error = 0.0;
+};
+
+TEST(PlanarLawReference, AgreesWithMarchesOnRandomOrbits) {
+  std::mt19937_64 random(20260102);
+  Tally tally;
+  constexpr int n_cases = 240;
+  for (int i = 0; i < n_cases; ++i) {
+    const PlanarCase c = random_case(random, i);
+    const double scale = test::planar_scale(c);
+    const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), 1e-10);
+    PointTraction traction;
+    law.traction(c.motion, 1.0, traction);
+    const test::PlanarReference reference = test::planar_reference(c, 512);
+    double error = 0.0;
+    for (std::size_t row = 0; row < reference.first.size(); ++row) {
+      const auto& force = traction.force.rows().row(static_cast<Eigen::Index>(row));
+      error = std::max({error, std::abs(static_cast<double>(reference.first[row]) - force[0]),
+                        std::abs(static_cast<double>(reference.second[row]) - force[2])});
+    }
+    const auto doubt = static_cast<double>(reference.doubt);
+    // The march is known to its last extrapolation; that is 1e-4 of the scale or better.
+    EXPECT_LE(error, doubt + 1e-9 * scale) << "case " << i;
+    EXPECT_LE(doubt, 1e-4 * scale) << "case " << i;
+    tally.largest_error = std::max(tally.largest_error, error / scale);
+    tally.stick_slip += traction.regime == CycleRegime::stick_slip;
+    tally.separation += traction.regime == CycleRegime::separation;
+  }
+  EXPECT_GT(tally.stick_slip, 20);
+  EXPECT_GT(tally.separation, 60);
+  // What the march is good for in the worst case.
+  EXPECT_LT(tally.largest_error, 2e-5);
+}
+
+// ∮ f·dx from the coefficients and ∮ μ n |ds| from the slip phases are found in different ways.
+TEST(PlanarLawReference, WorkOfTheForceIsDissipatedBySlip) {
+  std::mt19937_64 random(20260103);
+  constexpr double tolerance = 1e-10;
+  for (int i = 0; i < 200; ++i) {
+    const PlanarCase c = random_case(random, i);
+    const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), tolerance);
+    const PointHistory history =
+        law.history(c.motion, 1.0, Eigen::VectorXd(), c.motion.n_harmonics());
+    const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+    const double size = c.motion.rows().bottomRows(c.motion.rows().rows() - 1).norm();
+    const double scale = test::planar_scale(c) * size * c.motion.n_harmonics();
+    EXPECT_NEAR(done, history.dissipated_energy, 10.0 * tolerance * scale) << "case " << i;
+    EXPECT_NEAR(work(c.motion, history.force, 1), 0.0, 1e-12 * (history.force.rows().norm() + 1.0));
+    EXPECT_GE(history.dissipated_energy, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace microslip::contact

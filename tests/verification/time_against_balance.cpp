@@ -1,0 +1,132 @@
+// Time integration against harmonic balance on random modal scenes (theory sections 8, 13, 18;
+// seeds 0 … 139, 2 % above the first mode). The solution of harmonic balance is where integration
+// starts, so both speak of the same steady state.
+//
+//   nothing changes state: closed form, H = 1; both are exact; 1e-7 is the periodicity tolerance
+//
+//   slip or separation: points event by event, H = 15, and H = 31 where 15 are not enough; the
+//   named tolerance is 0.2 % of the motion, and half of it is what must be met
+//
+// |Δ| is the difference of all harmonics of q up to H over the first, and that of the half
+// peak-to-peak value of the output. It must shrink to half or less from H = 3 on unless it is below
+// 1e-5 already. Scenes not periodic with the period of the excitation within the cap (light
+// damping) are left out and counted.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "contact/event_law.hpp"
+#include "contact/law_patch_force.hpp"
+#include "contact/patch_force.hpp"
+#include "solver/continuation.hpp"
+#include "solver/time_integration.hpp"
+#include "tests/support/modal_scenes.hpp"
+#include "tests/support/random_scene.hpp"
+
+namespace microslip {
+namespace {
+
+constexpr double linear_tolerance = 1e-7;
+constexpr double named_tolerance = 0.5 * 2e-3;
+constexpr double settled = 1e-5;
+constexpr std::uint64_t n_seeds = 140;
+constexpr int many_harmonics = 15;
+constexpr int most_harmonics = 31;
+
+/// The same contact with every point cycled event by event: any number of harmonics.
+std::unique_ptr<contact::LawPatchForce> event_patch(const contact::ModalForce& force) {
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(force);
+  std::vector<std::shared_ptr<const contact::PointLaw>> laws;
+  for (const auto& point : patch.patch().points()) {
+    laws.push_back(std::make_shared<contact::EventLaw>(point));
+  }
+  return std::make_unique<contact::LawPatchForce>(patch.patch().weights(), std::move(laws),
+                                                  patch.shapes());
+}
+
+double difference(const solver::ResponsePoint& balance, const solver::ResponsePoint& time) {
+  const Eigen::Index n = balance.q.rows().rows() - 1;
+  const double harmonics =
+      (balance.q.rows().bottomRows(n) - time.q.rows().middleRows(1, n)).norm() /
+      time.q.rows().middleRows(1, 2).norm();
+  return std::max(harmonics, std::abs(balance.amplitude - time.amplitude) / time.amplitude);
+}
+
+struct Campaign {
+  int n_linear = 0;
+  int n_nonlinear = 0;
+  int n_more = 0;  // that needed 31 harmonics
+  int n_left_out = 0;
+  double largest_linear = 0.0;
+  std::vector<double> differences;  // of those
+};
+
+solver::ResponsePoint balance_point(const tests::RandomScene& random, double frequency,
+                                    int n_harmonics) {
+  solver::ContinuationOptions options = random.options;
+  options.n_harmonics = n_harmonics;
+  const auto curve = solver::solve_at_frequency(random.scene, frequency, options);
+  EXPECT_TRUE(curve.complete) << curve.diagnosis;
+  return curve.points.empty() ? solver::ResponsePoint{} : curve.points.front();
+}
+
+void compare(std::uint64_t seed, Campaign& campaign) {
+  tests::RandomScene random = tests::random_scene(seed);
+  tests::add_transient(random.scene);
+  const double frequency = 1.02 * random.scene.natural_frequency[0];
+  const solver::ResponsePoint closed = balance_point(random, frequency, 1);
+  solver::TimeOptions options;
+  options.max_periods = 200;
+  options.n_harmonics = most_harmonics;
+  if (closed.report.stick_share == 1.0 || closed.report.separated_share == 1.0) {
+    const auto point = solver::steady_state_from(random.scene, frequency, closed.q, options);
+    EXPECT_EQ(point.period_multiple, 1) << seed;
+    EXPECT_EQ(point.n_events, 0) << seed;
+    const double here = difference(closed, point.response);
+    EXPECT_LT(here, linear_tolerance) << seed;
+    campaign.largest_linear = std::max(campaign.largest_linear, here);
+    ++campaign.n_linear;
+    return;
+  }
+  random.scene.contact = event_patch(*random.scene.contact);
+  const solver::ResponsePoint few = balance_point(random, frequency, 3);
+  const solver::ResponsePoint many = balance_point(random, frequency, many_harmonics);
+  const auto point = solver::steady_state_from(random.scene, frequency, many.q, options);
+  if (point.period_multiple != 1) {
+    ++campaign.n_left_out;
+    return;
+  }
+  double here = difference(many, point.response);
+  if (here > named_tolerance) {  // 15 are not enough
+    here = difference(balance_point(random, frequency, most_harmonics), point.response);
+    ++campaign.n_more;
+  }
+  EXPECT_LT(here, named_tolerance) << seed;
+  EXPECT_LT(here, std::max(settled, 0.5 * difference(few, point.response))) << seed;
+  campaign.differences.push_back(here);
+  ++campaign.n_nonlinear;
+}
+
+TEST(TimeAgainstBalance, RandomScenesAgreeToTheNamedTolerance) {
+  Campaign campaign;
+  for (std::uint64_t seed = 0; seed < n_seeds; ++seed) compare(seed, campaign);
+  std::sort(campaign.differences.begin(), campaign.differences.end());
+  ASSERT_GE(campaign.n_nonlinear, 50);
+  EXPECT_GE(campaign.n_linear, 30);
+  std::printf("%d scenes without changes of state: largest difference %.1e\n", campaign.n_linear,
+              campaign.largest_linear);
+  std::printf("%d that slip or separate, 15 harmonics: median difference %.1e, largest %.1e\n",
+              campaign.n_nonlinear, campaign.differences[campaign.differences.size() / 2],
+              campaign.differences.back());
+  std::printf("%d of them with 31 harmonics\n", campaign.n_more);
+  std::printf("%d left out: not of the period of the excitation within %d periods\n",
+              campaign.n_left_out, 200);
+}
+
+}  // namespace
+}  // namespace microslip
