@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -213,6 +215,32 @@ TEST(FittedRule, WorksOnHolesAndTriangles) {
   const PatchRule rule = fitted_rule(cells, guards_of({guard}), {.order = 3});
   EXPECT_NEAR(rule.weights.sum(), ring + triangle, 1e-12);
   EXPECT_NEAR(area_above(rule, guard), 0.5 * (ring + triangle), 1e-10);
+}
+
+// Random smooth lines, each against a rule that is finer in every respect and against counting
+// cells.
+TEST(FittedRule, FindsEveryPieceOfRandomLines) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const PatchRule count = midpoint_rule(unit_square(300));
+  for (int k = 0; k < 20; ++k) {
+    std::array<double, 8> c{};
+    for (double& x : c) {
+      x = normal(random);
+    }
+    const Function guard = [c](double p, double r) {
+      return c[0] + std::sin(c[1] + 6.0 * c[2] * p) + c[3] * std::cos(c[4] + 6.0 * c[5] * r) +
+             c[6] * p * r + c[7] * p;
+    };
+    const Guards guards = guards_of({guard});
+    const PatchRule rule = fitted_rule(unit_square(1), guards, {.order = 5});
+    const PatchRule finer =
+        fitted_rule(unit_square(2), guards, {.order = 10, .line_tolerance = 1e-12});
+    EXPECT_NEAR(rule.weights.sum(), 1.0, 1e-12);
+    EXPECT_NEAR(area_above(rule, guard), area_above(finer, guard), 1.1e-10) << k;
+    // Cells on a line count wholly or not: a few hundred of 90 000, at random.
+    EXPECT_NEAR(area_above(rule, guard), area_above(count, guard), 2e-3) << k;
+  }
 }
 
 // Guards that are not smooth (a jump, a cone) and lines that are not (a cusp) are split to the last
