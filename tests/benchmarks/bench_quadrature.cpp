@@ -40,8 +40,8 @@ struct Scene {
 const std::vector<Scene> scenes{
     {"one stick/slip line, constant load", 4.5e5, 0.3, 0.0},
     {"one stick/slip line, variable load", 4.5e5, 0.3, 0.25},
-    {"stick, slip and separation", 2.5e5, 0.9, 1.0},
-    {"separation everywhere", 0.5e5, -1.0, 1.5},
+    {"stick and slip, strongly varying load", 2.5e5, 0.9, 1.0},
+    {"stick, slip and separation", 0.5e5, -1.0, 1.5},
 };
 
 ParameterField parameters_of(const Scene& scene) {
