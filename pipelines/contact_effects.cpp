@@ -13,6 +13,7 @@
 #include "contact/event_law.hpp"
 #include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
+#include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
 #include "contact/sampled_cycle.hpp"
 #include "contact/surface_law.hpp"
@@ -195,6 +196,22 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
   }
   return std::make_unique<contact::LawPatchForce>(model.weights, point_laws(model, load, false),
                                                   simulated_shapes(model, false));
+}
+
+std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
+  if (model.weights.size() == 0) return nullptr;
+  const ContactEffects& effects = model.effects;
+  if (effects.second_direction || effects.friction_law || effects.roughness) {
+    throw RefusedError(fmt::format(
+        "response.method = \"time\" integrates smooth contact with constant friction along p; this scene "
+        "has {}",
+        effects.second_direction ? "friction along r as well (effects.second_direction = \"off\" leaves it out)"
+        : effects.roughness      ? "rough surfaces"
+                                 : "a friction coefficient that follows the slip speed"));
+  }
+  return std::make_unique<contact::PatchTransient>(
+      contact::ContactPatch(model.weights, point_parameters(model, load, false)),
+      simulated_shapes(model, false));
 }
 
 }  // namespace microslip::pipelines

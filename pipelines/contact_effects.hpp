@@ -8,6 +8,7 @@
 
 #include "contact/modal_force.hpp"
 #include "contact/point_law.hpp"
+#include "contact/transient_force.hpp"
 #include "pipelines/run_results.hpp"
 
 namespace microslip::pipelines {
@@ -22,6 +23,11 @@ namespace microslip::pipelines {
 
 /// The contact of a model under a preload. @param load  as of point_parameters().
 [[nodiscard]] std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load);
+
+/// The same contact for integration in time; nullptr: the scene has none.
+/// @throws RefusedError  an effect that is not integrated in time.
+[[nodiscard]] std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model,
+                                                                       double load);
 
 /// The law of each contact point, or of each vertex of the cells.
 [[nodiscard]] std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(

@@ -11,6 +11,7 @@
 
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/scene_error.hpp"
+#include "pipelines/time_response.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -181,7 +182,12 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                                         options);
     return result;
   }
-  const solver::Scene problem = solver_scene(model, std::get<double>(request.preload));
+  solver::Scene problem = solver_scene(model, std::get<double>(request.preload));
+  if (scene.response->method == ResponseDescription::Method::time) {
+    problem.transient = transient_force(model, std::get<double>(request.preload));
+    result.curve = integrate_curve(problem, *scene.response, observe);
+    return result;
+  }
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);

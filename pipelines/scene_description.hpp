@@ -100,6 +100,8 @@ struct ResponseDescription {
   double frequency_begin_hz = 0.0;
   double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
   int harmonics = 1;
+  enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
+  int n_time_points = 40;  ///< frequencies of method = "time"
   std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
   std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
   bool limits = true;                     ///< modal scenes: free and stuck curves as well

@@ -196,7 +196,10 @@ constexpr std::array output_keys{
 
 constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
                                 "from, to (either order): a curve; a single value: the solution there"};
-constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false, "harmonic_balance"};
+constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false,
+                             "harmonic_balance | time: integrated to the steady state, frequencies swept from → to"};
+constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
+                                  "method = \"time\": number of frequencies"};
 constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
@@ -215,6 +218,7 @@ constexpr std::array response_keys{
     KeySpec{"output", other, "", "", 0, 0, false, "{ at = …, direction = […] }: the displacement that is told"},
     frequency_key,
     method_key,
+    time_points_key,
     harmonics_key,
     preload_key,
     optimum_key,
@@ -227,6 +231,7 @@ constexpr std::array chain_response_keys{
     KeySpec{"output", text, "", "", 0, 0, false, "coordinate that is told"},
     frequency_key,
     method_key,
+    time_points_key,
     harmonics_key,
     preload_key,
     optimum_key,
@@ -236,7 +241,7 @@ constexpr std::array chain_response_keys{
 };
 
 constexpr std::array modal_response_keys{
-    frequency_key, method_key, harmonics_key,
+    frequency_key, method_key, time_points_key, harmonics_key,
     KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
     KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
     maps_key, phases_key,
