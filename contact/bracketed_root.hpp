@@ -21,7 +21,7 @@ template <typename Function>
     if (std::abs(width) <= 2e-16 * size) break;  // neighbouring doubles
     double middle = high - f_high * (width / (f_high - f_low));
     const bool inside = (middle - low) * (high - middle) > 0.0;
-    if (!inside || i % 8 == 7) middle = 0.5 * (low + high);
+    if (!inside || i % 3 == 2) middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
     const double f_middle = f(middle);
     if (f_middle == 0.0) return middle;

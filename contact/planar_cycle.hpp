@@ -31,7 +31,7 @@ class PlanarLaw final : public PointLaw {
   static constexpr double default_tolerance = 1e-9;
 
   /// @param tolerance  of force coefficients, relative to the force scale k a + max μn of the cycle;
-  ///                   1e-13 to 1e-2. Cost grows by about 1.5 from 1e-6 to 1e-10.
+  ///                   1e-13 to 1e-2. Cost doubles at most from 1e-6 to 1e-10.
   /// @throws std::invalid_argument  tolerance out of its range.
   explicit PlanarLaw(SurfaceLaw law, double tolerance = default_tolerance);
 

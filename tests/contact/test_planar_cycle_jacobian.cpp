@@ -94,6 +94,19 @@ TEST(PlanarLawJacobian, OfARateDependentCoefficientMeetsDifferences) {
   }
 }
 
+TEST(PlanarLawJacobian, OfRoughSurfacesMeetsDifferences) {
+  for (const RoughSurface& rough :
+       {RoughSurface::cubic(0.8), RoughSurface::matching_gaussian(0.8)}) {
+    for (const double preload : {0.3, 2.0}) {
+      const PlanarLaw law(
+          SurfaceLaw({2.0, 1.5, 0.6, preload}, 2.0, FrictionLaw::constant(0.6), rough), tight);
+      PointTraction traction;
+      law.traction(lissajous(), 1.0, traction);
+      EXPECT_LT(jacobian_error(law, lissajous(), traction), 5e-6) << "preload " << preload;
+    }
+  }
+}
+
 Harmonics stuck_motion() {
   Harmonics motion(1, 3);
   motion.rows() << 0.02, 0.0, -0.01,  //

