@@ -1,6 +1,7 @@
 #include "contact/chebyshev_surface.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -26,13 +27,15 @@ Eigen::RowVectorXd basis(int degree, double x) {
 // Tables of one degree, made once.
 struct Tables {
   explicit Tables(int degree) : points(degree + 1), transform(degree + 1, degree + 1) {
+    assert(degree > 0);
     const double step = std::numbers::pi / degree;
     for (int k = 0; k <= degree; ++k) {
       points[k] = std::sin(0.5 * step * (degree - 2 * k));  // cos(πk/N), odd in exact arithmetic
     }
     for (int i = 0; i <= degree; ++i) {
       for (int k = 0; k <= degree; ++k) {
-        const double ends = (k == 0 || k == degree ? 0.5 : 1.0) * (i == 0 || i == degree ? 0.5 : 1.0);
+        const double ends =
+            (k == 0 || k == degree ? 0.5 : 1.0) * (i == 0 || i == degree ? 0.5 : 1.0);
         transform(i, k) = 2.0 / degree * ends * std::cos(step * ((i * k) % (2 * degree)));
       }
     }
@@ -57,11 +60,10 @@ const Tables& tables(int degree) {
   return known.try_emplace(degree, degree).first->second;
 }
 
-Eigen::VectorXd trimmed(const Eigen::VectorXd& c) {
-  // Below this share of the whole a coefficient is rounding of the samples.
-  const double noise = 1e-16 * c.cwiseAbs().sum();
+Eigen::VectorXd trimmed(const Eigen::VectorXd& c, double noise) {
+  const double size = c.cwiseAbs().sum();
   Eigen::Index n = c.size();
-  while (n > 1 && std::abs(c[n - 1]) <= noise) {
+  while (n > 1 && std::abs(c[n - 1]) <= noise * size) {
     --n;
   }
   return c.head(n);
@@ -89,8 +91,8 @@ double bracketed(const Eigen::VectorXd& c, const Eigen::VectorXd& slope, double 
   return x;
 }
 
-std::vector<double> roots_of(const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXd c = trimmed(coefficients);
+// c without trailing zeros.
+std::vector<double> roots_of(const Eigen::VectorXd& c) {
   std::vector<double> roots;
   if (c.size() < 2 || std::abs(c[0]) > c.tail(c.size() - 1).cwiseAbs().sum()) {
     return roots;
@@ -143,8 +145,8 @@ double chebyshev_value(const Eigen::VectorXd& c, double x) {
   return c[0] + x * last - later;
 }
 
-std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients) {
-  return roots_of(coefficients);
+std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients, double noise) {
+  return roots_of(trimmed(coefficients, noise));
 }
 
 ChebyshevSurface ChebyshevSurface::through(const Eigen::MatrixXd& values) {
@@ -178,7 +180,8 @@ std::array<ChebyshevSurface, 4> ChebyshevSurface::quarters() const {
   const Eigen::MatrixXd low = half[0] * c_;
   const Eigen::MatrixXd high = half[1] * c_;
   return {ChebyshevSurface(low * half[0].transpose()), ChebyshevSurface(high * half[0].transpose()),
-          ChebyshevSurface(low * half[1].transpose()), ChebyshevSurface(high * half[1].transpose())};
+          ChebyshevSurface(low * half[1].transpose()),
+          ChebyshevSurface(high * half[1].transpose())};
 }
 
 ChebyshevSurface ChebyshevSurface::trimmed(double noise) const {

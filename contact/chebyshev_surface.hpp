@@ -25,7 +25,9 @@ namespace microslip::contact {
 [[nodiscard]] double chebyshev_value(const Eigen::VectorXd& coefficients, double x);
 /// Zeros in [−1, 1], ascending; zeros of even order may appear once or not at all (they do not change
 /// the sign). None for the zero polynomial.
-[[nodiscard]] std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients);
+/// @param noise  share of Σ |c| below which the highest coefficients do not count.
+[[nodiscard]] std::vector<double> chebyshev_roots(const Eigen::VectorXd& coefficients,
+                                                  double noise = 1e-16);
 
 class ChebyshevSurface {
  public:

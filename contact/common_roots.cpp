@@ -118,8 +118,7 @@ std::vector<Eigen::Vector2d> common_roots(const ChebyshevSurface& f, const Cheby
   constexpr int levels = 14;
   std::vector<Eigen::Vector2d> roots;
   const int degree = std::max(f.degree(), g.degree());
-  std::vector<Box> open{
-      {f.raised_to(degree), g.raised_to(degree), Eigen::Vector2d::Zero(), 1.0}};
+  std::vector<Box> open{{f.raised_to(degree), g.raised_to(degree), Eigen::Vector2d::Zero(), 1.0}};
   for (int level = 0; level < levels && !open.empty() && open.size() < too_many; ++level) {
     std::vector<Box> next;
     for (const Box& box : open) {

@@ -3,16 +3,17 @@
 /// force and moment, tangent stiffness.
 ///
 /// Letters of paper B: x normal, y and z tangential, (x, y, z) = (q, r, p) of the patches, body 2 = A,
-/// body 1 = B. With the relative motion U = U⁽²⁾ − U⁽¹⁾ = (u, v, w, φ_x, φ_y, φ_z) of the centre and cell i
-/// at (0, y_i, z_i)
+/// body 1 = B. With the relative motion U = U⁽²⁾ − U⁽¹⁾ = (u, v, w, φ_x, φ_y, φ_z) of the centre and
+/// cell i at (0, y_i, z_i)
 ///
-///   u_i = G_i U,     G_i = [1 0 0 0 z_i −y_i ; 0 1 0 −z_i 0 0 ; 0 0 1 y_i 0 0]                 (1) [B-eq 7]
-///   (F, M) = Σ w_i G_iᵀ t_i,     t_i = (n, f_r, f_p)_i                                       (2) [B-eq 8]
-///   K = Σ w_i G_iᵀ k_i G_i,      k_i = ∂t_i/∂u_i                                              (3)
+///   u_i = G_i U,     G_i = [1 0 0 0 z_i −y_i ; 0 1 0 −z_i 0 0 ; 0 0 1 y_i 0 0]       (1) [B-eq 7]
+///   (F, M) = Σ w_i G_iᵀ t_i,     t_i = (n, f_r, f_p)_i                             (2) [B-eq 8]
+///   K = Σ w_i G_iᵀ k_i G_i,      k_i = ∂t_i/∂u_i                                    (3)
 ///
 /// so M_x = Σ w (y f_p − z f_r), M_y = Σ w z n, M_z = −Σ w y n: M_y turns about r, M_z about p. The
 /// resultant resists U: on the left side of the equations of motion node 2 gets F − F₀, node 1 the
-/// opposite [B-eq 11]. One matrix for motion and force: virtual work is the same in cells and at the centre.
+/// opposite [B-eq 11]. One matrix for motion and force: virtual work is the same in cells and at the
+/// centre.
 ///
 /// Source: paper B, section 2.3, eqs 6–8, 11; theory section 12.
 #pragma once

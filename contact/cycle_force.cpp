@@ -132,7 +132,8 @@ void set_whole_normal(CycleForce& force, const SlipFunctions& w, const PointPara
   }
 }
 
-// x − sin x and 1 − cos x without cancellation below a quarter, with sin x and cos x at hand beyond.
+// x − sin x and 1 − cos x without cancellation below a quarter, with sin x and cos x at hand
+// beyond.
 constexpr double short_angle = 0.25;
 
 double angle_minus_sine(double x, double sine) {
@@ -147,8 +148,9 @@ double one_minus_cosine(double x, double cosine) {
   return 0.5 * z * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
 }
 
-// Weighted integrals over a stick phase of sin x and 1 − cos x, x the angle since it began at θ_e: with
-// them sin θ − sin θ_e = cos θ_e sin x − sin θ_e (1 − cos x), and nothing cancels in short phases.
+// Weighted integrals over a stick phase of sin x and 1 − cos x, x the angle since it began at θ_e:
+// with them sin θ − sin θ_e = cos θ_e sin x − sin θ_e (1 − cos x), and nothing cancels in short
+// phases.
 struct StickRows {
   Row sine;    // ∫ sin x · (1/2π, sin θ/π, cos θ/π)
   Row versed;  // ∫ (1 − cos x) · …
@@ -172,12 +174,12 @@ StickRows stick_rows(const CyclePhase& phase, const Direction& end) {
           .versed = turned(e, rest, square - rest, 0.5 * versed * versed)};
 }
 
-// Adds what a stick phase has beyond the slip law it follows, ± μn: −L₁ (1 − cos x) after positive slip,
-// L₂ (1 − cos x) after negative slip; the law's own part is in the sums of the slip phases.
+// Adds what a stick phase has beyond the slip law it follows, ± μn: −L₁ (1 − cos x) after positive
+// slip, L₂ (1 − cos x) after negative slip; the law's own part is in the sums of the slip phases.
 void add_stick(CycleForce& force, Row& f, const StickRows& rows, const Direction& e, double size,
                double k_u, double mu_k_v) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const double by_sin = e.cos * rows.sine[k] - e.sin * rows.versed[k];   // ∫ sin θ − sin θ_e
+    const double by_sin = e.cos * rows.sine[k] - e.sin * rows.versed[k];  // ∫ sin θ − sin θ_e
     const double by_cos = -e.sin * rows.sine[k] - e.cos * rows.versed[k];  // ∫ cos θ − cos θ_e
     f[k] += size * rows.versed[k];
     force.friction_by_u[k][0] += k_u * by_sin;
@@ -187,8 +189,8 @@ void add_stick(CycleForce& force, Row& f, const StickRows& rows, const Direction
   }
 }
 
-// f = k_u [u(θ) − u(θ₂)]. The instant of touch-down θ₂ moves with the load; a point that sticks there has
-// |k_u u̇| ≤ μ k_v v̇, so the quotient is bounded even where v̇ vanishes.
+// f = k_u [u(θ) − u(θ₂)]. The instant of touch-down θ₂ moves with the load; a point that sticks
+// there has |k_u u̇| ≤ μ k_v v̇, so the quotient is bounded even where v̇ vanishes.
 void add_stick_after_separation(CycleForce& force, Row& f, const StickRows& rows,
                                 const PointMotion& m, const Direction& touch_down,
                                 const Integrals& stick, double k_u, double mu_k_v) {
@@ -236,8 +238,7 @@ void set_friction(CycleForce& force, const SlipFunctions& w, const PointParamete
     const bool after_separation = phase.kind == PhaseKind::stick_after_separation;
     if (!after_positive && !after_negative && !after_separation) continue;
     const int next = i + 1 < phases.n_phases ? i + 1 : 0;
-    const StickRows stick =
-        stick_rows(phase, phases.phase[static_cast<std::size_t>(next)].begin);
+    const StickRows stick = stick_rows(phase, phases.phase[static_cast<std::size_t>(next)].begin);
     if (after_separation) {
       add_stick_after_separation(force, f, stick, m, phase.begin, sums[phase.kind], k_u, mu_k_v);
     } else {

@@ -56,6 +56,10 @@ void EventForce::gather(const PointParameters& point, const EventGuards& guards,
   for (TrigonometricMoments* moments : {&piece_, &stick_, &slip_, &contact_}) {
     moments->reset(highest);
   }
+  const bool separates = phases.regime == CycleRegime::separation;
+  if (!separates && phases.regime != CycleRegime::separated) {
+    contact_.set_period();  // the load is its own Fourier series
+  }
   memory_.assign(static_cast<std::size_t>(n), 0.0);
   stick_mean_.clear();
   for (const EventPhase& phase : phases.phases) {
@@ -63,7 +67,9 @@ void EventForce::gather(const PointParameters& point, const EventGuards& guards,
       continue;
     }
     piece_.set_piece(phase.begin, phase.length);
-    contact_.add(1.0, piece_);
+    if (separates) {
+      contact_.add(1.0, piece_);
+    }
     if (phase.state != ContactState::stick) {
       slip_.add(phase.state == ContactState::positive_slip ? 1.0 : -1.0, piece_);
       continue;

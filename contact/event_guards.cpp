@@ -5,8 +5,8 @@
 namespace microslip::contact {
 namespace {
 
-// The cycle is homogeneous of degree one in motion and preload: forces that would be subnormal are
-// found at an amplitude larger by a power of two.
+// The cycle is homogeneous of degree one in motion and preload: forces that would be subnormal, or
+// whose products would overflow, are found at another amplitude, by a power of two.
 constexpr double lift = 0x1p500;
 
 double scale_of(const PointParameters& point, const Harmonics& motion) {
@@ -14,7 +14,10 @@ double scale_of(const PointParameters& point, const Harmonics& motion) {
   const double v = motion.rows().col(1).cwiseAbs().sum();
   const double size =
       point.tangential_stiffness * u + point.normal_stiffness * v + std::abs(point.preload);
-  return size < 1e-250 && u < 1e100 && v < 1e100 ? lift : 1.0;
+  if (size < 1e-250 && u < 1e100 && v < 1e100) {
+    return lift;
+  }
+  return size > 1e140 ? 1.0 / lift : 1.0;
 }
 
 }  // namespace
@@ -36,10 +39,10 @@ void set_event_guards(const PointParameters& point, const Harmonics& motion, Eve
   guards.limit = point.friction_coefficient * guards.load.mean();
   guards.spring_mean = k_u * (scale * rows(0, 0));
   for (int h = 1; h <= degree; ++h) {
-    const double v_sin = scale * rows(2 * h - 1, 1);
-    const double v_cos = scale * rows(2 * h, 1);
-    const double sin = k_u * (scale * rows(2 * h - 1, 0));
-    const double cos = k_u * (scale * rows(2 * h, 0));
+    const double v_sin = scale * motion.sine(h)[1];
+    const double v_cos = scale * motion.cosine(h)[1];
+    const double sin = k_u * (scale * motion.sine(h)[0]);
+    const double cos = k_u * (scale * motion.cosine(h)[0]);
     guards.spring.set(h, sin, cos);
     guards.load.set(h, k_v * v_sin, k_v * v_cos);
     guards.positive.set(h, sin - mu_k_v * v_sin, cos - mu_k_v * v_cos);

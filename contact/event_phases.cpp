@@ -11,16 +11,19 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-// Sign changes of a rate, counted on and on around the period.
+// Phase of a change, counted on and on around the period.
+double unwrapped(const std::vector<SignChange>& changes, std::size_t i) {
+  const std::size_t turns = i / changes.size();
+  return changes[i % changes.size()].phase + two_pi * static_cast<double>(turns);
+}
+
+// Sign changes of a rate.
 class Extrema {
  public:
   explicit Extrema(const std::vector<SignChange>& changes) : changes_(&changes) {}
 
   [[nodiscard]] bool empty() const { return changes_->empty(); }
-  [[nodiscard]] double phase(std::size_t i) const {
-    const std::size_t n = changes_->size();
-    return (*changes_)[i % n].phase + two_pi * static_cast<double>(i / n);
-  }
+  [[nodiscard]] double phase(std::size_t i) const { return unwrapped(*changes_, i); }
   [[nodiscard]] bool is_maximum(std::size_t i) const {
     return !(*changes_)[i % changes_->size()].rising;
   }
@@ -211,9 +214,7 @@ void EventSearch::find_separation() {
   const std::size_t n = load_.size();
   const std::size_t first = load_[0].rising ? 0 : 1;
   for (std::size_t k = 0; k < n; k += 2) {
-    const auto at = [&](std::size_t i) {
-      return load_[i % n].phase + two_pi * static_cast<double>(i / n);
-    };
+    const auto at = [&](std::size_t i) { return unwrapped(load_, i); };
     const std::size_t i = first + k;
     Walk(*guards_, positive_, negative_, result_.phases).contact(*guards_, at(i), at(i + 1));
     result_.phases.push_back(

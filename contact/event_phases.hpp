@@ -19,6 +19,7 @@
 
 #include "contact/event_guards.hpp"
 #include "contact/friction_cycle.hpp"
+#include "contact/sign_changes.hpp"
 
 namespace microslip::contact {
 

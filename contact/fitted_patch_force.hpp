@@ -69,6 +69,10 @@ class FittedPatchForce final : public ModalForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return force_->stuck_stiffness();
   }
+  /// Of the points of the rule in use.
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override {
+    return force_->linear_state(centre, radius);
+  }
 
   /// A new solution point: refits are counted from here; the rule stays.
   void begin_point();

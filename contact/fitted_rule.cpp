@@ -71,8 +71,8 @@ class FittedRule {
   }
 
  private:
-  // One generation: boxes climb the ladder of degrees together, so that guards are called rarely and
-  // with many points. Returns the quarters of those that stayed unresolved.
+  // One generation: boxes climb the ladder of degrees together, so that guards are called rarely
+  // and with many points. Returns the quarters of those that stayed unresolved.
   std::vector<Box> add_or_split(std::vector<Box> boxes) {
     std::vector<Box> quarters;
     for (const int degree : degrees) {
@@ -95,8 +95,8 @@ class FittedRule {
   static void split(const Box& box, std::vector<Box>& quarters) {
     for (const double x : {-0.5, 0.5}) {
       for (const double y : {-0.5, 0.5}) {
-        quarters.push_back({box.cell, box.centre + box.half * Eigen::Vector2d(x, y),
-                            0.5 * box.half, box.depth + 1});
+        quarters.push_back({box.cell, box.centre + box.half * Eigen::Vector2d(x, y), 0.5 * box.half,
+                            box.depth + 1});
       }
     }
   }
@@ -131,7 +131,7 @@ class FittedRule {
                                              const Eigen::VectorXd& r) const {
     const auto n_guards = static_cast<Eigen::Index>(guards_.lines.size());
     if (p.size() == 0 || n_guards == 0) {
-      return Eigen::MatrixXd(p.size(), n_guards);
+      return {p.size(), n_guards};
     }
     Eigen::MatrixXd values = guards_.values(p, r);
     if (values.rows() != p.size() || values.cols() != n_guards) {
@@ -150,8 +150,9 @@ class FittedRule {
     return values;
   }
 
-  // Which guards may vanish in the box, and whether those are resolved. With the tail as an estimate of
-  // all that a surface leaves out, four times it is a margin for guards that decay slowly.
+  // Which guards may vanish in the box, and whether those are resolved. With the tail as an
+  // estimate of all that a surface leaves out, four times it is a margin for guards that decay
+  // slowly.
   [[nodiscard]] Sampled classified(const Box& box, const Eigen::MatrixXd& values) const {
     const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(values.rows())));
     Sampled result{box, {}, {}, true};
@@ -167,16 +168,17 @@ class FittedRule {
         continue;
       }
       result.crossing.push_back(guard);
-      // A tenth of what the lines themselves may be off; below 1e-13 samples are rounding.
-      const double allowed = std::max(0.1 * options_.line_tolerance, 1e-13) *
-                             values.col(guard).cwiseAbs().maxCoeff();
+      // A hundredth of what the lines themselves may be off, so that lines that meet in one point
+      // do so within their tolerance; below 1e-13 samples are rounding.
+      const double allowed =
+          std::max(1e-2 * options_.line_tolerance, 1e-13) * values.col(guard).cwiseAbs().maxCoeff();
       result.is_resolved = result.is_resolved && tail <= allowed;
     }
     // Terms that do not count together only make the search for lines slower.
     for (ChebyshevSurface& surface : result.surfaces) {
-      const double n_terms = static_cast<double>(surface.coefficients().size());
+      const auto n_terms = static_cast<double>(surface.coefficients().size());
       const double size = surface.variation() + std::abs(surface.coefficients()(0, 0));
-      surface = surface.trimmed(std::max(1e-2 * options_.line_tolerance, 1e-15) * size / n_terms);
+      surface = surface.trimmed(std::max(1e-3 * options_.line_tolerance, 1e-15) * size / n_terms);
     }
     return result;
   }

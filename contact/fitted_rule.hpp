@@ -44,9 +44,10 @@ struct Guards {
 };
 
 struct FittedRuleOptions {
-  int order = 8;                  ///< Gauss points per direction and piece, ≥ 1
-  double line_tolerance = 1e-10;  ///< error of the area on one side of a line, per area of its cell; > 0
-  int max_depth = 6;              ///< quarterings of a cell where guards are not smooth, ≥ 0
+  int order = 8;  ///< Gauss points per direction and piece, ≥ 1
+  double line_tolerance =
+      1e-10;          ///< error of the area on one side of a line, per area of its cell; > 0
+  int max_depth = 6;  ///< quarterings of a cell where guards are not smooth, ≥ 0
 };
 
 /// @throws std::invalid_argument  an option out of range, guards of another size or not finite (names the

@@ -36,6 +36,7 @@ class HeightRule {
         crossing_(crossing),
         lines_(lines),
         tolerance_(options.line_tolerance),
+        noise_(std::max(1e-16, 1e-5 * options.line_tolerance)),
         merge_distance_(std::max(smallest_distance, options.line_tolerance)),
         line_rule_(gauss_legendre(options.order)),
         // A graded rule needs degree 2 for its weights to sum to 1, degree 5 for those of a cell.
@@ -74,8 +75,20 @@ class HeightRule {
     return line.domain < 0 || surface(line.domain).value(xi, eta) * line.domain_sign >= 0.0;
   }
 
+  // The same with a margin: where a line meets the end of its domain must not be lost to rounding.
+  [[nodiscard]] bool may_count(int guard, double xi, double eta) const {
+    const GuardLine& line = lines_[static_cast<std::size_t>(guard)];
+    if (line.domain < 0) {
+      return true;
+    }
+    const ChebyshevSurface& domain = surface(line.domain);
+    return domain.value(xi, eta) * line.domain_sign >=
+           -1e-6 * domain.coefficients().cwiseAbs().sum();
+  }
+
   void add_event(double xi, double eta, int guard) {
-    if (std::abs(xi) < 1.0 - merge_distance_ && std::abs(eta) <= 1.0 && counts(guard, xi, eta)) {
+    if (std::abs(xi) < 1.0 - merge_distance_ && std::abs(eta) <= 1.0 + smallest_distance &&
+        may_count(guard, xi, eta)) {
       events_.push_back(xi);
     }
   }
@@ -101,20 +114,24 @@ class HeightRule {
       for (std::size_t j = 0; j < i; ++j) {
         for (const Eigen::Vector2d& root :
              common_roots(surface(crossing_[i]), surface(crossing_[j]))) {
-          add_event(root[0], root[1], crossing_[i]);
+          if (may_count(crossing_[j], root[0], root[1])) {
+            add_event(root[0], root[1], crossing_[i]);
+          }
         }
       }
     }
     std::ranges::sort(events_);
-    const auto is_near = [this](double a, double b) { return b - a < merge_distance_; };
+    // An event that is missed costs its distance times a line that ends there.
+    const double same = std::max(smallest_distance, 1e-3 * tolerance_);
+    const auto is_near = [same](double a, double b) { return b - a < same; };
     events_.erase(std::unique(events_.begin(), events_.end(), is_near), events_.end());
   }
 
   [[nodiscard]] std::vector<Crossing> zeros_at(double xi) const {
     std::vector<Crossing> zeros;
     for (const int guard : crossing_) {
-      for (const double eta : chebyshev_roots(surface(guard).column(xi))) {
-        if (std::abs(eta) < 1.0 - merge_distance_ && counts(guard, xi, eta)) {
+      for (const double eta : chebyshev_roots(surface(guard).column(xi), noise_)) {
+        if (std::abs(eta) < 1.0 && counts(guard, xi, eta)) {
           zeros.push_back({eta, guard});
         }
       }
@@ -133,8 +150,9 @@ class HeightRule {
     return result;
   }
 
-  // ∫ sign(g) dη and ∫ sign(g) 2η dη of each guard over a column: what the lines do to a smooth integrand.
-  // A pair of zeros that appears changes them continuously, so that zeros lost to rounding do not count.
+  // ∫ sign(g) dη and ∫ sign(g) 2η dη of each guard over a column: what the lines do to a smooth
+  // integrand. A pair of zeros that appears changes them continuously, so that zeros lost to
+  // rounding do not count.
   [[nodiscard]] Eigen::ArrayXd signed_moments(const Column& column) const {
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * static_cast<Eigen::Index>(crossing_.size()));
     auto zero = column.zeros.cbegin();
@@ -180,18 +198,25 @@ class HeightRule {
 
   [[nodiscard]] Interval interval(double begin, double end, GradedEnds ends, Columns whole) const {
     const double middle = 0.5 * (begin + end);
-    Interval result{begin, end, ends, std::move(whole), columns(begin, middle, {ends.begin, false}),
-                    columns(middle, end, {false, ends.end}), 0.0};
-    result.error = (moments(result.whole) - moments(result.left) - moments(result.right)).abs().sum();
+    Interval result{begin,
+                    end,
+                    ends,
+                    std::move(whole),
+                    columns(begin, middle, {ends.begin, false}),
+                    columns(middle, end, {false, ends.end}),
+                    0.0};
+    result.error =
+        (moments(result.whole) - moments(result.left) - moments(result.right)).abs().sum();
     return result;
   }
 
   // Halves the worst interval until all together are good enough, and leaves them in order.
   void refine(std::vector<Interval>& heap) const {
-    // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding, and
-    // halving would never end.
+    // More than kinks and near tangents need; at a cusp of a line zeros come and go by rounding,
+    // and halving would never end.
     const auto max_halvings = static_cast<int>(2000 / line_rule_.nodes.size());
-    // A quarter of what the square, of area 4, may err: the difference of two rules is only an estimate.
+    // A quarter of what the square, of area 4, may err: the difference of two rules is only an
+    // estimate.
     const double allowed = tolerance_;
     const auto total = [&heap] {
       return std::accumulate(heap.begin(), heap.end(), 0.0,
@@ -211,7 +236,8 @@ class HeightRule {
     std::ranges::sort(heap, {}, &Interval::begin);
   }
 
-  // Whether the integrand has a root at one of the breaks in [first, last) when seen from η = inside.
+  // Whether the integrand has a root at one of the breaks in [first, last) when seen from η =
+  // inside.
   [[nodiscard]] bool is_rooted(std::vector<Crossing>::const_iterator first,
                                std::vector<Crossing>::const_iterator last, double xi,
                                double inside) const {
@@ -234,25 +260,25 @@ class HeightRule {
   void add_column(Column column) {
     auto& zeros = column.zeros;
     std::ranges::sort(zeros, {}, &Crossing::eta);
-    auto first = zeros.cbegin();  // zeros that make the break at `begin`: [first, last)
-    auto last = first;
+    // Zeros closer than the merge distance are one break, with the sides of the square as well.
+    const auto group_end = [&](std::vector<Crossing>::const_iterator from, double eta) {
+      return std::find_if(from, zeros.cend(),
+                          [&](const Crossing& zero) { return zero.eta - eta >= merge_distance_; });
+    };
     double begin = -1.0;
-    for (auto next = zeros.cbegin();; last = next) {
-      const double end = next == zeros.cend() ? 1.0 : next->eta;
-      auto next_last = next;
-      while (next_last != zeros.cend() && next_last->eta - end < merge_distance_) {
-        ++next_last;
-      }
+    auto first = zeros.cbegin();  // zeros of the break at `begin`: [first, last)
+    auto last = group_end(first, begin);
+    while (begin < 1.0) {
+      const bool is_last = last == zeros.cend() || last->eta > 1.0 - merge_distance_;
+      const double end = is_last ? 1.0 : last->eta;
+      const auto next_last = is_last ? zeros.cend() : group_end(last, end);
       const double inside = 0.5 * (begin + end);
       add_piece(column, begin, end,
                 {is_rooted(first, last, column.xi, inside),
-                 is_rooted(next, next_last, column.xi, inside)});
-      if (next == zeros.cend()) {
-        return;
-      }
+                 is_rooted(last, next_last, column.xi, inside)});
       begin = end;
-      first = next;
-      next = next_last;
+      first = last;
+      last = next_last;
     }
   }
 
@@ -260,6 +286,7 @@ class HeightRule {
   const std::vector<int>& crossing_;
   const std::vector<GuardLine>& lines_;
   double tolerance_;
+  double noise_;           // of coefficients, well below what lines may be off
   double merge_distance_;  // lines are no better known than their tolerance
   LineRule line_rule_;
   LineRule graded_rule_;
@@ -267,7 +294,8 @@ class HeightRule {
   SquareRule rule_;
 };
 
-double total_slope(const std::vector<ChebyshevSurface>& surfaces, const std::vector<int>& crossing) {
+double total_slope(const std::vector<ChebyshevSurface>& surfaces,
+                   const std::vector<int>& crossing) {
   double sum = 0.0;
   for (const int guard : crossing) {
     const ChebyshevSurface& g = surfaces[static_cast<std::size_t>(guard)];
@@ -288,10 +316,9 @@ SquareRule height_rule(const std::vector<ChebyshevSurface>& surfaces,
   }
   HeightRule upright(surfaces, crossing, lines, options);
   HeightRule sideways(turned, crossing, lines, options);
-  const bool is_upright =
-      upright.n_events() != sideways.n_events()
-          ? upright.n_events() < sideways.n_events()
-          : total_slope(surfaces, crossing) >= total_slope(turned, crossing);
+  const bool is_upright = upright.n_events() != sideways.n_events()
+                              ? upright.n_events() < sideways.n_events()
+                              : total_slope(surfaces, crossing) >= total_slope(turned, crossing);
   if (is_upright) {
     return upright.rule();
   }

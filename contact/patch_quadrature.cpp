@@ -15,7 +15,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Below this share of its squared size a cell has no area: sixteen digits cannot tell it from a line.
+// Below this share of its squared size a cell has no area: sixteen digits cannot tell it from a
+// line.
 constexpr double no_area = 1e-14;
 
 std::array<Eigen::Vector2d, 4> corners_of(const PatchCells& cells, Eigen::Index cell) {
@@ -56,11 +57,11 @@ PatchRule empty_rule(std::size_t n_points) {
 
 }  // namespace
 
-PatchCell::PatchCell(const std::array<Eigen::Vector2d, 4>& x)
-    : centre_(0.25 * (x[0] + x[1] + x[2] + x[3])),
-      by_xi_(0.25 * (x[1] - x[0] + x[2] - x[3])),
-      by_eta_(0.25 * (x[3] - x[0] + x[2] - x[1])),
-      by_both_(0.25 * (x[0] - x[1] + x[2] - x[3])),
+PatchCell::PatchCell(const std::array<Eigen::Vector2d, 4>& corners)
+    : centre_(0.25 * (corners[0] + corners[1] + corners[2] + corners[3])),
+      by_xi_(0.25 * (corners[1] - corners[0] + corners[2] - corners[3])),
+      by_eta_(0.25 * (corners[3] - corners[0] + corners[2] - corners[1])),
+      by_both_(0.25 * (corners[0] - corners[1] + corners[2] - corners[3])),
       density_(cross(by_xi_, by_eta_)),
       density_by_xi_(cross(by_xi_, by_both_)),
       density_by_eta_(cross(by_both_, by_eta_)),
@@ -72,7 +73,7 @@ PatchCell::PatchCell(const std::array<Eigen::Vector2d, 4>& x)
   }
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      size_squared_ = std::max(size_squared_, (x[i] - x[j]).squaredNorm());
+      size_squared_ = std::max(size_squared_, (corners[i] - corners[j]).squaredNorm());
     }
   }
 }

@@ -20,14 +20,14 @@ namespace microslip::contact {
 /// Cells of a patch. Neighbours may or may not share vertices; nothing here needs to know.
 struct PatchCells {
   Eigen::MatrixX2d vertices;  ///< (p, r) [m]
-  Eigen::MatrixX4i corners;   ///< vertex indices in order around the cell; triangles: the last is −1
+  Eigen::MatrixX4i corners;  ///< vertex indices in order around the cell; triangles: the last is −1
 };
 
 /// Points and weights: what a ContactPatch needs besides the law.
 struct PatchRule {
-  Eigen::VectorXd p;        ///< [m], n
-  Eigen::VectorXd r;        ///< [m], n
-  Eigen::VectorXd weights;  ///< [m²], n, > 0; the sum is the area of the cells
+  Eigen::VectorXd p;                 ///< [m], n
+  Eigen::VectorXd r;                 ///< [m], n
+  Eigen::VectorXd weights;           ///< [m²], n, > 0; the sum is the area of the cells
   Eigen::Index n_dropped_cells = 0;  ///< cells without area
 
   [[nodiscard]] Eigen::Index n_points() const { return weights.size(); }

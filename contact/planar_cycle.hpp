@@ -12,6 +12,9 @@
 /// A point that never slips nor separates keeps the slider it was left with: virgin, s = 0, and pushed by
 /// one period after another, beginning at θ = 0, until nothing moves it.
 ///
+/// The factor g of the stiffness is that along p for both directions; a surface law whose factors differ
+/// (bodies in series that are not equally stiff along p and r) is simulated with g_p.
+///
 /// A direction without stiffness carries no friction. μ = 0 slips without force.
 ///
 /// Source: theory sections 3, 4.2, 6, 7, 8, 9, 10, 11.
@@ -34,8 +37,7 @@ class PlanarLaw final : public PointLaw {
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
-                                     const Eigen::VectorXd& phases,
-                                     int n_harmonics) const override;
+                                     const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
 

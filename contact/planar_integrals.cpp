@@ -37,8 +37,8 @@ void add_stick(const PlanarMotion& motion, const PlanarPiece& piece, int n_harmo
   const Vector2d k = motion.force_scale() * motion.stiffness();
   visit_nodes(motion, piece.begin, piece.end, n_harmonics,
               [&](const PlanarInstant& now, double weight) {
-                const Vector2d force = now.surface.stiffness_ratio *
-                                       k.cwiseProduct(now.position - piece.slider);
+                const Vector2d force =
+                    now.surface.stiffness_ratio * k.cwiseProduct(now.position - piece.slider);
                 sum.add(now.phase, weight, traction(force));
               });
 }
@@ -79,12 +79,11 @@ Eigen::MatrixXd load_derivative(const PlanarMotion& motion,
   Eigen::VectorXd basis;
   for (const PlanarInterval& interval : intervals) {
     if (!interval.in_contact) continue;
-    visit_nodes(motion, interval.begin, interval.end, H,
-                [&](const PlanarInstant& now, double weight) {
-                  trigonometric_basis(H, now.phase, basis);
-                  J.noalias() +=
-                      (weight * now.surface.load_by_approach * basis) * basis.transpose();
-                });
+    visit_nodes(
+        motion, interval.begin, interval.end, H, [&](const PlanarInstant& now, double weight) {
+          trigonometric_basis(H, now.phase, basis);
+          J.noalias() += (weight * now.surface.load_by_approach * basis) * basis.transpose();
+        });
   }
   J /= std::numbers::pi;
   J.row(0) *= 0.5;

@@ -68,7 +68,8 @@ std::vector<double> breakpoints(const PlanarMotion& motion) {
   const int n_cells = cells_per_harmonic * motion.n_harmonics();
   const auto rate = [&](double phase) { return motion.approach_rate(phase); };
   for (const double kink : motion.law().kinks()) {
-    add_crossings([&](double phase) { return motion.approach(phase) - kink; }, rate, n_cells, found);
+    add_crossings([&](double phase) { return motion.approach(phase) - kink; }, rate, n_cells,
+                  found);
   }
   if (motion.law().is_rate_dependent()) add_slowest(motion, n_cells, found);
   std::sort(found.begin(), found.end());

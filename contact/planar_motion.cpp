@@ -98,13 +98,12 @@ PlanarInstant PlanarMotion::at(double phase) const {
   const SurfaceState& y = now.surface;
   if (force_scale_ == 0.0 || y.load <= 0.0 || y.stiffness_ratio <= 0.0) return now;
   const double mu = y.friction_coefficient;
-  const double ratio = y.load / y.stiffness_ratio;
+  const double ratio = y.load_per_ratio;
   now.radius = mu * ratio / force_scale_;
-  now.radius_by_approach = mu * (y.load_by_approach - ratio * y.stiffness_ratio_by_approach) /
-                           (y.stiffness_ratio * force_scale_);
+  now.radius_by_approach = mu * y.load_per_ratio_by_approach / force_scale_;
   now.radius_by_rate = y.friction_coefficient_by_rate * ratio / force_scale_;
-  now.radius_rate = now.radius_by_approach * now.approach_rate +
-                    now.radius_by_rate * frequency_ * speed_rate;
+  now.radius_rate =
+      now.radius_by_approach * now.approach_rate + now.radius_by_rate * frequency_ * speed_rate;
   return now;
 }
 

@@ -151,8 +151,9 @@ class Walk {
   }
 
   [[nodiscard]] double force_growth(const PlanarInstant& now) const {
-    return stiffness().cwiseProduct(now.position - slider_).dot(
-        stiffness().cwiseProduct(now.velocity));
+    return stiffness()
+        .cwiseProduct(now.position - slider_)
+        .dot(stiffness().cwiseProduct(now.velocity));
   }
 
   /// First phase at which the guard of stick is broken, or beyond the cell. Where the force passes
@@ -162,8 +163,7 @@ class Walk {
     const double growth_high = force_growth(high);
     if (!(growth_low < 0.0 && growth_high > 0.0)) return breach_between(low, high);
     const auto growth = [this](double phase) { return force_growth(motion_.at(phase)); };
-    const double smallest =
-        bracketed_root(growth, low.phase, high.phase, growth_low, growth_high);
+    const double smallest = bracketed_root(growth, low.phase, high.phase, growth_low, growth_high);
     const double aside = 1e-6 * (high.phase - low.phase);  // the force is no larger in between
     const PlanarInstant left = motion_.at(std::max(smallest - aside, low.phase));
     const PlanarInstant right = motion_.at(std::min(smallest + aside, high.phase));
@@ -304,8 +304,9 @@ class Walk {
   /// Solves for the length of a step that ends where the slip rate is 0.
   void finish_slip(SlipStep& step, double fraction) const {
     constexpr double delta = 1e-4;
-    const double slope = (rate_at(step, fraction) - rate_at(step, std::max(fraction - delta, 0.0))) /
-                         (step.length * std::min(delta, fraction));
+    const double slope =
+        (rate_at(step, fraction) - rate_at(step, std::max(fraction - delta, 0.0))) /
+        (step.length * std::min(delta, fraction));
     double length = fraction * step.length;
     double before = 0.0;
     double rate_before = 0.0;
@@ -330,9 +331,8 @@ class Walk {
     time_ = std::min(time_ + shortest_step, interval_->end);
     const PlanarInstant now = motion_.at(time_);
     const Vector2d trial = stiffness().cwiseProduct(now.position - slider_);
-    slider_ =
-        now.position -
-        motion_.compliance().cwiseProduct(returned_force(trial, stiffness(), now.radius));
+    slider_ = now.position -
+              motion_.compliance().cwiseProduct(returned_force(trial, stiffness(), now.radius));
     slipping_ = false;
   }
 
@@ -344,7 +344,8 @@ class Walk {
   const PlanarInterval* interval_ = nullptr;
   double time_ = 0.0;
   Vector2d slider_ = Vector2d::Zero();
-  Vector2d heading_ = Vector2d::Zero();  // direction of slip, any length, where contact begins in slip
+  Vector2d heading_ =
+      Vector2d::Zero();  // direction of slip, any length, where contact begins in slip
   PlanarEntry entry_ = PlanarEntry::continued;
   bool slipping_ = false;
 };

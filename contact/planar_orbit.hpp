@@ -46,7 +46,7 @@ struct PlanarOrbit {
 };
 
 struct OrbitOptions {
-  double tolerance = 1e-10;    ///< of forces, relative to F₀; 1e-13 to 1e-2
+  double tolerance = 1e-10;       ///< of forces, relative to F₀; 1e-13 to 1e-2
   double highest_harmonic = 1.0;  ///< that forces are integrated against, ≥ 1
 };
 

@@ -3,8 +3,8 @@
 /// and the curvature of the surface law ask for.
 #pragma once
 
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include <Eigen/Core>

@@ -211,7 +211,8 @@ Eigen::Vector2d returned_force(const Eigen::Vector2d& trial, const Eigen::Vector
     const Eigen::Vector2d divisor = (1.0 + lambda * stiffness.array()).matrix();
     force = trial.cwiseQuotient(divisor);
     const double f = force.norm();
-    const double slope = force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
+    const double slope =
+        force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
     const double change = (f - radius) / radius * f * f / slope;
     lambda += change;
     if (std::abs(f - radius) <= 4e-16 * radius) break;

@@ -12,10 +12,14 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Periods marched before Newton's method may help: what a pushed slider needs to come to rest.
+/// Newton's method helps after this many periods, and only a march that shrinks its moves by less than
+/// this factor: a slider pushed into full stick comes to rest faster, and where it does is history.
 constexpr int patience = 2;
+constexpr double fast = 0.05;
 /// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
 constexpr int most_periods = 60;
+/// The same for a march without help, at the corner of two ellipses.
+constexpr int longest_march = 300;
 
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
@@ -58,6 +62,7 @@ class FixedPoint {
     Vector2d slider = motion_.virgin_slider();
     Vector2d fallback = slider;
     double smallest = INFINITY;
+    double last_size = 0.0;
     bool tried = false;
     for (int period = 0;; ++period) {
       if (period > 0 && !helped_) steady.history.push_back(std::move(steady.orbit));
@@ -65,20 +70,22 @@ class FixedPoint {
       steady.defect = 0.0;
       if (!steady.orbit.slips) break;
       const Vector2d moved = steady.orbit.end - slider;
-      const Vector2d newton =
-          solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved);
       if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
-      if (tried && !(size < 0.9 * smallest)) {
+      if (tried && !(steady.defect < 0.9 * smallest)) {
         slider = fallback;
         tried = false;
+        smallest = INFINITY;
         continue;
       }
-      smallest = std::min(size, smallest);
+      smallest = steady.defect;
       fallback = steady.orbit.end;
-      tried = period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;
+      const bool slow = period + 1 >= patience && size > fast * last_size;
+      last_size = size;
+      tried = slow && newton.allFinite() && steady.defect < 4.0;  // no slider is farther
       slider = tried ? Vector2d(slider + newton) : fallback;
       helped_ = helped_ || tried;
     }
@@ -89,7 +96,7 @@ class FixedPoint {
   SteadyOrbit march() {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
-    for (int period = 0; period < most_periods; ++period) {
+    for (int period = 0; period < longest_march; ++period) {
       if (period > 0) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);

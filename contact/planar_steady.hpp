@@ -5,9 +5,10 @@
 /// non-expansive; from the virgin slider it is iterated, and helped by Newton's method on Φ(s) = s with
 /// its derivative M once two periods have passed:
 ///
-///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while the defect falls, else s ← Φ(s)               (1)
+///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while these steps shrink, else s ← Φ(s)             (1)
 ///
-/// The size of the step in (1) estimates the distance from the fixed point and ends the iteration. A
+/// The size of the step in (1) estimates the distance from the fixed point; it judges and ends the
+/// iteration (the defect Φ(s) − s may grow where one direction contracts fast, another slowly). A
 /// point that ends up stuck throughout is marched without help, since what it reaches is history: the
 /// virgin slider pushed into the ellipses of all phases (theory sections 4.2, 9).
 ///
@@ -22,8 +23,9 @@ namespace microslip::contact {
 struct SteadyOrbit {
   CycleRegime regime = CycleRegime::separated;
   PlanarOrbit orbit;
-  std::vector<PlanarOrbit> history;  ///< full stick: periods before the last, from the virgin slider
-  double defect = 0.0;               ///< estimated distance from the fixed point, in f / F₀
+  std::vector<PlanarOrbit>
+      history;          ///< full stick: periods before the last, from the virgin slider
+  double defect = 0.0;  ///< estimated distance from the fixed point, in f / F₀
 };
 
 [[nodiscard]] SteadyOrbit steady_orbit(const PlanarMotion& motion,

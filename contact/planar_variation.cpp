@@ -133,8 +133,7 @@ void OrbitVariation::step(const SlipStep& slip) {
   for (int j = 0; j < n_stages; ++j) {
     if (n_parameters_ == 0) break;
     set_parameters(slip.instant[static_cast<std::size_t>(j)]);
-    stage_.middleRows<2>(2 * j) =
-        position_ - C.cwiseProduct(slip.direction.col(j)) * radius_;
+    stage_.middleRows<2>(2 * j) = position_ - C.cwiseProduct(slip.direction.col(j)) * radius_;
     stage_radius_.row(j) = radius_;
     stage_ratio_.row(j) = ratio_;
   }
@@ -157,8 +156,7 @@ void OrbitVariation::step(const SlipStep& slip) {
   }
   const int last = n_stages - 1;
   const Vector2d e = slip.direction.col(last);
-  slider_.noalias() =
-      (-slip.instant[last].radius * C.cwiseProduct(across(e))) * turn_.row(last);
+  slider_.noalias() = (-slip.instant[last].radius * C.cwiseProduct(across(e))) * turn_.row(last);
   slider_.leftCols(n_parameters_) += stage_.bottomRows<2>();
 }
 

@@ -17,8 +17,8 @@ class PlaneHull {
   [[nodiscard]] const Eigen::Matrix2Xd& corners() const { return corners_; }
   /// Largest distance of a corner from the mean of the corners.
   [[nodiscard]] double radius() const { return radius_; }
-  /// Distance to the hull, above 0 outside; below 0 inside, the distance to the nearest edge. In a segment
-  /// "inside" means on its line within rounding (1e-12 of the extent), between its ends; a single point
+  /// Distance to the hull, above 0 outside; below 0 inside, the distance to the nearest edge. In a
+  /// segment "inside" means on its line within rounding (1e-12 of the extent), between its ends; a single point
   /// is inside itself within rounding.
   [[nodiscard]] double signed_distance(const Eigen::Vector2d& point) const;
   /// Largest t with t · direction inside a hull around the origin; NaN if the origin lies outside or on

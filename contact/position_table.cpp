@@ -31,10 +31,9 @@ std::vector<int> sorted_rows(const Eigen::VectorXd& p, const Eigen::VectorXd& r)
 void require_valid(const Eigen::VectorXd& p, const Eigen::VectorXd& r,
                    const Eigen::VectorXd& values) {
   if (p.size() < 1 || p.size() != r.size() || p.size() != values.size()) {
-    throw std::invalid_argument("table of positions: " + std::to_string(p.size()) + " p, " +
-                                std::to_string(r.size()) + " r and " +
-                                std::to_string(values.size()) +
-                                " values; as many of each, at least 1");
+    throw std::invalid_argument(
+        "table of positions: " + std::to_string(p.size()) + " p, " + std::to_string(r.size()) +
+        " r and " + std::to_string(values.size()) + " values; as many of each, at least 1");
   }
   if (!p.allFinite() || !r.allFinite() || !values.allFinite()) {
     throw std::invalid_argument("table of positions: a number is not finite");

@@ -36,10 +36,10 @@ class PositionTable {
 
   Eigen::VectorXd p_, r_, values_;
   Kind kind_ = Kind::scattered;
-  std::vector<double> grid_p_, grid_r_;            // ascending
-  Eigen::MatrixXd grid_;                           // values, p by r
-  std::vector<std::array<int, 3>> triangles_;      // counter-clockwise
-  std::vector<std::array<int, 2>> edges_;          // of the hull, or along the line
+  std::vector<double> grid_p_, grid_r_;        // ascending
+  Eigen::MatrixXd grid_;                       // values, p by r
+  std::vector<std::array<int, 3>> triangles_;  // counter-clockwise
+  std::vector<std::array<int, 2>> edges_;      // of the hull, or along the line
 };
 
 }  // namespace microslip::contact

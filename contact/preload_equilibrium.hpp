@@ -6,8 +6,8 @@
 ///   Σ w_i n_i = F_N,     Σ w_i z_i n_i = M_y,     −Σ w_i y_i n_i = M_z                            (2)
 ///
 /// (2) is the gradient of a convex potential of (u₀, φ_y, φ_z). It has a solution if and only if the
-/// resultant (y, z) = (−M_z, M_y)/F_N lies inside the hull of the cell centres. Linear cells that all stay
-/// loaded carry, on a grid of n cells of one weight w, n_i w = F_N/n + M_y z_i/Σz² − M_z y_i/Σy².
+/// resultant (y, z) = (−M_z, M_y)/F_N lies inside the hull of the cell centres. Linear cells that all
+/// stay loaded carry, on a grid of n cells of one weight w, n_i w = F_N/n + M_y z_i/Σz² − M_z y_i/Σy².
 ///
 /// Letters and moments as in contact_area.hpp: M_y about r, M_z about p.
 ///
@@ -80,8 +80,8 @@ class PreloadError : public std::runtime_error {
 /// @throws PreloadError  a pull, a resultant outside or on the edge of the hull of the cell centres, or
 ///         an imbalance left above 1e-9.
 /// @throws std::invalid_argument  a value not finite; a law that does not reach the force.
-/// @note The imbalance is that of rounding, below 1e-12 as a rule and in any units; it grows where cells of
-///       1e-6 of the weight of the others have to carry the load alone.
+/// @note The imbalance is that of rounding, below 1e-12 as a rule and in any units; it grows where cells
+///       of 1e-6 of the weight of the others have to carry the load alone.
 [[nodiscard]] PreloadEquilibrium preload_equilibrium(const ContactArea& area, const NormalLaw& law,
                                                      const PreloadRequest& request);
 

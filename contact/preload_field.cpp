@@ -18,7 +18,8 @@ void require_size(const char* name, const Eigen::VectorXd& values, const Eigen::
                                 " for " + std::to_string(weights.size()) + " points");
   }
   if (!values.allFinite()) {
-    throw std::invalid_argument("preload: " + std::string(name) + " has a value that is not finite");
+    throw std::invalid_argument("preload: " + std::string(name) +
+                                " has a value that is not finite");
   }
 }
 
@@ -43,9 +44,7 @@ template <typename... Parts>
 // Basis of the linear fields: 1 and the coordinates from the centroid, scaled to radii of gyration.
 struct LinearBasis {
   LinearBasis(const Eigen::VectorXd& p, const Eigen::VectorXd& r, const Eigen::VectorXd& w)
-      : area(area_of(w)),
-        centroid(w.dot(p) / area, w.dot(r) / area),
-        functions(p.size(), 3) {
+      : area(area_of(w)), centroid(w.dot(p) / area, w.dot(r) / area), functions(p.size(), 3) {
     functions.col(0).setOnes();
     functions.col(1) = p.array() - centroid[0];
     functions.col(2) = r.array() - centroid[1];
@@ -70,16 +69,14 @@ Eigen::VectorXd uniform_preload(const Eigen::VectorXd& weights, double force) {
 }
 
 Eigen::VectorXd linear_preload(const Eigen::VectorXd& p, const Eigen::VectorXd& r,
-                               const Eigen::VectorXd& weights,
-                               const PreloadResultants& requested) {
+                               const Eigen::VectorXd& weights, const PreloadResultants& requested) {
   require_size("p", p, weights);
   require_size("r", r, weights);
   const LinearBasis basis(p, r, weights);
   // Moments about the centroid: what the force at the centroid does not already give.
   const Eigen::Vector2d moment(requested.moment_about_r - basis.centroid[0] * requested.force,
                                -requested.moment_about_p - basis.centroid[1] * requested.force);
-  const Eigen::Vector2d scaled =
-      basis.size > 0.0 ? Eigen::Vector2d(moment / basis.size) : moment;
+  const Eigen::Vector2d scaled = basis.size > 0.0 ? Eigen::Vector2d(moment / basis.size) : moment;
   const Eigen::MatrixX2d shape = basis.functions.rightCols(2);
   const Eigen::Matrix2d inertia = shape.transpose() * weights.asDiagonal() * shape;
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix2d> solver;

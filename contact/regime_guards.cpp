@@ -15,10 +15,14 @@ Eigen::Matrix<double, 1, n_guards> guards_of(const PointParameters& point,
   const SlipFunctions w = slip_functions(point, motion);
   const double mean = point.tangential_stiffness * motion.u_mean;
   const double cross = point.tangential_stiffness * point.normal_stiffness *
-                      (motion.u_sin * motion.v_cos - motion.u_cos * motion.v_sin);
+                       (motion.u_sin * motion.v_cos - motion.u_cos * motion.v_sin);
   const double range = w.above_open * w.below_closed;  // B² − n₀²
-  return {w.excess, w.below_closed, w.above_open, mean - (w.negative - w.limit),
-          (w.limit - w.positive) - mean, cross * cross - w.positive * w.positive * range,
+  return {w.excess,
+          w.below_closed,
+          w.above_open,
+          mean - (w.negative - w.limit),
+          (w.limit - w.positive) - mean,
+          cross * cross - w.positive * w.positive * range,
           cross * cross - w.negative * w.negative * range};
 }
 
@@ -40,8 +44,7 @@ Guards regime_guards(ShapeField shapes, ParameterField parameters, std::vector<H
     }
   }
   guards.values = [shapes = std::move(shapes), parameters = std::move(parameters),
-                   states = std::move(states)](const Eigen::VectorXd& p,
-                                               const Eigen::VectorXd& r) {
+                   states = std::move(states)](const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
     const ModalShapes at = shapes(p, r);
     const std::vector<PointParameters> points = parameters(p, r);
     Eigen::MatrixXd values(p.size(), n_guards * static_cast<Eigen::Index>(states.size()));

@@ -25,8 +25,7 @@ namespace microslip::contact {
 
 /// Mode shapes at any points of the patch plane, (p, r) [m], n each → n × n_modes; for instance
 /// ModalContactField::at.
-using ShapeField =
-    std::function<ModalShapes(const Eigen::VectorXd& p, const Eigen::VectorXd& r)>;
+using ShapeField = std::function<ModalShapes(const Eigen::VectorXd& p, const Eigen::VectorXd& r)>;
 /// Constants of the contact there, n; smooth functions of position keep fitted rules small.
 using ParameterField =
     std::function<std::vector<PointParameters>(const Eigen::VectorXd& p, const Eigen::VectorXd& r)>;

@@ -4,9 +4,9 @@
 /// Of a rough surface under a flat plate only the share h* of the area is in contact. With the approach
 /// u counted from the first touch and the stiffnesses k_N, k_T of full contact
 ///
-///   F_N(u) = k_N δ(u),   δ = ∫ h* du,       k_t(u) = k_T h*(u)                               (1)
-///   cubic      h* = 0 | 3x² − 2x³ | 1,      δ = R (0 | x³ − x⁴/2 | x − ½),     x = u/R       (2) [B-eq 1, 2]
-///   Gaussian   h* = Φ(ζ),                   δ = s [ζΦ(ζ) + φ(ζ)],      ζ = (u − ū)/s         (3)
+///   F_N(u) = k_N δ(u),   δ = ∫ h* du,       k_t(u) = k_T h*(u)                         (1)
+///   cubic      h* = 0 | 3x² − 2x³ | 1,      δ = R (0 | x³ − x⁴/2 | x − ½),  x = u/R    (2) [B-eq 1, 2]
+///   Gaussian   h* = Φ(ζ),                   δ = s [ζΦ(ζ) + φ(ζ)],      ζ = (u − ū)/s   (3)
 ///
 /// x below 0 | from 0 to 1 | above 1; Φ, φ are the normal distribution and its density, ū and s mean and
 /// standard deviation of the heights. The cubic law is a height density 6x(1 − x) of mean R/2 and
@@ -26,8 +26,8 @@ struct RoughState {
   double compression = 0.0;        ///< δ = F_N/k_N [m]
   double share = 0.0;              ///< h* = dδ/du = k_t/k_T [-], in [0, 1]
   double share_by_approach = 0.0;  ///< dh*/du [1/m]
-  double reach =
-      0.0;  ///< δ/h* [m], finite where both vanish: μ k_N/k_T of it is the slider's half-width
+  /// δ/h* [m], finite where both vanish: μ k_N/k_T times this is the slider's half-width.
+  double reach = 0.0;
   double reach_by_approach = 0.0;  ///< d(δ/h*)/du [-]
 };
 

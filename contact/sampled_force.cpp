@@ -1,5 +1,6 @@
 #include "contact/sampled_force.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -79,9 +80,9 @@ Harmonics SampledForce::force(const SampledMotion& motion, const SampledSlider& 
 
 void SampledForce::set_springs(const SampledMotion& motion, int n_harmonics,
                                PointTraction& result) {
-  TrigonometricMoments* const moments[] = {&stiffness_, &coupling_, &normal_, &rate_};
-  const Column columns[] = {by_u, by_v, load_by_v, by_rate};
-  for (std::size_t k = 0; k < 4; ++k) {
+  const std::array<TrigonometricMoments*, 4> moments{&stiffness_, &coupling_, &normal_, &rate_};
+  constexpr std::array<Column, 4> columns{by_u, by_v, load_by_v, by_rate};
+  for (std::size_t k = 0; k < moments.size(); ++k) {
     moments[k]->reset(2 * n_harmonics);
     moments[k]->set_sums(sums_.col(columns[k]).data());
   }

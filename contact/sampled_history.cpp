@@ -142,8 +142,8 @@ PointInstant sampled_instant(const SurfaceLaw& law, const Harmonics& motion,
   now.motion = motion.at(phase);
   double rate = 0.0;
   for (int h = 1; h <= motion.n_harmonics(); ++h) {
-    rate += h * (motion.rows()(2 * h - 1, 0) * std::cos(h * phase) -
-                 motion.rows()(2 * h, 0) * std::sin(h * phase));
+    rate +=
+        h * (motion.sine(h)[0] * std::cos(h * phase) - motion.cosine(h)[0] * std::sin(h * phase));
   }
   const ContactSample at =
       contact_sample(law, samples.frequency(), now.motion[0], rate, now.motion[1]);

@@ -14,9 +14,9 @@ double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0); }
 void set_basis_rate(const double* basis, int n_harmonics, Eigen::VectorXd& rate) {
   rate.resize(2 * n_harmonics + 1);
   rate[0] = 0.0;
-  for (int h = 1; h <= n_harmonics; ++h) {
-    rate[2 * h - 1] = h * basis[2 * h];
-    rate[2 * h] = -h * basis[2 * h - 1];
+  for (Eigen::Index h = 1; h <= n_harmonics; ++h) {
+    rate[2 * h - 1] = static_cast<double>(h) * basis[2 * h];
+    rate[2 * h] = -static_cast<double>(h) * basis[2 * h - 1];
   }
 }
 

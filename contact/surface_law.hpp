@@ -5,8 +5,8 @@
 ///
 ///   n = N(v),   k_p = k_u g_p(v),   k_r = k_w g_r(v),   μ = μ(σ),   |f| ≤ μ n               (1)
 ///
-/// Smooth contact: N = max(0, n₀' + k_v v), g = 1. σ is the imposed relative tangential speed in physical
-/// time, ω hypot(u', w') (theory section 10).
+/// Smooth contact: N = max(0, n₀' + k_v v), g = 1. σ is the imposed relative tangential speed in
+/// physical time, ω hypot(u', w') (theory section 10).
 ///
 /// Rough contact (rough_surface.hpp) with approach u, in series with a compliance c of the bodies:
 ///
@@ -40,7 +40,8 @@ struct SurfaceState {
   double stiffness_ratio_by_approach = 0.0;   ///< dg_p/dv [1/m]
   double friction_coefficient = 0.0;          ///< μ(σ) [-]
   double friction_coefficient_by_rate = 0.0;  ///< dμ/dσ [s/m]
-  double second_stiffness_ratio = 1.0;        ///< g_r [-]: differs from g_p only if c_u k_T does
+  double second_stiffness_ratio =
+      1.0;  ///< g_r [-]: differs from g_p only where c k_T along r and p do
   double second_stiffness_ratio_by_approach = 0.0;  ///< dg_r/dv [1/m]
   /// n/g_p [Pa] and n/g_r, finite where both vanish: μ/k_u of the first is the slider's half-width.
   double load_per_ratio = 0.0;

@@ -1,7 +1,9 @@
 #include "contact/trigonometric_moments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 namespace microslip::contact {
 
@@ -51,6 +53,12 @@ void TrigonometricMoments::set_piece(double begin, double length) {
   }
 }
 
+void TrigonometricMoments::set_period() {
+  std::fill(cos_.begin(), cos_.end(), 0.0);
+  std::fill(sin_.begin(), sin_.end(), 0.0);
+  cos_[0] = 2.0 * std::numbers::pi;
+}
+
 void TrigonometricMoments::add(double factor, const TrigonometricMoments& other) {
   for (std::size_t m = 0; m < cos_.size(); ++m) {
     cos_[m] += factor * other.cos_[m];
@@ -71,7 +79,7 @@ double TrigonometricMoments::product(int i, int j) const {
   const auto b = static_cast<int>(index(j));
   const bool i_sine = i % 2 == 1;
   const bool j_sine = j % 2 == 1;
-  const auto sum = static_cast<std::size_t>(a + b);
+  const std::size_t sum = index(i) + index(j);
   const auto difference = static_cast<std::size_t>(std::abs(a - b));
   if (i_sine == j_sine) {
     return 0.5 * (i_sine ? cos_[difference] - cos_[sum] : cos_[difference] + cos_[sum]);

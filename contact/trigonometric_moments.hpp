@@ -25,6 +25,8 @@ class TrigonometricMoments {
   void reset(int highest);
   /// Becomes (2) of one piece. @param length [rad], ≥ 0.
   void set_piece(double begin, double length);
+  /// Becomes (2) of the whole period, without rounding.
+  void set_period();
   /// Adds `factor` times another one of the same size.
   void add(double factor, const TrigonometricMoments& other);
   /// From sums in the order of the basis, 2 highest + 1 of them: [C_0, S_1, C_1, S_2, …].

@@ -1,16 +1,7 @@
 /// @file
-/// Trigonometric polynomials and all their sign changes in a period.
+/// Trigonometric polynomials, and a root of one in a bracket.
 ///
 ///   p(θ) = p₀ + Σ_h ( p_sh sin hθ + p_ch cos hθ ) = p₀ + Im Σ_h C_h z^h,   C_h = p_sh + i p_ch, z = e^{iθ}
-///
-/// Sign changes are isolated, not looked for: on a cell of width d the cubic through values and slopes
-/// at its ends misses p by no more than M d⁴/384, its derivatives by √3 M d³/216 and M d²/12, with
-/// M = Σ h⁴ |C_h| ≥ |p⁗|. A cell is done when these bounds prove that p keeps its sign, or its slope
-/// does, or its curvature does; else it is halved. Pairs of sign changes however close are found, down
-/// to rounding of p.
-///
-/// Source: error constants of cubic Hermite interpolation: G. Birkhoff, A. Priver, J. Math. and Phys. 46
-/// (1967) 440–447.
 #pragma once
 
 #include <cstddef>
@@ -62,16 +53,12 @@ class TrigonometricPolynomial {
   std::vector<double> cos_;
 };
 
-/// Where p > 0 begins (rising) or ends.
-struct SignChange {
-  double phase = 0.0;  ///< in [0, 2π]
-  bool rising = false;
-};
-
-/// All phases at which the answer to p > 0 changes, in order; up and down alternate around the period.
-/// @param changes  written whole; storage is used again.
-/// @note To rounding of p: where p touches zero within that, a pair may be found or not.
-void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>& changes);
+/// From `x` to the root of p − level between low and high; p − level > 0 at the lower end if
+/// `low_positive`, and not at the other, or the other way round. One Taylor expansion leaves the error
+/// M step⁴/24 over the slope: two or three are enough.
+/// @param fourth  M = p.bound(4).
+[[nodiscard]] double root_within(const TrigonometricPolynomial& p, double fourth, double level,
+                                 double low, double high, bool low_positive, double x);
 
 /// Where p passes `level` on [low, high], given that it does: p − level > 0 at one end only.
 /// @param at_low, at_high  p − level at the ends.

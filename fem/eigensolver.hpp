@@ -24,7 +24,7 @@ struct FoundPairs {
   Eigen::VectorXd beyond;  ///< lower estimates of the next eigenvalues, not converged [rad²/s²]
 };
 
-/// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-9 θ, θ = 1/(λ − shift), of every pair.
+/// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-10 θ, θ = 1/(λ − shift), of every pair.
 ///
 /// @param inverse    factorisation of K − shift M.
 /// @param shift      [rad²/s²], below every wanted eigenvalue.
@@ -32,8 +32,9 @@ struct FoundPairs {
 ///                   smaller.
 /// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
 /// @throws EigenError  fewer converged: both numbers and the tolerance.
-[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
-                                      Eigen::Index n_wanted, const Eigen::MatrixXd& deflation);
+[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse,
+                                      double shift, Eigen::Index n_wanted,
+                                      const Eigen::MatrixXd& deflation);
 
 /// One step of subspace iteration and Rayleigh–Ritz over all columns: orders pairs that were found
 /// in several runs, and turns what is left of foreign modes far down.

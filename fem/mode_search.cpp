@@ -17,11 +17,11 @@ namespace {
 // about 1e-16 λ_max/λ ≈ 1e-7 on fine meshes, so that no shift in a gap can miscount.
 constexpr double cluster_width = 1e-4;
 
-// Middle of the first gap with n or more values below it: values found, then lower estimates of what
-// comes next. A gap that is not there after all (an estimate above the value it stands for) only
-// makes the count larger, and what is missing is searched.
-std::optional<double> shift_in_gap(const Eigen::VectorXd& found, const Eigen::VectorXd& beyond, Eigen::Index n,
-                                   Eigen::Index space) {
+// Middle of the first gap with n or more values below it: values found, then lower estimates of
+// what comes next. A gap that is not there after all (an estimate above the value it stands for)
+// only makes the count larger, and what is missing is searched.
+std::optional<double> shift_in_gap(const Eigen::VectorXd& found, const Eigen::VectorXd& beyond,
+                                   Eigen::Index n, Eigen::Index space) {
   Eigen::VectorXd values(found.size() + beyond.size());
   values << found, beyond;
   double below = n == 0 ? 0.0 : values.head(n).maxCoeff();
@@ -39,12 +39,14 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return both;
 }
 
-// One refinement; what rounding mixed in of the rigid motions, magnified by the inverse there, goes.
-EigenPairs refine_beside(const Eigen::MatrixXd& rigid, const FeSystem& system, const Factorisation& inverse,
-                         const Eigen::MatrixXd& vectors) {
+// One refinement; what rounding mixed in of the rigid motions, magnified by the inverse there,
+// goes.
+EigenPairs refine_beside(const Eigen::MatrixXd& rigid, const FeSystem& system,
+                         const Factorisation& inverse, const Eigen::MatrixXd& vectors) {
   EigenPairs pairs = refine(system, inverse, vectors);
   if (rigid.cols() > 0) {
-    pairs.vectors -= rigid * inner_products(rigid, multiply(system.mass_matrix.get(), pairs.vectors));
+    pairs.vectors -=
+        rigid * inner_products(rigid, multiply(system.mass_matrix.get(), pairs.vectors));
   }
   return pairs;
 }
@@ -60,22 +62,26 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Y += a X, both of one pattern. On several ranks the slower way, row by row: told that the patterns
-// are the same, MatAXPY of MATMPISBAIJ (PETSc 3.18) adds as many numbers as there are blocks, a ninth.
+// Y += a X, both of one pattern. On several ranks the slower way, row by row: told that the
+// patterns are the same, MatAXPY of MATMPISBAIJ (PETSc 3.18) adds as many numbers as there are
+// blocks, a ninth.
 void add_same_pattern(Mat Y, double a, Mat X) {
   PetscBool is_parallel = PETSC_FALSE;
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(Y), MATMPISBAIJ, &is_parallel));
-  check(MatAXPY(Y, a, X, is_parallel == PETSC_TRUE ? SUBSET_NONZERO_PATTERN : SAME_NONZERO_PATTERN));
+  check(
+      MatAXPY(Y, a, X, is_parallel == PETSC_TRUE ? SUBSET_NONZERO_PATTERN : SAME_NONZERO_PATTERN));
 }
 
 Eigen::Index count_below(const FeSystem& system, double shift) {
-  return Factorisation(shifted_stiffness(system, shift).get(), FactorKind::inertia_only).inertia().negative;
+  return Factorisation(shifted_stiffness(system, shift).get(), FactorKind::inertia_only)
+      .inertia()
+      .negative;
 }
 
 [[noreturn]] void report_missed(Eigen::Index found, Eigen::Index counted, double shift) {
-  throw EigenError("eigen-missed-mode: " + std::to_string(found) + " modes found below omega^2 = " +
-                   number_text(shift) + " rad^2/s^2, the inertia of K - omega^2 M counts " +
-                   std::to_string(counted));
+  throw EigenError("eigen-missed-mode: " + std::to_string(found) +
+                   " modes found below omega^2 = " + number_text(shift) +
+                   " rad^2/s^2, the inertia of K - omega^2 M counts " + std::to_string(counted));
 }
 
 }  // namespace
@@ -97,7 +103,8 @@ CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inv
   const auto search = [&](Eigen::Index n_missing) {
     const Eigen::MatrixXd known = side_by_side(rigid, result.pairs.vectors);
     const FoundPairs more = lowest_pairs(system, inverse, shift, n_missing, known);
-    result.pairs = refine_beside(rigid, system, inverse, side_by_side(result.pairs.vectors, more.pairs.vectors));
+    result.pairs = refine_beside(rigid, system, inverse,
+                                 side_by_side(result.pairs.vectors, more.pairs.vectors));
     result.search_seconds += watch.lap();
     return more.beyond;
   };

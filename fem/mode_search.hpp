@@ -18,10 +18,11 @@
 namespace microslip::fem {
 
 struct CountedPairs {
-  EigenPairs pairs;             ///< elastic pairs, at least as many as asked
-  Eigen::Index n_counted = 0;   ///< eigenvalues below `count_shift` by inertia, rigid-body modes included
-  Eigen::Index n_below = 0;     ///< of `pairs`, those below `count_shift`
-  double count_shift = 0.0;     ///< σ [rad²/s²]
+  EigenPairs pairs;  ///< elastic pairs, at least as many as asked
+  Eigen::Index n_counted =
+      0;  ///< eigenvalues below `count_shift` by inertia, rigid-body modes included
+  Eigen::Index n_below = 0;  ///< of `pairs`, those below `count_shift`
+  double count_shift = 0.0;  ///< σ [rad²/s²]
   double search_seconds = 0.0;
   double inertia_seconds = 0.0;
 };
@@ -33,7 +34,8 @@ struct CountedPairs {
 /// @param n      elastic modes wanted, ≥ 0.
 /// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end, with
 ///         both numbers.
-[[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                              Eigen::Index n, const Eigen::MatrixXd& rigid);
+[[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse,
+                                              double shift, Eigen::Index n,
+                                              const Eigen::MatrixXd& rigid);
 
 }  // namespace microslip::fem

@@ -10,7 +10,8 @@
 namespace microslip::mesh {
 namespace {
 
-constexpr double margin = 1e-6;  // of an element, far above rounding: a point on a face is in neither
+constexpr double margin =
+    1e-6;  // of an element, far above rounding: a point on a face is in neither
 
 bool is_tetrahedron(ElementType type) { return n_corners(type) == 4; }
 bool is_quadratic(ElementType type) { return n_nodes(type) > n_corners(type); }
@@ -40,7 +41,8 @@ bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vec
   constexpr int max_steps = 20;
   constexpr double converged = 1e-9;  // of the element, far below the margin
   constexpr double lost = -2.0;       // that far outside, no step of a valid element comes back
-  Eigen::Vector3d xi = is_tetrahedron(type) ? Eigen::Vector3d::Constant(0.25) : Eigen::Vector3d::Zero();
+  Eigen::Vector3d xi =
+      is_tetrahedron(type) ? Eigen::Vector3d::Constant(0.25) : Eigen::Vector3d::Zero();
   for (int step = 0; step < max_steps; ++step) {
     const ElementShapes s = shapes(type, xi);
     const Eigen::Vector3d rest = x - nodes.transpose() * s.values;
@@ -57,7 +59,8 @@ bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vec
 
 }  // namespace
 
-ElementLocator::ElementLocator(const Eigen::MatrixX3d& nodes, const std::vector<ElementBlock>& elements)
+ElementLocator::ElementLocator(const Eigen::MatrixX3d& nodes,
+                               const std::vector<ElementBlock>& elements)
     : nodes_(nodes), elements_(elements) {
   for (std::size_t b = 0; b < elements.size(); ++b) {
     for (Eigen::Index e = 0; e < elements[b].connectivity.rows(); ++e) list_.push_back({b, e});
@@ -75,12 +78,14 @@ ElementLocator::Box ElementLocator::box_of(const ElementReference& element) cons
       straight_places(ElementType::hex8), straight_places(ElementType::hex20)};
   const ElementBlock& block = elements_[element.block];
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 20, 3> own(block.connectivity.cols(), 3);
-  for (Eigen::Index a = 0; a < own.rows(); ++a) own.row(a) = nodes_.row(block.connectivity(element.element, a));
+  for (Eigen::Index a = 0; a < own.rows(); ++a)
+    own.row(a) = nodes_.row(block.connectivity(element.element, a));
   const auto corners = own.topRows(n_corners(block.type));
   Box box{corners.colwise().minCoeff().transpose(), corners.colwise().maxCoeff().transpose()};
   if (is_quadratic(block.type)) {
     const Eigen::MatrixX3d off = own - places[static_cast<std::size_t>(block.type)] * corners;
-    const Eigen::Vector3d pad = reach_of_edge_nodes(block.type) * off.cwiseAbs().colwise().maxCoeff().transpose();
+    const Eigen::Vector3d pad =
+        reach_of_edge_nodes(block.type) * off.cwiseAbs().colwise().maxCoeff().transpose();
     box.lower -= pad;
     box.upper += pad;
   }
@@ -134,14 +139,17 @@ void ElementLocator::fill() {
   members_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t e = 0; e < boxes_.size(); ++e) {
-    for_each_cell(boxes_[e], [&](std::size_t cell) { members_[next[cell]++] = static_cast<std::uint32_t>(e); });
+    for_each_cell(boxes_[e], [&](std::size_t cell) {
+      members_[next[cell]++] = static_cast<std::uint32_t>(e);
+    });
   }
 }
 
 bool ElementLocator::holds(const ElementReference& element, const Eigen::Vector3d& x) const {
   const ElementBlock& block = elements_[element.block];
   Eigen::MatrixX3d own(block.connectivity.cols(), 3);
-  for (Eigen::Index a = 0; a < own.rows(); ++a) own.row(a) = nodes_.row(block.connectivity(element.element, a));
+  for (Eigen::Index a = 0; a < own.rows(); ++a)
+    own.row(a) = nodes_.row(block.connectivity(element.element, a));
   return is_inside(block.type, own, x);
 }
 

@@ -24,7 +24,8 @@ class ElementLocator {
   ElementLocator(const Eigen::MatrixX3d& nodes, const std::vector<ElementBlock>& elements);
 
   /// An element other than `own` that holds x, deeper than 1e-6 of its size.
-  [[nodiscard]] std::optional<ElementReference> holder(const Eigen::Vector3d& x, const ElementReference& own) const;
+  [[nodiscard]] std::optional<ElementReference> holder(const Eigen::Vector3d& x,
+                                                       const ElementReference& own) const;
   [[nodiscard]] bool holds(const ElementReference& element, const Eigen::Vector3d& x) const;
 
  private:
@@ -46,12 +47,12 @@ class ElementLocator {
   const Eigen::MatrixX3d& nodes_;
   const std::vector<ElementBlock>& elements_;
   Eigen::Vector3d lower_;
-  Eigen::Vector3d cell_;                 // edge lengths [m]
+  Eigen::Vector3d cell_;  // edge lengths [m]
   std::array<Eigen::Index, 3> n_cells_{1, 1, 1};
-  std::vector<ElementReference> list_;   // all elements
-  std::vector<Box> boxes_;               // of each in list_
-  std::vector<std::size_t> first_;       // of each cell in members_, one more at the end
-  std::vector<std::uint32_t> members_;   // places in list_
+  std::vector<ElementReference> list_;  // all elements
+  std::vector<Box> boxes_;              // of each in list_
+  std::vector<std::size_t> first_;      // of each cell in members_, one more at the end
+  std::vector<std::uint32_t> members_;  // places in list_
 };
 
 }  // namespace microslip::mesh

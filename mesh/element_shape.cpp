@@ -17,9 +17,16 @@ namespace {
 
 /// A corner and the corners its edges lead to, right-handed.
 using Corner = std::array<int, 4>;
-constexpr std::array<Corner, 4> tetrahedron{{{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
-constexpr std::array<Corner, 8> hexahedron{{{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
-                                            {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
+constexpr std::array<Corner, 4> tetrahedron{
+    {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
+constexpr std::array<Corner, 8> hexahedron{{{0, 1, 3, 4},
+                                            {1, 2, 0, 5},
+                                            {2, 3, 1, 6},
+                                            {3, 0, 2, 7},
+                                            {4, 7, 5, 0},
+                                            {5, 4, 6, 1},
+                                            {6, 5, 7, 2},
+                                            {7, 6, 4, 3}}};
 
 std::span<const Corner> corners_of(ElementType type) {
   if (n_corners(type) == 4) return tetrahedron;
@@ -51,8 +58,8 @@ struct Beyond {
 
 std::string sentence(const Beyond& beyond, Eigen::Index n_elements, const std::string& what) {
   std::ostringstream text;
-  text << beyond.count << " of " << n_elements << " elements " << what << "; the worst is element " << beyond.tag
-       << " with " << beyond.worst << ", near (" << beyond.centre << ") m";
+  text << beyond.count << " of " << n_elements << " elements " << what << "; the worst is element "
+       << beyond.tag << " with " << beyond.worst << ", near (" << beyond.centre << ") m";
   return text.str();
 }
 
@@ -64,7 +71,8 @@ ElementShape element_shape(ElementType type, const Eigen::MatrixX3d& nodes) {
   ElementShape shape{0.0, std::numbers::pi, 0.0};
   for (const Corner& corner : corners_of(type)) {
     std::array<Eigen::Vector3d, 3> e;
-    for (std::size_t i = 0; i < 3; ++i) e[i] = (nodes.row(corner[i + 1]) - nodes.row(corner[0])).transpose();
+    for (std::size_t i = 0; i < 3; ++i)
+      e[i] = (nodes.row(corner[i + 1]) - nodes.row(corner[0])).transpose();
     const double volume = e[0].dot(e[1].cross(e[2]));
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d one = e[i].cross(e[(i + 1) % 3]);
@@ -87,12 +95,15 @@ std::vector<std::string> shape_warnings(const Mesh& mesh, const ShapeLimits& lim
   for (const ElementBlock& block : mesh.elements()) {
     Eigen::MatrixX3d own(n_corners(block.type), 3);
     for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
-      for (Eigen::Index a = 0; a < own.rows(); ++a) own.row(a) = mesh.nodes().row(block.connectivity(e, a));
+      for (Eigen::Index a = 0; a < own.rows(); ++a)
+        own.row(a) = mesh.nodes().row(block.connectivity(e, a));
       const ElementShape shape = element_shape(block.type, own);
       const std::int64_t tag = block.tags[static_cast<std::size_t>(e)];
       thin.note(shape.aspect_ratio - limits.aspect_ratio, shape.aspect_ratio, tag, own);
-      sharp.note(limits.smallest_angle - shape.smallest_angle, to_degrees * shape.smallest_angle, tag, own);
-      flat.note(shape.largest_angle - limits.largest_angle, to_degrees * shape.largest_angle, tag, own);
+      sharp.note(limits.smallest_angle - shape.smallest_angle, to_degrees * shape.smallest_angle,
+                 tag, own);
+      flat.note(shape.largest_angle - limits.largest_angle, to_degrees * shape.largest_angle, tag,
+                own);
     }
   }
   std::vector<std::string> warnings;

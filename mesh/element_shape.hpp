@@ -19,9 +19,9 @@
 namespace microslip::mesh {
 
 struct ElementShape {
-  double aspect_ratio = 1.0;       ///< [-]
-  double smallest_angle = 0.0;     ///< dihedral [rad]
-  double largest_angle = 0.0;      ///< dihedral [rad]
+  double aspect_ratio = 1.0;    ///< [-]
+  double smallest_angle = 0.0;  ///< dihedral [rad]
+  double largest_angle = 0.0;   ///< dihedral [rad]
 };
 
 /// @param nodes  coordinates of the nodes of one element, project order, n × 3 [m].
@@ -35,6 +35,7 @@ struct ShapeLimits {
 
 /// Sentences for the log: how many elements are beyond a limit, and the worst of them by number and place.
 /// Empty for a mesh without any.
-[[nodiscard]] std::vector<std::string> shape_warnings(const Mesh& mesh, const ShapeLimits& limits = {});
+[[nodiscard]] std::vector<std::string> shape_warnings(const Mesh& mesh,
+                                                      const ShapeLimits& limits = {});
 
 }  // namespace microslip::mesh

@@ -93,7 +93,8 @@ FaceMap map_faces(const std::vector<ElementBlock>& elements) {
   return map;
 }
 
-std::vector<Eigen::Index> face_nodes(const std::vector<ElementBlock>& elements, const FaceUse& use) {
+std::vector<Eigen::Index> face_nodes(const std::vector<ElementBlock>& elements,
+                                     const FaceUse& use) {
   const ElementBlock& block = elements[use.block];
   std::vector<Eigen::Index> nodes;
   for (const int local : faces(block.type)[use.face]) {

@@ -96,7 +96,8 @@ class SurfaceBuilder {
 };
 
 /// New number of every node, −1 for those no element uses.
-std::vector<Eigen::Index> numbering(Eigen::Index n_nodes, const std::vector<ElementBlock>& elements) {
+std::vector<Eigen::Index> numbering(Eigen::Index n_nodes,
+                                    const std::vector<ElementBlock>& elements) {
   std::vector<Eigen::Index> number(static_cast<std::size_t>(n_nodes), -1);
   for (const ElementBlock& block : elements) {
     for (Eigen::Index i = 0; i < block.connectivity.size(); ++i) {
@@ -145,7 +146,8 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     if (renumbered(i) >= 0) nodes_.row(renumbered(i)) = nodes.row(i);
   }
-  for (ElementBlock& block : elements_) block.connectivity = block.connectivity.unaryExpr(renumbered);
+  for (ElementBlock& block : elements_)
+    block.connectivity = block.connectivity.unaryExpr(renumbered);
   check_elements(nodes_, elements_);
   check_coincident_nodes(nodes_);
   check_connected(nodes_.rows(), elements_, nodes_);
@@ -171,7 +173,8 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
   for (const ElementBlock& block : elements_) {
     Eigen::MatrixX3d own(block.connectivity.cols(), 3);
     for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
-      for (Eigen::Index a = 0; a < own.rows(); ++a) own.row(a) = nodes_.row(block.connectivity(e, a));
+      for (Eigen::Index a = 0; a < own.rows(); ++a)
+        own.row(a) = nodes_.row(block.connectivity(e, a));
       volume_ += element_volume(block.type, own);
     }
   }
@@ -188,8 +191,8 @@ Eigen::Index Mesh::n_elements() const {
 const Surface& Mesh::surface(const std::string& name) const {
   const auto found = surfaces_.find(name);
   if (found == surfaces_.end()) {
-    throw MeshError("no surface is named \"" + name + "\"; the surfaces are: " +
-                    listed(surface_names()));
+    throw MeshError("no surface is named \"" + name +
+                    "\"; the surfaces are: " + listed(surface_names()));
   }
   if (found->second.faces.empty()) throw MeshError("surface \"" + name + "\" is empty");
   return found->second;

@@ -15,7 +15,8 @@
 namespace microslip::mesh {
 namespace {
 
-constexpr double look = 1e-4;  // of the size of a face: above rounding, below the gaps engineers draw
+constexpr double look =
+    1e-4;  // of the size of a face: above rounding, below the gaps engineers draw
 
 /// The middle and a point near each corner.
 std::vector<Eigen::Vector2d> sample_points(FaceType type) {
@@ -43,10 +44,10 @@ class FaceSamples {
 
 /// One outer face with an element before it.
 struct Finding {
-  std::int64_t own = 0;    // numbers in the file
+  std::int64_t own = 0;  // numbers in the file
   std::int64_t other = 0;
   Eigen::Vector3d x;
-  bool overlaps = false;   // behind the face as well: not merely touching
+  bool overlaps = false;  // behind the face as well: not merely touching
 };
 
 class OuterFaces {
@@ -64,7 +65,8 @@ class OuterFaces {
       const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
       const Eigen::Vector3d step = look * normal / std::sqrt(normal.norm());
       const std::optional<ElementReference> other = locator_.holder(x + step, element);
-      if (other) return Finding{tag_of(element), tag_of(*other), x, locator_.holds(*other, x - step)};
+      if (other)
+        return Finding{tag_of(element), tag_of(*other), x, locator_.holds(*other, x - step)};
     }
     return std::nullopt;
   }
@@ -80,15 +82,15 @@ class OuterFaces {
   FaceSamples samples_;
 };
 
-void refuse(const std::vector<Finding>& findings, const std::string& where, const std::string& relation,
-            const std::string& remedy) {
+void refuse(const std::vector<Finding>& findings, const std::string& where,
+            const std::string& relation, const std::string& remedy) {
   std::ostringstream text;
   text << "bad-mesh: " << findings.size() << " outer faces lie " << where << ": of elements ";
   for (std::size_t i = 0; i < std::min<std::size_t>(findings.size(), 6); ++i) {
     text << (i > 0 ? ", " : "") << findings[i].own << ' ' << relation << ' ' << findings[i].other;
   }
-  text << (findings.size() > 6 ? ", …" : "") << "; the first near (" << findings.front().x.transpose() << ") m; "
-       << remedy;
+  text << (findings.size() > 6 ? ", …" : "") << "; the first near ("
+       << findings.front().x.transpose() << ") m; " << remedy;
   throw MeshError(text.str());
 }
 
@@ -114,7 +116,8 @@ void check_outer_faces(const Eigen::MatrixX3d& nodes, const std::vector<ElementB
   }
   if (!touching.empty()) {
     refuse(touching, "on other elements without being joined", "on",
-           "the faces do not match: a quadrilateral against triangles, or nodes in the middle of a neighbour's "
+           "the faces do not match: a quadrilateral against triangles, or nodes in the middle of a "
+           "neighbour's "
            "face or edge; make the mesh conforming");
   }
 }

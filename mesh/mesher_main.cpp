@@ -22,13 +22,20 @@ namespace {
 using microslip::mesh::BladeGeometry;
 
 std::map<std::string, double*> names_of(BladeGeometry& g) {
-  return {{"root_width", &g.root_width},         {"root_height", &g.root_height},
-          {"root_length", &g.root_length},       {"platform_width", &g.platform_width},
-          {"platform_height", &g.platform_height}, {"platform_length", &g.platform_length},
-          {"span", &g.span},                     {"root_chord", &g.root_chord},
-          {"tip_chord", &g.tip_chord},           {"root_thickness", &g.root_thickness},
-          {"tip_thickness", &g.tip_thickness},   {"root_stagger", &g.root_stagger},
-          {"tip_stagger", &g.tip_stagger},       {"camber", &g.camber},
+  return {{"root_width", &g.root_width},
+          {"root_height", &g.root_height},
+          {"root_length", &g.root_length},
+          {"platform_width", &g.platform_width},
+          {"platform_height", &g.platform_height},
+          {"platform_length", &g.platform_length},
+          {"span", &g.span},
+          {"root_chord", &g.root_chord},
+          {"tip_chord", &g.tip_chord},
+          {"root_thickness", &g.root_thickness},
+          {"tip_thickness", &g.tip_thickness},
+          {"root_stagger", &g.root_stagger},
+          {"tip_stagger", &g.tip_stagger},
+          {"camber", &g.camber},
           {"lean", &g.lean}};
 }
 

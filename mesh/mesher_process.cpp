@@ -76,7 +76,8 @@ class ScratchFile {
 /// A file without a name: whatever ends this process leaves nothing of it behind.
 class AnonymousFile {
  public:
-  explicit AnonymousFile(const std::string& content = {}) : descriptor_(::memfd_create("microslip", MFD_CLOEXEC)) {
+  explicit AnonymousFile(const std::string& content = {})
+      : descriptor_(::memfd_create("microslip", MFD_CLOEXEC)) {
     const auto size = static_cast<ssize_t>(content.size());
     if (descriptor_ < 0 || ::write(descriptor_, content.data(), content.size()) != size) {
       throw MeshError(std::string("cannot start the mesher: ") + std::strerror(errno));
@@ -107,7 +108,8 @@ class AnonymousFile {
 };
 
 /// In a process group of its own: Ctrl-C is for this process to answer.
-pid_t start(const fs::path& program, int input, const fs::path& output, int messages, double memory_mb) {
+pid_t start(const fs::path& program, int input, const fs::path& output, int messages,
+            double memory_mb) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
@@ -123,7 +125,8 @@ pid_t start(const fs::path& program, int input, const fs::path& output, int mess
   std::string parent = std::to_string(::getpid());
   std::array<char*, 5> arguments{name.data(), file.data(), memory.data(), parent.data(), nullptr};
   pid_t child = 0;
-  const int error = posix_spawn(&child, name.c_str(), &actions, &attributes, arguments.data(), environ);
+  const int error =
+      posix_spawn(&child, name.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw MeshError("cannot start " + name + ": " + std::strerror(error));
@@ -180,12 +183,14 @@ void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::pa
   const AnonymousFile input(parameters(geometry, element_size));
   const AnonymousFile messages;
   const ScratchFile mesh(file.string() + "." + std::to_string(::getpid()) + ".msh");
-  const pid_t child = start(program, input.descriptor(), mesh.path(), messages.descriptor(), limits.memory_mb);
+  const pid_t child =
+      start(program, input.descriptor(), mesh.path(), messages.descriptor(), limits.memory_mb);
   const int status = wait_for(child, limits.seconds);  // before its messages are read
   judge(status, limits, messages.tail());
   std::error_code error;
   fs::rename(mesh.path(), file, error);
-  if (error) throw MeshError("the mesher left no mesh at " + file.string() + ": " + error.message());
+  if (error)
+    throw MeshError("the mesher left no mesh at " + file.string() + ": " + error.message());
 }
 
 }  // namespace microslip::mesh

@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 4> constants{"tangential_stiffness", "normal_stiffness",
                                                     "friction_coefficient", "preload"};
 constexpr std::array<std::string_view, 5> required{"u_sin", "u_cos", "v_mean", "v_sin", "v_cos"};
+constexpr std::string_view along_r = "tangential_stiffness_r";
 constexpr std::string_view signals = "uvw";
 
 /// h of "", "2", "3", …; none for "0", "1", "02" or what is no number.
@@ -50,7 +51,7 @@ std::vector<std::string_view> known_columns() {
   std::vector<std::string_view> known(constants.begin(), constants.end());
   known.insert(known.end(), required.begin(), required.end());
   known.insert(known.end(), {"id", "u_mean", "u_sin2", "u_cos2", "v_sin2", "v_cos2", "w_mean",
-                             "w_sin", "w_cos"});
+                             "w_sin", "w_cos", along_r});
   return known;
 }
 
@@ -64,7 +65,10 @@ CycleColumns::CycleColumns(const CsvTable& table) : table_(table) {
     const std::string& name = table.columns()[column];
     if (const std::optional<Coefficient> to = coefficient_of(name)) {
       places_.push_back({column, to->row, to->signal});
+      has_second_direction_ = has_second_direction_ || to->signal == 2;
       n_harmonics_ = std::max(n_harmonics_, static_cast<int>((to->row + 1) / 2));
+    } else if (name == along_r) {
+      second_stiffness_ = column;
     } else if (name != "id" &&
                std::find(constants.begin(), constants.end(), name) == constants.end()) {
       throw SceneError(unknown_column(table, name, known));
@@ -80,6 +84,15 @@ contact::PointParameters CycleColumns::point(std::size_t row) const {
     }
   }
   return {get(0), get(1), get(2), get(3)};
+}
+
+double CycleColumns::second_stiffness(std::size_t row) const {
+  const std::size_t column = second_stiffness_.value_or(constants_.front());
+  const double stiffness = table_.at(row, column);
+  if (stiffness < 0.0) {
+    throw SceneError(table_.place(row, column) + fmt::format("{:g} is negative", stiffness));
+  }
+  return stiffness;
 }
 
 contact::Harmonics CycleColumns::motion(std::size_t row) const {

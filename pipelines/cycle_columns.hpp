@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -28,8 +29,13 @@ class CycleColumns {
 
   /// Highest harmonic of any column, ≥ 1.
   [[nodiscard]] int n_harmonics() const { return n_harmonics_; }
+  /// Whether the table names w, be it 0.
+  [[nodiscard]] bool has_second_direction() const { return has_second_direction_; }
   /// @throws SceneError  a constant out of its range; with line and column.
   [[nodiscard]] contact::PointParameters point(std::size_t row) const;
+  /// Along r: the column tangential_stiffness_r, without it that of p.
+  /// @throws SceneError  negative; with line and column.
+  [[nodiscard]] double second_stiffness(std::size_t row) const;
   /// Signals u, v, w; n_harmonics() harmonics.
   [[nodiscard]] contact::Harmonics motion(std::size_t row) const;
 
@@ -42,8 +48,10 @@ class CycleColumns {
 
   const CsvTable& table_;
   std::array<std::size_t, 4> constants_{};
+  std::optional<std::size_t> second_stiffness_;
   std::vector<Place> places_;
   int n_harmonics_ = 1;
+  bool has_second_direction_ = false;
 };
 
 }  // namespace microslip::pipelines

@@ -9,6 +9,7 @@
 
 #include "contact/event_law.hpp"
 #include "contact/friction_cycle.hpp"
+#include "contact/planar_cycle.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -46,6 +47,9 @@ const char* name_of(contact::ContactState state) {
   return "";
 }
 
+/// Of planar cycles, relative to their force scale: near the tightest there is, a table is no hot path.
+constexpr double planar_tolerance = 1e-12;
+
 /// The steady cycle of one row, by the law that serves its motion.
 struct RowCycle {
   contact::PointHistory history;
@@ -74,24 +78,20 @@ void use_closed_form(const contact::PointParameters& point, const contact::Harmo
   row.jacobian = cycle.jacobian;
 }
 
+bool has_second_direction(const contact::Harmonics& motion) {
+  return (motion.rows().col(2).array() != 0.0).any();
+}
+
 /// Where the law is chosen.
-RowCycle solve(const contact::PointParameters& point, const contact::Harmonics& motion,
-               int n_harmonics) {
+RowCycle solve(const contact::PointParameters& point, double second_stiffness,
+               const contact::Harmonics& motion, int n_harmonics) {
+  if (has_second_direction(motion)) {
+    const contact::PlanarLaw law(contact::SurfaceLaw(point, second_stiffness), planar_tolerance);
+    return {law.history(motion, 0.0, {}, n_harmonics), std::nullopt};
+  }
   RowCycle row{contact::EventLaw(point).history(motion, 0.0, {}, n_harmonics), std::nullopt};
   if (!has_higher_harmonics(motion)) use_closed_form(point, motion, row);
   return row;
-}
-
-/// A second direction may be named with zeros everywhere: then it says nothing that is not simulated.
-void check_directions(const CsvTable& table) {
-  for (std::size_t column = 0; column < table.columns().size(); ++column) {
-    if (!table.columns()[column].starts_with("w_")) continue;
-    for (std::size_t row = 0; row < table.n_rows(); ++row) {
-      if (table.at(row, column) == 0.0) continue;
-      throw SceneError(table.place(row, column) +
-                       "two tangential directions are not available in this version");
-    }
-  }
 }
 
 Json force_json(const contact::Harmonics& force, Eigen::Index signal) {
@@ -114,20 +114,19 @@ Json jacobian_json(const contact::CycleJacobian& jacobian) {
   return rows;
 }
 
-Json cycle_json(const std::string& id, const RowCycle& row) {
+Json cycle_json(const std::string& id, const RowCycle& row, bool two_directions) {
   const contact::PointHistory& cycle = row.history;
   Json segments = Json::array();
   for (const contact::CycleSegment& segment : cycle.segments) {
     segments.push_back(
         {{"state", name_of(segment.state)}, {"start", segment.start}, {"length", segment.length}});
   }
-  Json json{{"id", id},
-            {"regime", name_of(cycle.regime)},
-            {"segments", std::move(segments)},
-            {"friction", force_json(cycle.force, 0)},
-            {"normal", force_json(cycle.force, 1)},
-            {"dissipated_energy", cycle.dissipated_energy},
-            {"slip_distance", cycle.slip_distance}};
+  Json json{{"id", id}, {"regime", name_of(cycle.regime)}, {"segments", std::move(segments)}};
+  json["friction"] = force_json(cycle.force, 0);
+  if (two_directions) json["friction_w"] = force_json(cycle.force, 2);
+  json["normal"] = force_json(cycle.force, 1);
+  json["dissipated_energy"] = cycle.dissipated_energy;
+  json["slip_distance"] = cycle.slip_distance;
   if (row.jacobian) json["jacobian"] = jacobian_json(*row.jacobian);
   return json;
 }
@@ -155,18 +154,18 @@ std::string cycles_as_json(const CsvTable& table, std::optional<int> n_harmonics
                                             *n_harmonics, largest_harmonic));
   }
   const CycleColumns columns(table);
-  check_directions(table);
   Json list = Json::array();
   for (std::size_t row = 0; row < table.n_rows(); ++row) {
     const std::string id = table.id(row).empty() ? std::to_string(row + 1) : table.id(row);
     const std::string place = table.row_place(row) + ": ";
     if (!is_utf8(id)) throw SceneError(place + "id: not a text in UTF-8");
     const RowCycle cycle =
-        solve(columns.point(row), columns.motion(row), n_harmonics.value_or(columns.n_harmonics()));
+        solve(columns.point(row), columns.second_stiffness(row), columns.motion(row),
+              n_harmonics.value_or(columns.n_harmonics()));
     if (!is_finite(cycle)) {
       throw SceneError(place + "forces or energy beyond the range of double precision");
     }
-    list.push_back(cycle_json(id, cycle));
+    list.push_back(cycle_json(id, cycle, columns.has_second_direction()));
   }
   return list.dump(1) + "\n";
 }

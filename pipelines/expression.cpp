@@ -69,8 +69,8 @@ SceneError syntax_error(const mu::Parser& parser, const std::string& text, const
                        (std::isalpha(static_cast<unsigned char>(error.GetToken()[0])) != 0 ||
                         error.GetToken()[0] == '_');
   const std::string what = is_name ? unknown_name(parser, error.GetToken()) : error.GetMsg();
-  return SceneError(
-      fmt::format("{}: expression \"{}\", character {}: {}", place, text, error.GetPos() + 1, what));
+  return SceneError(fmt::format("{}: expression \"{}\", character {}: {}", place, text,
+                                error.GetPos() + 1, what));
 }
 
 void define(mu::Parser& parser, const std::string& place,
@@ -97,14 +97,14 @@ void set_coordinates(mu::Parser& parser, const std::array<std::string, 2>& names
 
 void require_writable(const std::string& text, const std::string& place) {
   if (text.size() > longest) {
-    throw SceneError(fmt::format("{}: expression of {} characters; at most {}", place, text.size(),
-                                 longest));
+    throw SceneError(
+        fmt::format("{}: expression of {} characters; at most {}", place, text.size(), longest));
   }
   const std::size_t assignment = assignment_in(text);
   if (assignment < text.size()) {
-    throw SceneError(fmt::format(
-        "{}: expression \"{}\", character {}: nothing is assigned here; == compares", place, text,
-        assignment + 1));
+    throw SceneError(
+        fmt::format("{}: expression \"{}\", character {}: nothing is assigned here; == compares",
+                    place, text, assignment + 1));
   }
 }
 
@@ -125,9 +125,10 @@ Expression::Expression(const std::string& text, std::string place,
     int n_values = 0;
     (void)parser.Eval(n_values);
     if (n_values != 1) {
-      throw SceneError(fmt::format("{}: expression \"{}\" has {} values, separated by commas; one is "
-                                   "expected",
-                                   place_, text, n_values));
+      throw SceneError(
+          fmt::format("{}: expression \"{}\" has {} values, separated by commas; one is "
+                      "expected",
+                      place_, text, n_values));
     }
   } catch (const mu::ParserError& error) {
     throw syntax_error(parser, text, place_, error);

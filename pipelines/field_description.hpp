@@ -27,8 +27,8 @@ struct FieldTable {
 /// What messages need: where it is written, and what values may be.
 struct FieldDescription {
   std::variant<double, FieldExpression, FieldTable> value = 0.0;
-  std::string place;     ///< e.g. "scene.toml:12: contact.friction_coefficient"
-  double low = -unbounded;   ///< low ≤ value ≤ high everywhere
+  std::string place;        ///< e.g. "scene.toml:12: contact.friction_coefficient"
+  double low = -unbounded;  ///< low ≤ value ≤ high everywhere
   double high = unbounded;
 };
 

@@ -222,7 +222,8 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                    "CSV file, SI units, one point per row; columns tangential_stiffness, "
                    "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
                    "v_mean, v_sin, v_cos, optional id, u_mean and harmonics u_sin2, "
-                   "u_cos2, v_sin2, ..., in any order")
+                   "u_cos2, v_sin2, ..., second direction w_sin, w_cos, ... "
+                   "and tangential_stiffness_r, in any order")
       ->required();
   with_output(cycle_command, "JSON file to write; default standard output");
   cycle_command

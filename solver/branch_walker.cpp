@@ -13,10 +13,11 @@ constexpr double longest_leap = 0.05;  // over a kink; farther on may be another
 constexpr double shortest_step = 1e-7;
 // Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
 constexpr double kink_step = 2e-4;
-constexpr double kink_correction = 10.0;  // of the step: a turn by 84°; beyond, it is another branch
-constexpr double cosine_limit = 0.93;      // 21.5°: beyond, the curve would look angular
-constexpr double angle_wanted = 0.13;      // rad per step
-constexpr double correction_limit = 0.3;   // of the step: beyond, the point may be another branch's
+constexpr double kink_correction =
+    10.0;                              // of the step: a turn by 84°; beyond, it is another branch
+constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
+constexpr double angle_wanted = 0.13;  // rad per step
+constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
 
 double dot(const BranchVector& a, const BranchVector& b) {
@@ -88,9 +89,10 @@ bool BranchWalker::smooth(const Trial& trial) const {
 }
 
 void BranchWalker::accept(Trial trial) {
-  // At a kink where the branch turns back by more than a right angle the determinant tells the way on.
-  const bool turned = trial.orientation != 0.0 && orientation_ != 0.0 &&
-                      trial.orientation != orientation_;
+  // At a kink where the branch turns back by more than a right angle the determinant tells the way
+  // on.
+  const bool turned =
+      trial.orientation != 0.0 && orientation_ != 0.0 && trial.orientation != orientation_;
   if (turned && trial.cosine < cosine_limit) {
     trial.point.tangent.x = -trial.point.tangent.x;
     trial.point.tangent.parameter = -trial.point.tangent.parameter;
@@ -144,13 +146,13 @@ Stall BranchWalker::stall() const {
 }
 
 bool BranchWalker::turn_at_kink() {
-  // Where slip begins a branch may turn back sharply: no solution lies ahead in the old direction. Just
-  // beyond the kink the Jacobian is that of the other regime; its null vector, with the sign that keeps
-  // the orientation of the branch, points out of the kink (Allgower & Georg 1990, section 2.1).
+  // Where slip begins a branch may turn back sharply: no solution lies ahead in the old direction.
+  // Just beyond the kink the Jacobian is that of the other regime; its null vector, with the sign
+  // that keeps the orientation of the branch, points out of the kink (Allgower & Georg 1990,
+  // section 2.1).
   if (orientation_ == 0.0) return false;
   for (double beyond = 1e-7; beyond < 1e-2; beyond *= 10.0) {
-    const BranchVector probe =
-        moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
+    const BranchVector probe = moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
     const BalanceEvaluation other = system_(probe.x, probe.parameter);
     ++evaluations_;
     const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation_);
@@ -206,8 +208,8 @@ NewtonResult BranchWalker::at_parameter(double parameter, double share) const {
   const auto& b = now_.solution.point;
   NewtonOptions options;
   options.max_iterations = 30;
-  NewtonResult result = solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling,
-                                     options);
+  NewtonResult result =
+      solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling, options);
   evaluations_ += result.evaluations;
   iterations_ += result.iterations;
   return result;

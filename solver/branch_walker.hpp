@@ -57,7 +57,7 @@ class BranchWalker {
  private:
   struct Trial {
     WalkerPoint point;
-    double cosine = -1.0;  ///< between the old and the new tangent
+    double cosine = -1.0;     ///< between the old and the new tangent
     double correction = 0.0;  ///< distance from predictor to corrected point, over the step
     double orientation = 0.0;
     bool converged = false;

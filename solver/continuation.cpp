@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/branch_search.hpp"
 #include "solver/certificate.hpp"
 #include "solver/curve_tracer.hpp"
 #include "solver/linear_certificate.hpp"
@@ -20,10 +21,9 @@ namespace {
 void check_range(const ContinuationOptions& options) {
   const auto bad = [](double frequency) { return !(frequency > 0.0) || !std::isfinite(frequency); };
   if (bad(options.frequency_begin) || bad(options.frequency_end)) {
-    throw std::invalid_argument("continuation: frequencies " +
-                                std::to_string(options.frequency_begin) + " and " +
-                                std::to_string(options.frequency_end) +
-                                " rad/s; both must be finite and above 0");
+    throw std::invalid_argument(
+        "continuation: frequencies " + std::to_string(options.frequency_begin) + " and " +
+        std::to_string(options.frequency_end) + " rad/s; both must be finite and above 0");
   }
 }
 
@@ -126,6 +126,9 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     curve.contact_evaluations = evaluations;
   }
   note_boundary_peak(curve);
+  if (options.search_starts > 0 && curve.diagnosis != "interrupted") {
+    search_branches(scene, options, curve);
+  }
   curve.seconds = watch.seconds();
   return curve;
 }

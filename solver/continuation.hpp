@@ -18,6 +18,8 @@ struct ContinuationOptions {
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;
+  /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
+  int search_starts = 0;
 };
 
 /// Called after each accepted point; false stops the curve (diagnosis "interrupted").

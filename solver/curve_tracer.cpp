@@ -18,8 +18,8 @@ namespace {
 constexpr double widest = 0.1;
 constexpr double narrowest = 1e-7;
 
-// Share of the response by which it may change where the branch is interrupted, beyond what its tangent
-// tells; more is another branch.
+// Share of the response by which it may change where the branch is interrupted, beyond what its
+// tangent tells; more is another branch.
 constexpr double same_branch = 0.05;
 constexpr double longest_extrapolation = 0.3;  // of the response: a steep tangent tells no more
 constexpr int most_restarts = 20;
@@ -27,9 +27,11 @@ constexpr int most_restarts = 20;
 bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
   const BranchVector& from = last.solution.point;
   const double ahead = (next.parameter - from.parameter) / last.scaling.parameter;
-  const double along = std::abs(ahead / last.tangent.parameter) * last.tangent.x.norm() * last.scaling.x;
+  const double along =
+      std::abs(ahead / last.tangent.parameter) * last.tangent.x.norm() * last.scaling.x;
   const double size = from.x.norm();
-  return (next.x - from.x).norm() <= same_branch * size + std::min(along, longest_extrapolation * size);
+  return (next.x - from.x).norm() <=
+         same_branch * size + std::min(along, longest_extrapolation * size);
 }
 
 const char* stall_name(Stall stall) {
@@ -213,6 +215,17 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
     return corrected;
   }
   return std::nullopt;
+}
+
+ResponseCurve CurveTracer::follow(NewtonResult start) {
+  entry_ = start.point;
+  if (!add(start)) return std::move(curve_);
+  BranchWalker walker = walker_from(std::move(start));
+  if (walk(walker)) {
+    stop(stall_name(walker.stall()),
+         at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
+  }
+  return std::move(curve_);
 }
 
 ResponseCurve CurveTracer::run() {

@@ -20,6 +20,9 @@ class CurveTracer {
 
   /// The curve; never throws for one that cannot be completed.
   [[nodiscard]] ResponseCurve run();
+  /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
+  /// with the diagnosis "loop".
+  [[nodiscard]] ResponseCurve follow(NewtonResult start);
 
  private:
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
@@ -48,12 +51,12 @@ class CurveTracer {
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
-  Eigen::VectorXd last_x_;  ///< of last_stability_
+  Eigen::VectorXd last_x_;             ///< of last_stability_
   std::optional<BranchVector> entry_;  ///< where a jump entered the branch walked now
   std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
   long walker_evaluations_ = 0;        ///< of the walker, counted already
   long walker_iterations_ = 0;
-  long point_evaluations_ = 0;         ///< of the curve when the last point was added
+  long point_evaluations_ = 0;  ///< of the curve when the last point was added
   Clock::time_point last_time_ = Clock::now();
 };
 

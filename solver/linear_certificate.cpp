@@ -17,7 +17,8 @@ using contact::LinearState;
 
 // A curve is some hundred points; a proof that costs more than it saves is none worth having.
 constexpr int most_intervals = 2000;
-// Enclosures converge where the norm of G diag(e) is below 1; above this they are too wide to prove much.
+// Enclosures converge where the norm of G diag(e) is below 1; above this they are too wide to prove
+// much.
 constexpr double contraction = 0.5;
 
 struct Interval {
@@ -49,8 +50,8 @@ class Proof {
     if (Q.mean().norm() > 0.0) {
       const Eigen::MatrixXd inverse = K_.partialPivLu().inverse();
       mean_ = inverse * Q.mean().transpose();
-      mean_error_ = backward_errors(n_) *
-                    (inverse.cwiseAbs() * (K_.cwiseAbs() * mean_.cwiseAbs())).norm();
+      mean_error_ =
+          backward_errors(n_) * (inverse.cwiseAbs() * (K_.cwiseAbs() * mean_.cwiseAbs())).norm();
     }
   }
 
@@ -121,7 +122,8 @@ class Proof {
     if (!(M.rowwise().sum().maxCoeff() < contraction)) return result;  // NaN as well
     const Eigen::VectorXd spread =
         (Eigen::MatrixXd::Identity(n_, n_) - M).partialPivLu().solve(M * (size + error));
-    result.radius = (1.0 + 1e-12) * ((spread + error).norm() + mean_error_);  // 1e-12: rounding of a sum of n² terms
+    result.radius = (1.0 + 1e-12) * ((spread + error).norm() +
+                                     mean_error_);  // 1e-12: rounding of a sum of n² terms
     return result;
   }
 

@@ -19,8 +19,8 @@ namespace microslip::solver {
 
 /// A solved peak with what the next one starts from.
 struct LocalPeak {
-  BranchVector point;     ///< x, ω
-  BranchVector tangent;   ///< of the branch, in scaled variables
+  BranchVector point;    ///< x, ω
+  BranchVector tangent;  ///< of the branch, in scaled variables
   Scaling scaling;
   double amplitude = 0.0;  ///< [m]
 };

@@ -122,13 +122,14 @@ class Search {
       static_cast<void>(peaks_.confirm(parameter));
       return peaks_.highest(parameter).amplitude;
     };
-    // A peak that only the curve at the optimum shows is followed from there and the search repeated;
-    // each round finds one more.
+    // A peak that only the curve at the optimum shows is followed from there and the search
+    // repeated; each round finds one more.
     constexpr int rounds = 4;
     for (int i = 0; i < rounds; ++i) {
       if (!refine(followed) || peaks_.confirm(result_.best.parameter)) return finished();
     }
-    result_.notes.emplace_back("peaks followed kept missing the highest one; search on whole curves");
+    result_.notes.emplace_back(
+        "peaks followed kept missing the highest one; search on whole curves");
     static_cast<void>(refine(on_whole_curves));
     return finished();
   }
@@ -151,9 +152,22 @@ class Search {
 
   static std::vector<PeakOfParameter>::const_iterator lowest(
       const std::vector<PeakOfParameter>& peaks) {
-    return std::min_element(peaks.begin(), peaks.end(), [](const auto& a, const auto& b) {
-      return a.amplitude < b.amplitude;
-    });
+    return std::min_element(peaks.begin(), peaks.end(),
+                            [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
+  }
+
+  using Place = std::vector<PeakOfParameter>::const_iterator;
+
+  /// The minimum between the neighbours of a peak, neither of them lower.
+  void search_beside(const std::vector<PeakOfParameter>& peaks, Place place,
+                     const PeakFunction& amplitude, double relative_tolerance) {
+    if (place == peaks.begin() || place == std::prev(peaks.end())) return;
+    const Bracket bracket{position(std::prev(place)->parameter), position(place->parameter),
+                          position(std::next(place)->parameter), place->amplitude};
+    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
+    const double tolerance =
+        relative_tolerance * (logarithmic ? 1.0 : options_.upper - options_.lower);
+    minimise([&](double at) { return amplitude(parameter(at)); }, bracket, tolerance);
   }
 
   /// The minimum between the neighbours of the lowest peak known. False: there is none inside.
@@ -171,12 +185,20 @@ class Search {
                         valley(peaks, *least);
       return false;
     }
-    const Bracket bracket{position(std::prev(least)->parameter), position(least->parameter),
-                          position(std::next(least)->parameter), least->amplitude};
-    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
-    const double tolerance =
-        options_.relative_tolerance * (logarithmic ? 1.0 : options_.upper - options_.lower);
-    minimise([&](double at) { return amplitude(parameter(at)); }, bracket, tolerance);
+    // Other valleys that the scan shows only roughly may be the deeper ones.
+    constexpr double rough = 1e-2;
+    constexpr double rival = 1.1;
+    std::vector<Place> valleys;
+    for (auto one = std::next(peaks.begin()); one != std::prev(peaks.end()); ++one) {
+      const bool lower =
+          one->amplitude < std::prev(one)->amplitude && one->amplitude < std::next(one)->amplitude;
+      if (lower && one->amplitude < rival * least->amplitude) valleys.push_back(one);
+    }
+    if (valleys.size() > 1) {
+      for (const Place one : valleys) search_beside(peaks, one, amplitude, rough);
+    }
+    const std::vector<PeakOfParameter> known = peaks_.result().peaks;
+    search_beside(known, lowest(known), amplitude, options_.relative_tolerance);
     const std::vector<PeakOfParameter> all = peaks_.result().peaks;
     result_.best = *lowest(all);
     result_.found = true;

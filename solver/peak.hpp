@@ -14,7 +14,7 @@ namespace microslip::solver {
 struct Optimum {
   PeakOfParameter best;
   std::vector<PeakOfParameter> trace;  ///< all peaks solved, sorted by parameter
-  bool found = false;                  ///< false: minimum at an end of the bracket, or peaks not found
+  bool found = false;  ///< false: minimum at an end of the bracket, or peaks not found
   /// Found: the interval that is as good to 1 % among the peaks solved, and minima nearly as good
   /// elsewhere; else why not.
   std::string message;

@@ -11,14 +11,16 @@
 namespace microslip::solver {
 namespace {
 
-// The same peak, solved for twice: amplitudes agree to rounding, frequencies of a flat top to its root.
-constexpr double same_amplitude = 1e-7;   // relative
-constexpr double same_frequency = 1e-4;   // of the resonance width
+// The same peak, solved for twice: amplitudes agree to rounding, frequencies of a flat top to its
+// root.
+constexpr double same_amplitude = 1e-7;  // relative
+constexpr double same_frequency = 1e-4;  // of the resonance width
 // Between two values the step is halved down to this share of their distance.
 constexpr double finest = 1.0 / 64.0;
 // A pair of peaks closer than this share of the step ahead tells rounding errors, not a direction.
 constexpr double shortest_base = 0.05;
-constexpr std::size_t most_seeds = 4;  // peaks of one curve that are followed, from the highest down
+constexpr std::size_t most_seeds =
+    4;  // peaks of one curve that are followed, from the highest down
 // A peak lost below this share of the highest cannot become the highest within one step.
 constexpr double of_interest = 0.5;
 
@@ -130,8 +132,10 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
 /// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
 /// that had it.
 void PeakFamilies::cut(Peaks& peaks, double position) {
-  note("a followed peak is not on the curve (its branch is detached, or another peak), curves traced whole",
-       position);
+  note(
+      "a followed peak is not on the curve (its branch is detached, or another peak), curves "
+      "traced whole",
+      position);
   const auto agreed = [&](const auto& curve) {
     return curve.second.complete && peaks.contains(curve.first) && agrees(peaks, curve.first);
   };
@@ -177,8 +181,7 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
 bool PeakFamilies::follow_to(Peaks& peaks, double target) {
   auto nearest = peaks.lower_bound(target);
   if (nearest == peaks.end() ||
-      (nearest != peaks.begin() &&
-       target - std::prev(nearest)->first < nearest->first - target)) {
+      (nearest != peaks.begin() && target - std::prev(nearest)->first < nearest->first - target)) {
     nearest = std::prev(nearest);
   }
   double step = target - nearest->first;
@@ -261,8 +264,8 @@ void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
   for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
   for (int i = 0; i < options_.n_checks; ++i) {
-    seed(value_position(static_cast<int>(
-        std::lround(static_cast<double>(i) * last / (options_.n_checks - 1)))));
+    seed(value_position(
+        static_cast<int>(std::lround(static_cast<double>(i) * last / (options_.n_checks - 1)))));
   }
   settle();
   for (int i = 0; i <= last; ++i) {
@@ -292,7 +295,8 @@ bool PeakFamilies::confirm(double parameter) {
   seed(here);
   settle();
   const Curve& curve = curve_at(here);
-  if (!curve.complete || curve.peaks.empty()) return true;  // named in the notes; nothing better is known
+  if (!curve.complete || curve.peaks.empty())
+    return true;  // named in the notes; nothing better is known
   const double solved = curve.peaks.front().amplitude;
   const bool confirmed = std::abs(followed - solved) <= same_amplitude * solved;
   if (!confirmed) note("the curve has another highest peak than those followed", here);

@@ -33,7 +33,8 @@ struct PeakOfParameter {
   double parameter = 0.0;
   double frequency = 0.0;  ///< [rad/s]
   double amplitude = 0.0;  ///< [m]
-  bool whole_curve = false;  ///< the peak is the highest of a whole curve, not only of those followed
+  bool whole_curve =
+      false;  ///< the peak is the highest of a whole curve, not only of those followed
 };
 
 struct PeakTraceOptions {

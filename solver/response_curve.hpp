@@ -18,22 +18,23 @@ enum class PointMark { none, peak, fold };
 enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 
 struct ResponsePoint {
-  double frequency = 0.0;  ///< ω [rad/s]
-  Harmonics q;             ///< [m√kg]
-  double amplitude = 0.0;          ///< half the peak-to-peak value of the output over the period [m]
-  double first_amplitude = 0.0;    ///< first harmonic of the output [m]
-  double mean = 0.0;               ///< mean of the output [m]
-  double phase = 0.0;              ///< atan2(y_c, y_s) of the first harmonic [rad]
-  double residual = 0.0;           ///< relative to max(excitation, contact force of the stuck limit)
-  double energy_imbalance = 0.0;   ///< |W_exc − W_damp − W_fric| / max(|W_exc|, W_damp + W_fric)
+  double frequency = 0.0;         ///< ω [rad/s]
+  Harmonics q;                    ///< [m√kg]
+  double amplitude = 0.0;         ///< half the peak-to-peak value of the output over the period [m]
+  double first_amplitude = 0.0;   ///< first harmonic of the output [m]
+  double mean = 0.0;              ///< mean of the output [m]
+  double phase = 0.0;             ///< atan2(y_c, y_s) of the first harmonic [rad]
+  double residual = 0.0;          ///< relative to max(excitation, contact force of the stuck limit)
+  double energy_imbalance = 0.0;  ///< |W_exc − W_damp − W_fric| / max(|W_exc|, W_damp + W_fric)
   double dissipation_mismatch = 0.0;  ///< |W_fric − ∬∮ μn|ds| dA| over the same
   contact::CycleReport report;
   Stability stability = Stability::not_assessed;
-  double determinant_sign = 0.0;   ///< of ∂R/∂q
+  double determinant_sign = 0.0;  ///< of ∂R/∂q
   PointMark mark = PointMark::none;
-  int iterations = 0;               ///< Newton steps of this point's own solution
-  long contact_evaluations = 0;     ///< since the point before: steps that failed, peaks and folds included
-  double seconds = 0.0;             ///< of work since the point before
+  int iterations = 0;  ///< Newton steps of this point's own solution
+  long contact_evaluations =
+      0;                 ///< since the point before: steps that failed, peaks and folds included
+  double seconds = 0.0;  ///< of work since the point before
 };
 
 /// A remedy that was needed and helped.
@@ -41,6 +42,13 @@ struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, or other-branch
   std::string remedy;
+};
+
+/// A branch that the sweep does not meet: it coexists with the curve.
+struct DetachedBranch {
+  std::vector<ResponsePoint> points;  ///< in branch order
+  bool closed =
+      false;  ///< an isola: the last point is next to the first; else both ends leave the range
 };
 
 struct ResponseCurve {
@@ -57,10 +65,12 @@ struct ResponseCurve {
   ///   out-of-range   the branch turned back out of the range at its begin
   ///   interrupted    the observer asked to stop
   std::string diagnosis;
-  std::string message;                ///< a sentence with the numbers
+  std::string message;  ///< a sentence with the numbers
   /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
   std::string certificate;
-  std::vector<SolverEvent> log;       ///< remedies in the order they were needed
+  std::vector<SolverEvent> log;          ///< remedies in the order they were needed
+  std::vector<DetachedBranch> detached;  ///< found by the search, if one was asked for
+  int n_starts = 0;  ///< of the search: Newton iterations that looked for another solution
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;

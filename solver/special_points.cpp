@@ -16,6 +16,9 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for the finest share, and a third are bisections
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
+// One that is this large where the cubic has its extremum does not; below, parabolas look closer.
+constexpr double hopeless_slope = 0.02;
+constexpr int max_parabolas = 8;
 
 /// Something that varies along a segment, with its slope by arc length in the scaling of now().
 struct Value {
@@ -45,12 +48,10 @@ class Segment {
     }
     const double share = turning_share();
     if (share <= 0.0) return found;
-    const auto middle = walker_.between(share);
+    const std::optional<End> middle = beyond_zero(share);
     if (!middle) return found;
-    const double slope = at(*middle).slope;
-    if ((slope > 0.0) == (begin_.slope > 0.0)) return found;
-    if (wanted(begin_.slope)) keep(locate({0.0, begin_.slope}, {share, slope}));
-    if (wanted(slope)) keep(locate({share, slope}, {1.0, end_.slope}));
+    if (wanted(begin_.slope)) keep(locate({0.0, begin_.slope}, *middle));
+    if (wanted(middle->slope)) keep(locate(*middle, {1.0, end_.slope}));
     return found;
   }
 
@@ -90,6 +91,42 @@ class Segment {
     const double least = sign * (begin_.slope * length_ + 0.5 * linear * share);
     const double least_end = std::min(std::abs(begin_.slope), std::abs(end_.slope)) * length_;
     return least < suspicious_slope * least_end ? share : 0.0;
+  }
+
+  /// A place where the slope has the other sign, near a share where it may: its extremum by parabolas
+  /// through three places, as long as it may still pass zero.
+  [[nodiscard]] std::optional<End> beyond_zero(double share) const {
+    const double sign = begin_.slope > 0.0 ? 1.0 : -1.0;
+    const double hopeless = hopeless_slope * std::min(std::abs(begin_.slope), std::abs(end_.slope));
+    End left{0.0, sign * begin_.slope};
+    End right{1.0, sign * end_.slope};
+    std::optional<End> least;
+    for (int i = 0; i < max_parabolas; ++i) {
+      const auto point = walker_.between(share);
+      if (!point) return std::nullopt;
+      const End here{share, sign * at(*point).slope};
+      if (here.slope <= 0.0) return End{share, sign * here.slope};
+      if (here.slope > hopeless) return std::nullopt;
+      if (!least) {
+        least = here;
+      } else {
+        const bool below = here.slope < least->slope;
+        const bool before = here.share < least->share;
+        (before == below ? right : left) = below ? *least : here;
+        if (below) least = here;
+      }
+      share = vertex(left, *least, right);
+      const bool settled = std::abs(share - least->share) < 1e-5;
+      if (settled || !(share > left.share) || !(share < right.share)) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  /// Extremum of the parabola through three ends.
+  [[nodiscard]] static double vertex(End a, End b, End c) {
+    const double r = (b.share - a.share) * (b.slope - c.slope);
+    const double q = (b.share - c.share) * (b.slope - a.slope);
+    return b.share - 0.5 * ((b.share - c.share) * q - (b.share - a.share) * r) / (q - r);
   }
 
   /// Regula falsi (Illinois) with a bisection after every two steps, so that a jump is found as well.

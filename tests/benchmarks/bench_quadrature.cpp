@@ -40,8 +40,8 @@ struct Scene {
 const std::vector<Scene> scenes{
     {"one stick/slip line, constant load", 4.5e5, 0.3, 0.0},
     {"one stick/slip line, variable load", 4.5e5, 0.3, 0.25},
-    {"stick, slip and separation", 2.5e5, 0.9, 1.0},
-    {"separation everywhere", 0.5e5, -1.0, 1.5},
+    {"stick and slip, strongly varying load", 2.5e5, 0.9, 1.0},
+    {"stick, slip and separation", 0.5e5, -1.0, 1.5},
 };
 
 ParameterField parameters_of(const Scene& scene) {
@@ -88,8 +88,7 @@ PatchCells patch(int n_p, int n_r) {
 }
 
 PatchRule fitted(const Scene& scene, int order, double line_tolerance) {
-  return fitted_rule(patch(1, 1),
-                     regime_guards(shapes_of(scene), parameters_of(scene), {motion()}),
+  return fitted_rule(patch(1, 1), regime_guards(shapes_of(scene), parameters_of(scene), {motion()}),
                      {.order = order, .line_tolerance = line_tolerance});
 }
 

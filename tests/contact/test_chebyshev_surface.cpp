@@ -52,7 +52,8 @@ TEST(ChebyshevLine, FindsAllZeros) {
 }
 
 TEST(ChebyshevLine, HasZerosAtItsEndsButNoneWhereItIsZeroThroughout) {
-  const std::vector<double> roots = chebyshev_roots(line_through(4, [](double x) { return x * x - 1.0; }));
+  const std::vector<double> roots =
+      chebyshev_roots(line_through(4, [](double x) { return x * x - 1.0; }));
   ASSERT_EQ(roots.size(), 2U);
   EXPECT_NEAR(roots[0], -1.0, 1e-15);
   EXPECT_NEAR(roots[1], 1.0, 1e-15);
@@ -92,13 +93,15 @@ TEST(CommonRoots, FindsEveryCrossing) {
 
 TEST(CommonRoots, FindsNothingIsolatedOnLinesThatCoincide) {
   const auto f = surface_through(4, [](double x, double y) { return x - y * y; });
-  const auto g = surface_through(4, [](double x, double y) { return 2.0 * (x - y * y) * (3.0 + x); });
+  const auto g =
+      surface_through(4, [](double x, double y) { return 2.0 * (x - y * y) * (3.0 + x); });
   EXPECT_TRUE(common_roots(f, g).empty());
 }
 
 TEST(CommonRoots, FindsATouchingPointOfHigherOrderApproximately) {
   const auto f = surface_through(4, [](double, double y) { return y - 0.3; });
-  const auto g = surface_through(4, [](double x, double y) { return y - 0.3 - (x - 0.2) * (x - 0.2); });
+  const auto g =
+      surface_through(4, [](double x, double y) { return y - 0.3 - (x - 0.2) * (x - 0.2); });
   const std::vector<Eigen::Vector2d> roots = common_roots(f, g);
   ASSERT_FALSE(roots.empty());
   for (const Eigen::Vector2d& x : roots) {

@@ -226,6 +226,32 @@ TEST(EventLaw, AResultIsWrittenWholeWhateverItHeld) {
   }
 }
 
+// Forces up to the largest doubles, as for one of size 1.
+TEST(EventLaw, HugeForcesDoNotOverflowBetween) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    MotionCase c = test::motion_strata()[1].draw(random);
+    const PointTraction plain = traction(c);
+    c.point.preload *= 0x1p990;
+    c.motion.rows() *= 0x1p990;
+    const PointTraction huge = traction(c);
+    ASSERT_EQ(huge.force.rows(), (0x1p990 * plain.force.rows()).eval());
+    ASSERT_EQ(huge.jacobian, plain.jacobian);
+  }
+}
+
+// A load that only touches zero never separates, as in the closed form.
+TEST(EventLaw, GrazingAtPhaseZeroIsNotSeparation) {
+  const PointParameters point{1.0, 1.0, 0.5, 1.0};
+  Harmonics motion(1, 3);
+  motion.rows().col(0) << 0.0, 3.0, 0.4;
+  motion.rows().col(1) << 0.0, 0.0, -1.0;
+  const FrictionCycle closed = friction_cycle(point, {0.0, 3.0, 0.4, 0.0, 0.0, -1.0});
+  const PointHistory history = EventLaw(point).history(motion, 1.0, {}, 1);
+  EXPECT_EQ(history.regime, closed.regime);
+  EXPECT_NEAR(history.force.rows()(1, 0), closed.friction.sin, rounding);
+}
+
 TEST(EventLaw, StiffnessAndLoadAtRest) {
   const EventLaw law({3.0, 2.0, 0.5, 7.0});
   EXPECT_EQ(law.stuck_stiffness(), Eigen::Vector3d(3.0, 2.0, 0.0));

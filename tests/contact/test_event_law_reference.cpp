@@ -20,7 +20,7 @@ using contact::EventLaw;
 using contact::PointHistory;
 using Random = std::mt19937_64;
 
-constexpr double coefficient_tolerance = 2e-14;
+constexpr double coefficient_tolerance = 4e-15;
 // Subnormal results are only as fine as the spacing of the smallest numbers.
 constexpr double smallest = 1e-318;
 

@@ -61,7 +61,9 @@ TEST(FittedPatchForce, FollowsTheSlipLineAndThenStandsStill) {
   FittedPatchForce force = fitted({});
   const Harmonics q = motion(1.0);
   const Eigen::VectorXd exact = force_by_many_points(q);
-  const auto error = [&] { return (force.evaluate(q, 1.0).force.vector() - exact).norm() / exact.norm(); };
+  const auto error = [&] {
+    return (force.evaluate(q, 1.0).force.vector() - exact).norm() / exact.norm();
+  };
   EXPECT_GT(error(), 1e-6);  // one Gauss rule over the kink
   const CycleReport report = force.report(q, 1.0);
   EXPECT_GT(report.slip_share, 0.05);
@@ -89,7 +91,8 @@ TEST(FittedPatchForce, ErrsWithTheSquareOfWhatTheLineMoved) {
 
 // Hard case 50d: a line that is there for one result and gone for the next.
 TEST(FittedPatchForce, DoesNotCycleWhenALineAppearsAndDisappears) {
-  FittedPatchForce force = fitted({.rule = {.order = 4}, .force_tolerance = 1e-12, .max_refits = 6});
+  FittedPatchForce force =
+      fitted({.rule = {.order = 4}, .force_tolerance = 1e-12, .max_refits = 6});
   int n_solves = 0;
   Refit refit;
   do {
@@ -109,7 +112,8 @@ TEST(FittedPatchForce, DoesNotCycleWhenALineAppearsAndDisappears) {
 }
 
 TEST(FittedPatchForce, RunsOutOfRefitsWithItsErrorNamed) {
-  FittedPatchForce force = fitted({.rule = {.order = 2}, .force_tolerance = 1e-16, .max_refits = 1});
+  FittedPatchForce force =
+      fitted({.rule = {.order = 2}, .force_tolerance = 1e-16, .max_refits = 1});
   EXPECT_EQ(force.refit(motion(1.0), 1.0).outcome, Refit::Outcome::replaced);
   const Eigen::Index n = force.rule().n_points();
   const Refit refit = force.refit(motion(1.3), 1.0);

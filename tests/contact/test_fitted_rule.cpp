@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -170,9 +172,8 @@ TEST(FittedRule, IgnoresALineOutsideItsDomain) {
   const PatchRule rule = fitted_rule(unit_square(1), guards, {.order = 4});
   // Four pieces without the domain; the part beyond p = 1/4 stays whole.
   EXPECT_EQ(rule.n_points(), 3 * 16);
-  const double kinked = integral(rule, [&](double p, double r) {
-    return domain(p, r) < 0.0 ? std::abs(line(p, r)) : 1.0;
-  });
+  const double kinked = integral(
+      rule, [&](double p, double r) { return domain(p, r) < 0.0 ? std::abs(line(p, r)) : 1.0; });
   EXPECT_NEAR(kinked, 0.25 * 0.25 + 0.75, 1e-14);
 }
 
@@ -216,7 +217,34 @@ TEST(FittedRule, WorksOnHolesAndTriangles) {
   EXPECT_NEAR(area_above(rule, guard), 0.5 * (ring + triangle), 1e-10);
 }
 
-// Guards that are not smooth (a jump, a cone) and lines that are not (a cusp) are split to the last depth and no further.
+// Random smooth lines, each against a rule that is finer in every respect and against counting
+// cells.
+TEST(FittedRule, FindsEveryPieceOfRandomLines) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const PatchRule count = midpoint_rule(unit_square(300));
+  for (int k = 0; k < 20; ++k) {
+    std::array<double, 8> c{};
+    for (double& x : c) {
+      x = normal(random);
+    }
+    const Function guard = [c](double p, double r) {
+      return c[0] + std::sin(c[1] + 6.0 * c[2] * p) + c[3] * std::cos(c[4] + 6.0 * c[5] * r) +
+             c[6] * p * r + c[7] * p;
+    };
+    const Guards guards = guards_of({guard});
+    const PatchRule rule = fitted_rule(unit_square(1), guards, {.order = 5});
+    const PatchRule finer =
+        fitted_rule(unit_square(2), guards, {.order = 10, .line_tolerance = 1e-12});
+    EXPECT_NEAR(rule.weights.sum(), 1.0, 1e-12);
+    EXPECT_NEAR(area_above(rule, guard), area_above(finer, guard), 1.1e-10) << k;
+    // Cells on a line count wholly or not: a few hundred of 90 000, at random.
+    EXPECT_NEAR(area_above(rule, guard), area_above(count, guard), 2e-3) << k;
+  }
+}
+
+// Guards that are not smooth (a jump, a cone) and lines that are not (a cusp) are split to the last
+// depth and no further.
 TEST(FittedRule, EndsWhereGuardsAreNotSmooth) {
   const auto jump = [](double p, double) { return p < 0.3 ? -1.0 : 2.0; };
   const auto cone = [](double p, double r) { return std::hypot(p - 0.5, r - 0.5) - 1e-3; };
@@ -234,13 +262,12 @@ TEST(FittedRule, RefusesBrokenOptionsAndGuards) {
   EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.order = 0}), std::invalid_argument);
   EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.line_tolerance = 0.0}),
                std::invalid_argument);
-  EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.max_depth = -1}),
-               std::invalid_argument);
+  EXPECT_THROW((void)fitted_rule(unit_square(1), guards, {.max_depth = -1}), std::invalid_argument);
   Guards two = guards;
   two.lines.resize(2);
   EXPECT_THROW((void)fitted_rule(unit_square(1), two, {}), std::invalid_argument);
-  const Guards broken = guards_of(
-      {[](double, double) { return std::numeric_limits<double>::quiet_NaN(); }});
+  const Guards broken =
+      guards_of({[](double, double) { return std::numeric_limits<double>::quiet_NaN(); }});
   EXPECT_THROW((void)fitted_rule(unit_square(1), broken, {}), std::invalid_argument);
 }
 

@@ -59,7 +59,9 @@ TEST(GaussLegendre, GradingMakesRootsSmooth) {
   EXPECT_LT(error(graded(plain, {true, true}), both, std::numbers::pi / 8.0), 1e-10);
 }
 
-TEST(GaussLegendre, RefusesNoPoints) { EXPECT_THROW((void)gauss_legendre(0), std::invalid_argument); }
+TEST(GaussLegendre, RefusesNoPoints) {
+  EXPECT_THROW((void)gauss_legendre(0), std::invalid_argument);
+}
 
 TEST(PatchQuadrature, GaussIsExactForPolynomialsOnRectangles) {
   const PatchRule rule = gauss_rule(rectangle_cells({0, 0}, {2, 1}, 3, 2), 2);

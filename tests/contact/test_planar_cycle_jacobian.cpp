@@ -10,8 +10,8 @@
 namespace microslip::contact {
 namespace {
 
-// Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7 and by
-// the third derivative times 1e-10, which is large only beside events that appear or vanish.
+// Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7
+// and by the third derivative times 1e-10, which is large only beside events that appear or vanish.
 constexpr double step = 1e-5;
 constexpr double tight = 1e-12;
 
@@ -27,7 +27,8 @@ Eigen::VectorXd difference(const PlanarLaw& law, const Harmonics& motion, Eigen:
   return (right.force.vector() - left.force.vector()) / (2.0 * step);
 }
 
-double jacobian_error(const PlanarLaw& law, const Harmonics& motion, const PointTraction& traction) {
+double jacobian_error(const PlanarLaw& law, const Harmonics& motion,
+                      const PointTraction& traction) {
   double error = 0.0;
   for (Eigen::Index j = 0; j < motion.vector().size(); ++j) {
     const Eigen::VectorXd expected = difference(law, motion, j);
@@ -62,6 +63,37 @@ TEST(PlanarLawJacobian, MeetsCentralDifferencesOnRandomOrbits) {
   EXPECT_GT(tested, 60);
 }
 
+Harmonics lissajous() {
+  Harmonics motion(2, 3);
+  motion.rows() << 0.1, 0.2, -0.3,  //
+      1.0, 0.4, 0.2,                //
+      0.3, -0.6, 0.8,               //
+      0.2, 0.3, 0.4,                //
+      -0.5, 0.1, 0.1;
+  return motion;
+}
+
+// ∂/∂ω as well: the coefficient falls with the speed ω hypot(u', w').
+TEST(PlanarLawJacobian, OfARateDependentCoefficientMeetsDifferences) {
+  for (const FrictionLaw& friction :
+       {FrictionLaw::exponential(0.8, 0.3, 0.7), FrictionLaw::hyperbolic(0.7, 0.4)}) {
+    for (const double preload : {0.6, 2.0}) {
+      const PlanarLaw law(SurfaceLaw({2.0, 1.5, 0.6, preload}, 0.7, friction), tight);
+      PointTraction traction;
+      law.traction(lissajous(), 1.0, traction);
+      EXPECT_LT(jacobian_error(law, lissajous(), traction), 5e-6) << "preload " << preload;
+      PointTraction faster;
+      PointTraction slower;
+      law.traction(lissajous(), 1.0 + step, faster);
+      law.traction(lissajous(), 1.0 - step, slower);
+      const Eigen::VectorXd expected =
+          (faster.force.vector() - slower.force.vector()) / (2.0 * step);
+      EXPECT_GT(expected.norm(), 1e-3);
+      EXPECT_LT((expected - traction.frequency_derivative).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+}
+
 Harmonics stuck_motion() {
   Harmonics motion(1, 3);
   motion.rows() << 0.02, 0.0, -0.01,  //
@@ -84,7 +116,8 @@ TEST(PlanarLawJacobian, OfAVirginStuckPointIsItsStiffness) {
   }
 }
 
-// A large mean drags the virgin slider: the point ends up stuck with a mean that depends on the motion.
+// A large mean drags the virgin slider: the point ends up stuck with a mean that depends on the
+// motion.
 TEST(PlanarLawJacobian, OfADraggedStuckPointMeetsDifferences) {
   const PlanarLaw law(SurfaceLaw({2.0, 1.0, 0.5, 1.0}, 3.0), tight);
   Harmonics motion = stuck_motion();

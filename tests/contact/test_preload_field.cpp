@@ -64,8 +64,8 @@ TEST(PreloadField, IsTheFormulaOfTheContactAreaOnAGrid) {
   const Eigen::VectorXd n = linear_preload(
       rule.p, rule.r, rule.weights, {.force = 48.0, .moment_about_p = Mz, .moment_about_r = My});
   for (Eigen::Index i = 0; i < rule.n_points(); ++i) {
-    const double cell = 48.0 / 16.0 + My * rule.p[i] / rule.p.squaredNorm() -
-                        Mz * rule.r[i] / rule.r.squaredNorm();
+    const double cell =
+        48.0 / 16.0 + My * rule.p[i] / rule.p.squaredNorm() - Mz * rule.r[i] / rule.r.squaredNorm();
     EXPECT_NEAR(n[i] * rule.weights[i], cell, 1e-13 * 48.0);
   }
 }
@@ -76,7 +76,9 @@ TEST(PreloadField, PointsOnALineCarryWhatTheyCan) {
   const Eigen::VectorXd w = Eigen::VectorXd::Ones(5);
   const Eigen::VectorXd n = linear_preload(p, r, w, {10.0, 0.0, 2.0});
   EXPECT_NEAR(resultants(p, r, w, n).moment_about_r, 2.0, 1e-14);
-  EXPECT_NE(refusal([&] { return linear_preload(p, r, w, {10.0, 0.5, 2.0}); }).find("lie on a line"),
+  EXPECT_NE(refusal([&] {
+              return linear_preload(p, r, w, {10.0, 0.5, 2.0});
+            }).find("lie on a line"),
             std::string::npos);
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   EXPECT_NEAR(linear_preload(one, one, one, {10.0, -10.0, 10.0})[0], 10.0, 1e-14);

@@ -82,7 +82,8 @@ TEST(RegimeGuards, HaveTheSignsOfTheRegimes) {
   }
 }
 
-// Along short steps of the patch the first and last state of a contact change only where a guard does.
+// Along short steps of the patch the first and last state of a contact change only where a guard
+// does.
 TEST(RegimeGuards, ChangeSignWhereTheSequenceOfStatesChanges) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

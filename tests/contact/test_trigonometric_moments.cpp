@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace microslip::contact {
 namespace {
@@ -54,6 +55,18 @@ TEST(TrigonometricMoments, ShortPiecesKeepTheirDigits) {
   // sin and cos of 2 about the middle, 5e-15 further; the rest are a few roundings.
   EXPECT_NEAR(moments.single(3) / (1e-14 * std::sin(2.0 + 1e-14)), 1.0, 2e-15);
   EXPECT_NEAR(moments.single(4) / (1e-14 * std::cos(2.0 + 1e-14)), 1.0, 2e-15);
+}
+
+TEST(TrigonometricMoments, OverThePeriodTheBasisIsOrthogonal) {
+  TrigonometricMoments period;
+  period.reset(8);
+  period.set_period();
+  for (int i = 0; i <= 8; ++i) {
+    for (int j = 0; j <= 8; ++j) {
+      const double expected = i != j ? 0.0 : (i == 0 ? 2.0 : 1.0) * std::numbers::pi;
+      EXPECT_EQ(period.product(i, j), expected) << i << ' ' << j;
+    }
+  }
 }
 
 TEST(TrigonometricMoments, SamplesAddUpAsPiecesDo) {

@@ -69,7 +69,8 @@ TEST(Eigensolver, EstimatesWhatComesNextFromBelow) {
 TEST(Eigensolver, SearchesBesideWhatIsKnown) {
   const Held bar;
   const EigenPairs low = lowest_pairs(bar.system, bar.inverse, 0.0, 4, bar.nothing_known).pairs;
-  const EigenPairs next = lowest_pairs(bar.system, bar.inverse, 0.0, 3, low.vectors.leftCols(4)).pairs;
+  const EigenPairs next =
+      lowest_pairs(bar.system, bar.inverse, 0.0, 3, low.vectors.leftCols(4)).pairs;
   EXPECT_LT(largest_error(next.values.head(3), bar.exact.segment(4, 3)), rounding);
 }
 
@@ -86,8 +87,8 @@ TEST(Eigensolver, FindsAllPairsOfASmallSpace) {
   EXPECT_LT(largest_error(found.pairs.values, exact), rounding);
 }
 
-// What the search leaves of high modes is seen by K; one step turns it down to rounding: 1e-16 times
-// λ_max/λ, 1e5 here.
+// What the search leaves of high modes is seen by K; one step turns it down to rounding: 1e-16
+// times λ_max/λ, 1e5 here.
 TEST(Eigensolver, RefiningLeavesResidualsOfRounding) {
   const Held bar;
   const EigenPairs found = lowest_pairs(bar.system, bar.inverse, 0.0, 6, bar.nothing_known).pairs;
@@ -109,7 +110,8 @@ TEST(ModeSearch, FindsTheModesOfAFreeBarBesideItsRigidMotions) {
   EXPECT_EQ(found.n_counted, 6 + found.n_below);
 }
 
-// One Krylov vector sees one of two modes with one frequency; the count tells, and the other is found.
+// One Krylov vector sees one of two modes with one frequency; the count tells, and the other is
+// found.
 TEST(ModeSearch, FindsTheTwinThatTheFirstSearchMissed) {
   const mesh::Mesh mesh = test::box_mesh(
       mesh::ElementType::hex20, {.size = {0.1, 0.02, 0.02}, .cells = {4, 2, 2}, .map = {}});

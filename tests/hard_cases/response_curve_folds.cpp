@@ -1,7 +1,8 @@
-// What is hard: folds that merge or lie closer together than a step, peaks at the ends of a sweep, optima
-// that are no points, means that open the contact (rows 41, 42, 45, 46 and 49 of the project's list of hard
-// cases). Met in: paper A (low preloads), preload studies with wide valleys.
-// Right: both folds or none, where the formula has them; an interval in place of a point; the static limit.
+// What is hard: folds that merge or lie closer together than a step, peaks at the ends of a sweep,
+// optima that are no points, means that open the contact (rows 41, 42, 45, 46 and 49 of the
+// project's list of hard cases). Met in: paper A (low preloads), preload studies with wide valleys.
+// Right: both folds or none, where the formula has them; an interval in place of a point; the
+// static limit.
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +41,7 @@ std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
 /// F² = 8c³/(3√3 b).
 double cusp_force(const tests::Duffing& duffing) {
   const double root = std::sqrt(3.0);
-  const double omega =
-      root * duffing.zeta + std::sqrt(3.0 * duffing.zeta * duffing.zeta + 1.0);
+  const double omega = root * duffing.zeta + std::sqrt(3.0 * duffing.zeta * duffing.zeta + 1.0);
   const double c = 2.0 * duffing.zeta * omega;
   return std::sqrt(8.0 * c * c * c / (3.0 * root * 0.75 * duffing.alpha));
 }
@@ -67,8 +67,8 @@ TEST(Folds, ThatMergeInACuspLeaveACompleteCurve) {
 }
 
 TEST(Folds, CloserThanAStepAreBothFoundEitherWay) {
-  // Row 42. 1e-5 … 1e-7 beyond the cusp the folds are some √beyond of the amplitude apart, a hundredth to a
-  // thousandth of a step.
+  // Row 42. 1e-5 … 1e-7 beyond the cusp the folds are some √beyond of the amplitude apart, a
+  // hundredth to a thousandth of a step.
   tests::Duffing duffing;
   const double cusp = cusp_force(duffing);
   for (const double beyond : {1e-5, 1e-6, 1e-7}) {
@@ -154,8 +154,9 @@ TEST(Optimum, OfTwoValleysAlikeNamesBoth) {
 }
 
 TEST(MeanMotion, ThatOpensTheContactTendsToTheStaticLimit) {
-  // Row 49. ω₀ = 1, k_v = 2, preload 1, a static load of −3: in contact 3 B = −3 leaves n = 1 − 2 < 0, so the
-  // contact opens for good and misses its preload, B − 1 = −3. The motion is that of the free structure.
+  // Row 49. ω₀ = 1, k_v = 2, preload 1, a static load of −3: in contact 3 B = −3 leaves n = 1 − 2 <
+  // 0, so the contact opens for good and misses its preload, B − 1 = −3. The motion is that of the
+  // free structure.
   tests::SinglePoint single;
   single.point = {2.0, 2.0, 0.5, 1.0};
   single.phi_v = 1.0;
@@ -174,8 +175,8 @@ TEST(MeanMotion, ThatOpensTheContactTendsToTheStaticLimit) {
 }
 
 TEST(MeanMotion, ThatHalfOpensTheContactIsCoupledToTheVibration) {
-  // Row 49. A static load of −1.4 leaves n = 1 − 2·1.4/3 = 0.067 at rest: the vibration opens the contact for
-  // part of the cycle and moves the mean; the limit of no vibration is the static one.
+  // Row 49. A static load of −1.4 leaves n = 1 − 2·1.4/3 = 0.067 at rest: the vibration opens the
+  // contact for part of the cycle and moves the mean; the limit of no vibration is the static one.
   tests::SinglePoint single;
   single.point = {0.0, 2.0, 0.0, 1.0};
   single.phi_v = 1.0;

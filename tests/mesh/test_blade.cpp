@@ -59,8 +59,9 @@ TEST_F(Blade, IsOneCurvedVolumeWithItsNames) {
   EXPECT_LT(contact.flatness, 1e-12);
   EXPECT_NEAR(mesh.surface("contact").area, g.platform_height * g.platform_length, 1e-12);
   EXPECT_NEAR(mesh.surface("root").area, g.root_width * g.root_length, 1e-12);
-  EXPECT_LT((fit_plane(mesh.nodes(), mesh.surface("root")).normal + Eigen::Vector3d::UnitY()).norm(),
-            1e-12);
+  EXPECT_LT(
+      (fit_plane(mesh.nodes(), mesh.surface("root")).normal + Eigen::Vector3d::UnitY()).norm(),
+      1e-12);
   const double tip = g.root_height + g.platform_height + g.span;
   for (const char* name : {"A", "B", "B'"}) {
     const auto nodes = mesh.node_set(name);

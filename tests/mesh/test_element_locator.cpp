@@ -42,14 +42,17 @@ TEST(ElementLocator, NamesTheElementOfAGrid) {
   constexpr Eigen::Index n = 4;
   Eigen::MatrixX3d nodes((n + 1) * (n + 1) * (n + 1), 3);
   std::vector<std::vector<Eigen::Index>> rows;
-  const auto at = [](Eigen::Index i, Eigen::Index j, Eigen::Index k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  const auto at = [](Eigen::Index i, Eigen::Index j, Eigen::Index k) {
+    return (k * (n + 1) + j) * (n + 1) + i;
+  };
   for (Eigen::Index k = 0; k <= n; ++k) {
     for (Eigen::Index j = 0; j <= n; ++j) {
       for (Eigen::Index i = 0; i <= n; ++i) {
         nodes.row(at(i, j, k)) << 0.01 * double(i), 3.0 * double(j), double(k * k);
         if (i == n || j == n || k == n) continue;
-        rows.push_back({at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
-                        at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)});
+        rows.push_back({at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+                        at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
+                        at(i, j + 1, k + 1)});
       }
     }
   }
@@ -57,9 +60,11 @@ TEST(ElementLocator, NamesTheElementOfAGrid) {
   const ElementLocator locator(nodes, blocks);
   for (Eigen::Index e = 0; e < std::ssize(rows); ++e) {
     Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
-    for (const Eigen::Index node : rows[static_cast<std::size_t>(e)]) middle += nodes.row(node) / 8.0;
+    for (const Eigen::Index node : rows[static_cast<std::size_t>(e)])
+      middle += nodes.row(node) / 8.0;
     EXPECT_EQ(locator.holder(middle.transpose(), nobody), (ElementReference{0, e}));
-    EXPECT_FALSE(locator.holder(middle.transpose(), {0, e}).has_value()) << "the own element does not count";
+    EXPECT_FALSE(locator.holder(middle.transpose(), {0, e}).has_value())
+        << "the own element does not count";
   }
   EXPECT_FALSE(locator.holder({1.0, 1.0, 1.0}, nobody).has_value());
 }

@@ -45,7 +45,8 @@ Eigen::MatrixX3d sliver(double lift) {
   return nodes;
 }
 
-// Lines at height 0 and `lift`: the dihedral at the edge 0–2 is π − 2 atan(lift), at 0–1 it is small.
+// Lines at height 0 and `lift`: the dihedral at the edge 0–2 is π − 2 atan(lift), at 0–1 it is
+// small.
 TEST(ElementShape, SeesASliverWithoutAnyShortEdge) {
   const double lift = 2e-4;
   const ElementShape shape = element_shape(ElementType::tet4, sliver(lift));
@@ -75,7 +76,8 @@ TEST(ElementShape, WarnsOfASliverByNumber) {
 TEST(ElementShape, NamesTheWorst) {
   Eigen::MatrixX3d nodes(7, 3);  // node 2 of the first is node 0 of the second
   nodes << sliver(2e-3), sliver(2e-4).bottomRows(3).rowwise() + Eigen::RowVector3d(2, 0, 0);
-  const Mesh mesh(nodes, {tests::block_of(ElementType::tet4, {{0, 1, 2, 3}, {2, 4, 5, 6}}, 8)}, {}, {});
+  const Mesh mesh(nodes, {tests::block_of(ElementType::tet4, {{0, 1, 2, 3}, {2, 4, 5, 6}}, 8)}, {},
+                  {});
   const std::vector<std::string> warnings = shape_warnings(mesh);
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings[0].find("2 of 2 elements"), 0U) << warnings[0];

@@ -19,7 +19,8 @@ Eigen::MatrixX3d five_points() {
 }
 
 TEST(FaceMap, CountsTheElementsOfEachFace) {
-  const std::vector<ElementBlock> elements{block_of(ElementType::tet4, {{0, 1, 2, 3}, {1, 2, 3, 4}}, 1)};
+  const std::vector<ElementBlock> elements{
+      block_of(ElementType::tet4, {{0, 1, 2, 3}, {1, 2, 3, 4}}, 1)};
   const FaceMap map = map_faces(elements);
   EXPECT_EQ(map.size(), 7U);
   EXPECT_EQ(map.at(face_key({3, 1, 2}, 3)).count, 2);
@@ -44,26 +45,32 @@ TEST(FaceMap, GivesTheNodesOfAFaceAsItsElementHasThem) {
 
 TEST(FaceMap, RefusesElementsOnOneSideOfAFace) {
   const std::string message = message_of([] {
-    Mesh(five_points().topRows(6), {block_of(ElementType::tet4, {{0, 1, 2, 3}, {5, 1, 2, 3}}, 11)}, {}, {});
+    Mesh(five_points().topRows(6), {block_of(ElementType::tet4, {{0, 1, 2, 3}, {5, 1, 2, 3}}, 11)},
+         {}, {});
   });
-  EXPECT_NE(message.find("1 faces have both their elements on one side: elements 11, 12"), std::string::npos)
+  EXPECT_NE(message.find("1 faces have both their elements on one side: elements 11, 12"),
+            std::string::npos)
       << message;
 }
 
 TEST(FaceMap, RefusesAnElementThatIsThereTwice) {
   const std::string message = message_of([] {
     Mesh(reference_nodes(ElementType::hex8),
-         {block_of(ElementType::hex8, {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}}, 7)}, {}, {});
+         {block_of(ElementType::hex8, {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}}, 7)}, {},
+         {});
   });
-  EXPECT_NE(message.find("6 faces have both their elements on one side: elements 7, 8"), std::string::npos)
+  EXPECT_NE(message.find("6 faces have both their elements on one side: elements 7, 8"),
+            std::string::npos)
       << message;
 }
 
 TEST(FaceMap, RefusesFacesOfThreeElements) {
   const std::string message = message_of([] {
-    Mesh(five_points(), {block_of(ElementType::tet4, {{0, 1, 2, 3}, {1, 2, 3, 4}, {5, 1, 2, 3}}, 21)}, {}, {});
+    Mesh(five_points(),
+         {block_of(ElementType::tet4, {{0, 1, 2, 3}, {1, 2, 3, 4}, {5, 1, 2, 3}}, 21)}, {}, {});
   });
-  EXPECT_NE(message.find("1 faces have three or more elements: elements 21, 22, 23"), std::string::npos)
+  EXPECT_NE(message.find("1 faces have three or more elements: elements 21, 22, 23"),
+            std::string::npos)
       << message;
 }
 
@@ -76,7 +83,8 @@ TEST(FaceMap, RefusesNeighboursOfDifferentOrder) {
           block_of(ElementType::tet4, {{1, 2, 3, 10}}, 2)},
          {}, {});
   });
-  EXPECT_NE(message.find("1 faces share their corners but not their edges"), std::string::npos) << message;
+  EXPECT_NE(message.find("1 faces share their corners but not their edges"), std::string::npos)
+      << message;
   EXPECT_NE(message.find("elements 1, 2"), std::string::npos) << message;
 }
 

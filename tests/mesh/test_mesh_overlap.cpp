@@ -36,7 +36,8 @@ Mesh quadrilateral_against_triangles() {
 
 TEST(MeshOverlap, RefusesAQuadrilateralAgainstTwoTriangles) {
   const std::string message = message_of([] { quadrilateral_against_triangles(); });
-  EXPECT_NE(message.find("3 outer faces lie on other elements without being joined"), std::string::npos)
+  EXPECT_NE(message.find("3 outer faces lie on other elements without being joined"),
+            std::string::npos)
       << message;
   EXPECT_NE(message.find("2 on 1, 3 on 1"), std::string::npos) << message;
   EXPECT_NE(message.find("the faces do not match"), std::string::npos) << message;
@@ -46,12 +47,14 @@ TEST(MeshOverlap, RefusesAQuadrilateralAgainstTwoTriangles) {
 TEST(MeshOverlap, RefusesNodesThatHangOnAnEdge) {
   Eigen::MatrixX3d nodes(16, 3);
   nodes << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,  // the cube
-      1, 0, 0.5, 1, 1, 0.5,                                                          // hang
+      1, 0, 0.5, 1, 1, 0.5,                                                         // hang
       2, 0, 0, 2, 1, 0, 2, 0, 0.5, 2, 1, 0.5, 2, 0, 1, 2, 1, 1;
   const std::string message = message_of([&] {
     Mesh(nodes,
-         {block_of(ElementType::hex8,
-                   {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 10, 11, 2, 8, 12, 13, 9}, {8, 12, 13, 9, 5, 14, 15, 6}}, 1)},
+         {block_of(
+             ElementType::hex8,
+             {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 10, 11, 2, 8, 12, 13, 9}, {8, 12, 13, 9, 5, 14, 15, 6}},
+             1)},
          {}, {});
   });
   EXPECT_NE(message.find("without being joined"), std::string::npos) << message;
@@ -68,7 +71,8 @@ Mesh prongs(double gap) {
     nodes.row(8 + 2 * i) << x[i], 0, 2;
     nodes.row(9 + 2 * i) << x[i], 1, 2;
   }
-  // The base joins the outer and inner edges of the prongs in one hexahedron below each and the gap.
+  // The base joins the outer and inner edges of the prongs in one hexahedron below each and the
+  // gap.
   Eigen::MatrixX3d all(24, 3);
   all.topRows(16) = nodes.topRows(16);
   for (int i = 0; i < 4; ++i) {
@@ -76,13 +80,14 @@ Mesh prongs(double gap) {
     all.row(17 + 2 * i) << x[i], 1, 0;
   }
   const auto hexahedron = [](Eigen::Index low, Eigen::Index high, Eigen::Index i) {
-    return std::vector<Eigen::Index>{low + 2 * i,  low + 2 * i + 2,  low + 2 * i + 3,  low + 2 * i + 1,
-                                     high + 2 * i, high + 2 * i + 2, high + 2 * i + 3, high + 2 * i + 1};
+    return std::vector<Eigen::Index>{low + 2 * i,      low + 2 * i + 2, low + 2 * i + 3,
+                                     low + 2 * i + 1,  high + 2 * i,    high + 2 * i + 2,
+                                     high + 2 * i + 3, high + 2 * i + 1};
   };
   return {all,
           {block_of(ElementType::hex8,
-                    {hexahedron(16, 0, 0), hexahedron(16, 0, 1), hexahedron(16, 0, 2), hexahedron(0, 8, 0),
-                     hexahedron(0, 8, 2)},
+                    {hexahedron(16, 0, 0), hexahedron(16, 0, 1), hexahedron(16, 0, 2),
+                     hexahedron(0, 8, 0), hexahedron(0, 8, 2)},
                     1)},
           {},
           {}};

@@ -15,8 +15,8 @@ namespace microslip::pipelines {
 namespace {
 
 double value(const std::string& text, double p, double r) {
-  return Expression(text, "here").at(Eigen::VectorXd::Constant(1, p),
-                                     Eigen::VectorXd::Constant(1, r))[0];
+  return Expression(text, "here")
+      .at(Eigen::VectorXd::Constant(1, p), Eigen::VectorXd::Constant(1, r))[0];
 }
 
 std::string refusal(const std::string& text) {
@@ -52,8 +52,8 @@ TEST(Expression, KnowsConstantsOfTheCaller) {
 }
 
 TEST(Expression, NamesWhatItDoesNotKnow) {
-  expect_words("0.3 + 0.1*x", {"here: ", "character 11", "\"x\" is not known", "known are p, r, e, pi",
-                               "sqrt"});
+  expect_words("0.3 + 0.1*x",
+               {"here: ", "character 11", "\"x\" is not known", "known are p, r, e, pi", "sqrt"});
   expect_words("0.3 + sqr(p)", {"character 7", "did you mean \"sqrt\"?"});
 }
 

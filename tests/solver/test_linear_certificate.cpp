@@ -119,8 +119,8 @@ TEST(CertifiedCurve, IsTheNonlinearOneWithoutASingleContactEvaluation) {
 
 TEST(CertifiedCurve, IsStoppedByItsObserver) {
   int seen = 0;
-  const ResponseCurve curve =
-      trace_response(rubbing(1e6), range(0.5, 3.0), [&](const ResponsePoint&) { return ++seen < 5; });
+  const ResponseCurve curve = trace_response(rubbing(1e6), range(0.5, 3.0),
+                                             [&](const ResponsePoint&) { return ++seen < 5; });
   EXPECT_EQ(curve.diagnosis, "interrupted");
   EXPECT_EQ(seen, 5);
 }
@@ -131,8 +131,8 @@ TEST(CertifiedCurve, OfRandomScenesHoldsWhereTheNonlinearSolverIsAsked) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const tests::RandomScene random = tests::random_scene(seed);
     const HarmonicBalance balance(random.scene, 1);
-    const auto [low, high] = std::minmax(random.options.frequency_begin,
-                                         random.options.frequency_end);
+    const auto [low, high] =
+        std::minmax(random.options.frequency_begin, random.options.frequency_end);
     const LinearCertificate certificate = certify_linear(balance, low, high);
     if (certificate.state == LinearState::unknown) continue;
     ++proved;

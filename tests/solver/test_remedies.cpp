@@ -1,6 +1,6 @@
-// Branches that end: a spring whose force jumps by c where the amplitude passes 1. With c > 0 no solution
-// exists for a range of frequencies, with c < 0 the branches overlap; either way Newton's method can do
-// nothing at the edge, and what happens then is logged and named.
+// Branches that end: a spring whose force jumps by c where the amplitude passes 1. With c > 0 no
+// solution exists for a range of frequencies, with c < 0 the branches overlap; either way Newton's
+// method can do nothing at the edge, and what happens then is logged and named.
 
 #include <algorithm>
 #include <cmath>

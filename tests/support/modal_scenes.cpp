@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "contact/event_law.hpp"
+#include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
 #include "contact/patch_transient.hpp"
 
@@ -202,6 +204,16 @@ solver::Scene turned_scene(const solver::Scene& scene, double phase) {
 void add_transient(solver::Scene& scene) {
   const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
   scene.transient = std::make_unique<contact::PatchTransient>(patch.patch(), patch.shapes());
+}
+
+void use_event_cycles(solver::Scene& scene) {
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  std::vector<std::shared_ptr<const contact::PointLaw>> laws;
+  for (const contact::PointParameters& point : patch.patch().points()) {
+    laws.push_back(std::make_shared<contact::EventLaw>(point));
+  }
+  scene.contact = std::make_unique<contact::LawPatchForce>(patch.patch().weights(), std::move(laws),
+                                                           patch.shapes());
 }
 
 }  // namespace microslip::tests

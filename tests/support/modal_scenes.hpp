@@ -33,5 +33,9 @@ struct PatchScene {
 /// Gives a scene of these builders the same contact for time integration.
 /// @throws std::bad_cast  the contact is not a PatchForce.
 void add_transient(solver::Scene& scene);
+/// Replaces the contact of a scene of these builders by the same points cycled event by event: any
+/// number of harmonics.
+/// @throws std::bad_cast  the contact is not a PatchForce.
+void use_event_cycles(solver::Scene& scene);
 
 }  // namespace microslip::tests

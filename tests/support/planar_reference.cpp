@@ -27,13 +27,17 @@ class March {
 
   PlanarReference run() {
     Pair s{};  // virgin
-    constexpr int most_periods = 3000;
+    constexpr int most_periods = 300;
+    Real moved_before = 0.0L;
     for (int period = 0; period < most_periods; ++period) {
       const Pair before = s;
       reset();
       pass(s);
       const Real moved = std::hypot(k_[0] * (s[0] - before[0]), k_[1] * (s[1] - before[1]));
       if (opens_ || moved < 1e-13L * static_cast<Real>(planar_scale(case_))) break;
+      // What a geometric approach has still ahead.
+      if (period + 1 == most_periods) sum_.doubt = moved * moved / (moved_before - moved);
+      moved_before = moved;
     }
     return sum_;
   }
@@ -160,7 +164,7 @@ PlanarReference planar_reference(const PlanarCase& c, int n_steps) {
   const PlanarReference a = March(c, n_steps).run();
   const PlanarReference b = March(c, 2 * n_steps).run();
   PlanarReference d = March(c, 4 * n_steps).run();
-  Real doubt = 0.0L;
+  Real doubt = std::abs(d.doubt);
   const auto extrapolate = [&doubt](Real coarse, Real middle, Real fine) {
     const Real first = 2.0L * middle - coarse;
     const Real second = 2.0L * fine - middle;
@@ -172,8 +176,7 @@ PlanarReference planar_reference(const PlanarCase& c, int n_steps) {
     d.second[i] = extrapolate(a.second[i], b.second[i], d.second[i]);
   }
   d.doubt = doubt;
-  d.dissipated_energy =
-      extrapolate(a.dissipated_energy, b.dissipated_energy, d.dissipated_energy);
+  d.dissipated_energy = extrapolate(a.dissipated_energy, b.dissipated_energy, d.dissipated_energy);
   return d;
 }
 

@@ -19,10 +19,11 @@ struct PlanarCase {
 };
 
 struct PlanarReference {
-  std::vector<long double> first;   ///< coefficients of f_p in the order of Harmonics, as the motion
-  std::vector<long double> second;  ///< of f_r
+  std::vector<long double> first;  ///< coefficients of f_p in the order of Harmonics, as the motion
+  std::vector<long double> second;       ///< of f_r
   long double dissipated_energy = 0.0L;  ///< ∮ f · ds
-  long double doubt = 0.0L;  ///< largest change by the last extrapolation: bounds the error in practice
+  long double doubt =
+      0.0L;  ///< largest change by the last extrapolation, or way still ahead of the slider
 };
 
 /// @param n_steps  per period in the coarsest of the three marches.

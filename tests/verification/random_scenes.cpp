@@ -1,7 +1,7 @@
-// Random modal scenes (1–6 modes, 1–12 points, parameters log-uniform, seeds 0 … 299) and wilder ones (1–8
-// modes down to 1 % apart, 1–24 points, seeds 0 … 999) with default settings.
-// Each must end in a complete curve or a named diagnosis; every written point carries its proof
-// (theory section 15): residual, energy balance and dissipation mismatch. Invariances of the same scenes:
+// Random modal scenes (1–6 modes, 1–12 points, parameters log-uniform, seeds 0 … 299) and wilder
+// ones (1–8 modes down to 1 % apart, 1–24 points, seeds 0 … 999) with default settings. Each must
+// end in a complete curve or a named diagnosis; every written point carries its proof (theory
+// section 15): residual, energy balance and dissipation mismatch. Invariances of the same scenes:
 // homogeneity (theory 15.4), shift in phase (15.5), reversed sweeps.
 
 #include <algorithm>
@@ -26,8 +26,8 @@ namespace {
 constexpr int n_scenes = 300;
 constexpr int n_wild_scenes = 1000;
 constexpr double certificate = 1e-10;  // every written point of every curve
-// A fully stuck point far from resonance with a damping ratio of 1e-5 exchanges 1e-7 of what its works
-// are differences of: eps divided by that is the accuracy there is.
+// A fully stuck point far from resonance with a damping ratio of 1e-5 exchanges 1e-7 of what its
+// works are differences of: eps divided by that is the accuracy there is.
 constexpr double inherent = 3e-9;
 constexpr double time_cap = 20.0;  // s per scene; the slowest takes some 3 s on a loaded core
 
@@ -46,7 +46,8 @@ class Campaign {
     slowest_ = std::max(slowest_, elapsed());
     const std::string whole = curve.certificate.empty() ? "complete" : "complete, certified";
     ++outcomes_[curve.complete ? whole : curve.diagnosis];
-    if (!curve.complete) std::printf("seed %d: %s\n", static_cast<int>(seed), curve.message.c_str());
+    if (!curve.complete)
+      std::printf("seed %d: %s\n", static_cast<int>(seed), curve.message.c_str());
     for (const auto& event : curve.log) ++remedies_[event.remedy];
     iterations_ += curve.iterations;
     evaluations_ += curve.contact_evaluations;
@@ -61,11 +62,12 @@ class Campaign {
 
   void print() const {
     for (const auto& [name, count] : outcomes_) std::printf("%-22s %6d\n", name.c_str(), count);
-    for (const auto& [name, count] : remedies_) std::printf("  remedy %-15s %4d\n", name.c_str(), count);
+    for (const auto& [name, count] : remedies_)
+      std::printf("  remedy %-15s %4d\n", name.c_str(), count);
     std::printf("%zu points, %ld iterations, %ld contact evaluations, slowest scene %.1f s\n",
                 n_points_, iterations_, evaluations_, slowest_);
-    std::printf("largest residual %.1e, energy imbalance %.1e, dissipation mismatch %.1e\n", residual,
-                imbalance, mismatch);
+    std::printf("largest residual %.1e, energy imbalance %.1e, dissipation mismatch %.1e\n",
+                residual, imbalance, mismatch);
   }
 
   [[nodiscard]] int n_complete() const {
@@ -144,7 +146,8 @@ TEST(RandomScenes, HaveThePeaksThatAreFollowedOnTheirWholeCurves) {
       difference = std::max(difference, std::abs(peak.amplitude - highest) / highest);
     }
   }
-  std::printf("%zu peaks, %d whole curves, largest difference %.1e\n", n_values, n_curves, difference);
+  std::printf("%zu peaks, %d whole curves, largest difference %.1e\n", n_values, n_curves,
+              difference);
   EXPECT_GT(n_values, 100U);
   EXPECT_LE(difference, 1e-8);  // two solutions of one peak, at a kink perhaps
 }
@@ -159,8 +162,7 @@ solver::ContinuationOptions three_dof_range() {
 
 TEST(ThreeDegreesOfFreedom, JumpAtThePreloadsPaperBNames) {
   for (const double preload : {25.0, 30.0, 50.0}) {
-    const auto curve =
-        solver::trace_response(tests::three_dof_scene(preload), three_dof_range());
+    const auto curve = solver::trace_response(tests::three_dof_scene(preload), three_dof_range());
     int folds = 0;
     int unstable = 0;
     for (const auto& point : curve.points) {
@@ -188,7 +190,8 @@ TEST(ThreeDegreesOfFreedom, ForcesAndPreloadsTimesAPowerOfTwoScaleTheResponseBit
 
 TEST(ThreeDegreesOfFreedom, AnyOtherFactorScalesTheResponseToRounding) {
   const double omega = 2.0 * M_PI * 20.5;  // away from folds at both loads
-  const auto one = solver::solve_at_frequency(tests::three_dof_scene(100.0), omega, three_dof_range());
+  const auto one =
+      solver::solve_at_frequency(tests::three_dof_scene(100.0), omega, three_dof_range());
   const auto three =
       solver::solve_at_frequency(tests::three_dof_scene(300.0, 3.0), omega, three_dof_range());
   ASSERT_TRUE(one.complete && three.complete);
@@ -199,7 +202,8 @@ TEST(ThreeDegreesOfFreedom, AnyOtherFactorScalesTheResponseToRounding) {
 TEST(ThreeDegreesOfFreedom, ShiftingTheForceInPhaseShiftsTheResponse) {
   const double omega = 2.0 * M_PI * 20.5;
   const double angle = 0.7;
-  const auto one = solver::solve_at_frequency(tests::three_dof_scene(100.0), omega, three_dof_range());
+  const auto one =
+      solver::solve_at_frequency(tests::three_dof_scene(100.0), omega, three_dof_range());
   solver::Scene turned = tests::three_dof_scene(100.0);
   const Eigen::RowVectorXd force = turned.excitation.rows().row(1);
   turned.excitation.rows().row(1) = std::cos(angle) * force;
@@ -208,9 +212,9 @@ TEST(ThreeDegreesOfFreedom, ShiftingTheForceInPhaseShiftsTheResponse) {
   ASSERT_TRUE(one.complete && other.complete);
   EXPECT_NEAR(other.points.front().amplitude, one.points.front().amplitude,
               1e-11 * one.points.front().amplitude);
-  EXPECT_NEAR(std::remainder(other.points.front().phase - one.points.front().phase - angle,
-                             2.0 * M_PI),
-              0.0, 1e-10);
+  EXPECT_NEAR(
+      std::remainder(other.points.front().phase - one.points.front().phase - angle, 2.0 * M_PI),
+      0.0, 1e-10);
 }
 
 TEST(ThreeDegreesOfFreedom, MirroredMotionUnderConstantLoadMirrorsTheResponse) {
@@ -256,12 +260,14 @@ TEST(LinearLimits, AreReachedExactly) {
   for (const double omega : {0.3, 1.0, 1.7, 1.732, 2.5}) {
     const auto stuck = solver::solve_at_frequency(tests::single_point_scene(single), omega, {});
     ASSERT_TRUE(stuck.complete);
-    EXPECT_NEAR(stuck.points.front().amplitude, stiffness(2.0, omega), 1e-12 * stiffness(2.0, omega));
+    EXPECT_NEAR(stuck.points.front().amplitude, stiffness(2.0, omega),
+                1e-12 * stiffness(2.0, omega));
   }
   single.point.friction_coefficient = 0.0;
   for (const double omega : {0.3, 1.0, 1.7}) {
     const auto free = solver::solve_at_frequency(tests::single_point_scene(single), omega, {});
-    EXPECT_NEAR(free.points.front().amplitude, stiffness(0.0, omega), 1e-12 * stiffness(0.0, omega));
+    EXPECT_NEAR(free.points.front().amplitude, stiffness(0.0, omega),
+                1e-12 * stiffness(0.0, omega));
   }
 }
 

@@ -2,11 +2,13 @@
 //
 //   K R = 0,   R = [e₁ e₂ e₃, e₁ × x, e₂ × x, e₃ × x],
 //
-// and nothing else does. Boxes of curved and distorted elements of each type, and the default blade.
+// and nothing else does. Boxes of curved and distorted elements of each type, and the default
+// blade.
 //
-// Source: Géradin & Rixen, Mechanical Vibrations (2015), section 2.2 (free–free systems). Every element
-// type holds R exactly, also where it is curved (isoparametric), so that only rounding is left: of K,
-// ε‖K‖ against its elastic part, about 1e-16 λ_max/λ_7 ≤ 1e-10 here, and 1e-8 is asked of the space.
+// Source: Géradin & Rixen, Mechanical Vibrations (2015), section 2.2 (free–free systems). Every
+// element type holds R exactly, also where it is curved (isoparametric), so that only rounding is
+// left: of K, ε‖K‖ against its elastic part, about 1e-16 λ_max/λ_7 ≤ 1e-10 here, and 1e-8 is asked
+// of the space.
 #include <sys/wait.h>
 
 #include <cmath>
@@ -17,9 +19,9 @@
 #include <numbers>
 #include <string>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <gtest/gtest.h>
 
 #include "fem/modal_analysis.hpp"
 #include "fem/slepc_session.hpp"
@@ -37,7 +39,8 @@ using mesh::ElementType;
 const fem::Material titanium{1.14e11, 0.32, 4430.0};
 
 Eigen::Vector3d distort(const Eigen::Vector3d& x) {
-  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]), std::sin(5.0 * x[0] - 4.0 * x[2]),
+  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]),
+                                    std::sin(5.0 * x[0] - 4.0 * x[2]),
                                     std::cos(6.0 * x[0] + 2.0 * x[1]));
 }
 
@@ -53,7 +56,8 @@ mesh::Mesh default_blade() {
 
 /// Orthonormal columns that span what the given ones span.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& X) {
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(X).householderQ() * Eigen::MatrixXd::Identity(X.rows(), X.cols());
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(X).householderQ() *
+         Eigen::MatrixXd::Identity(X.rows(), X.cols());
 }
 
 /// Translations and rotations of all nodes, lengths measured in the size of the body.
@@ -82,9 +86,12 @@ void expect_six_rigid_modes(const mesh::Mesh& mesh, const char* name) {
   fem::Structure structure(mesh, titanium, {});
   const fem::ModalBasis basis = structure.solve_modes({.n_modes = 8});
   const double error = distance(basis.shapes.leftCols(6), rigid_motions(mesh));
-  std::printf("%-6s rigid-body modes: %td (6 expected); inertia count up to mode 8: %td (8); mode 7: %.2f Hz; "
-              "space against R: %.1e (below 1e-8)\n",
-              name, basis.n_rigid_body, basis.inertia_count, basis.frequency[6] / (2.0 * std::numbers::pi), error);
+  std::printf(
+      "%-6s rigid-body modes: %td (6 expected); inertia count up to mode 8: %td (8); mode 7: %.2f "
+      "Hz; "
+      "space against R: %.1e (below 1e-8)\n",
+      name, basis.n_rigid_body, basis.inertia_count, basis.frequency[6] / (2.0 * std::numbers::pi),
+      error);
   EXPECT_EQ(basis.n_rigid_body, 6);
   EXPECT_EQ(basis.frequency.head(6), Eigen::VectorXd::Zero(6));
   EXPECT_GT(basis.frequency[6], 0.0);
@@ -101,20 +108,24 @@ TEST_P(RigidBodyModes, AreTheSixZerosOfTheFullMatrices) {
   const Eigen::VectorXd values = dense.eigenvalues();
   const Eigen::MatrixXd R = orthonormal(rigid_motions(mesh));
   const double force = (dense.K * R).norm() / dense.K.norm();
-  std::printf("%-6s |lambda_6| / lambda_7: %.1e (below 1e-10); ||K R|| / ||K||: %.1e (below 1e-13)\n",
-              mesh::name(GetParam()), values.head(6).cwiseAbs().maxCoeff() / values[6], force);
+  std::printf(
+      "%-6s |lambda_6| / lambda_7: %.1e (below 1e-10); ||K R|| / ||K||: %.1e (below 1e-13)\n",
+      mesh::name(GetParam()), values.head(6).cwiseAbs().maxCoeff() / values[6], force);
   EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-10 * values[6]);
   EXPECT_LT(force, 1e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, RigidBodyModes,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20),
+                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
+                                         ElementType::hex20),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 TEST(RigidBodyModes, AreFoundAndSpanTranslationsAndRotations) {
-  const mesh::Mesh blade = default_blade();  // before PETSc is opened: the mesher is a child process
-  const fem::SlepcSession session;           // one per process
-  for (const ElementType type : {ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20}) {
+  const mesh::Mesh blade =
+      default_blade();              // before PETSc is opened: the mesher is a child process
+  const fem::SlepcSession session;  // one per process
+  for (const ElementType type :
+       {ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20}) {
     expect_six_rigid_modes(distorted_box(type), mesh::name(type));
   }
   expect_six_rigid_modes(blade, "blade");
@@ -139,7 +150,8 @@ count = 8
 )";
   const std::string at = folder.path().string();
   const int status = std::system(("'" MICROSLIP_PROGRAM "' modes '" + at + "/free.toml' -o '" + at +
-                                  "/run' > '" + at + "/out' 2> '" + at + "/err'").c_str());
+                                  "/run' > '" + at + "/out' 2> '" + at + "/err'")
+                                     .c_str());
   ASSERT_TRUE(WIFEXITED(status));
   const std::string err = content_of(folder.path() / "err");
   EXPECT_EQ(WEXITSTATUS(status), 0) << err;

@@ -1,0 +1,26 @@
+/// @file
+/// Search for solutions that the sweep does not meet: isolas, and branches that coexist over the whole
+/// range. At a few frequencies Newton's method is started from several places with the known solutions
+/// x_k divided out ("deflation"):
+///
+///   F(x) = m(x) R(x),     m = Π_k ( σ²/‖x − x_k‖² + 1 )
+///
+/// so that it cannot find them again; its step is Newton's own, scaled: with g = ∇m/m
+///
+///   δ = −J⁻¹R / (1 + gᵀ J⁻¹R)
+///
+/// What is found is followed both ways to the ends of its branch. Nothing found proves nothing.
+///
+/// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015) A2026,
+/// power 2, shift 1; starts and following are this project's.
+#pragma once
+
+#include "solver/continuation.hpp"
+
+namespace microslip::solver {
+
+/// Adds the branches found, the number of starts and the work to the curve.
+/// @param curve    of the scene over the range of the options; its solutions are the known ones.
+void search_branches(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve);
+
+}  // namespace microslip::solver

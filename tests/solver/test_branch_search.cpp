@@ -1,0 +1,133 @@
+// Branches that no sweep meets (rows 43 and 50b of the project's list of hard cases).
+
+#include "solver/branch_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/duffing.hpp"
+#include "tests/support/random_scene.hpp"
+
+namespace microslip::solver {
+namespace {
+
+/// Damping that depends on the amplitude, G = d(S) (−x_c, x_s) with S = x_s² + x_c² and
+/// d = 0.1 + exp(−(S − 4)²): with F = 0.5 and ω₀ = 1
+///   (1 − ω²)² = F²/S − d²
+/// has solutions for small S, on the curve, and again between S = 5.5 and 25: an isola.
+class HumpedDamping final : public contact::ModalForce {
+ public:
+  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return Eigen::MatrixXd::Zero(1, 1);
+  }
+  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/,
+                                            double /*frequency*/) const override {
+    return {};
+  }
+  static double damping(double square) { return 0.1 + std::exp(-(square - 4.0) * (square - 4.0)); }
+  [[nodiscard]] contact::ForceAndJacobian evaluate(const Harmonics& q,
+                                                   double /*frequency*/) const override {
+    const double s = q.rows()(1, 0);
+    const double c = q.rows()(2, 0);
+    const double square = s * s + c * c;
+    const double d = damping(square);
+    const double slope = -2.0 * (square - 4.0) * (d - 0.1);
+    contact::ForceAndJacobian result;
+    result.force = Harmonics(1, 1);
+    result.force.vector() << 0.0, -d * c, d * s;
+    result.jacobian = Eigen::MatrixXd::Zero(3, 3);
+    result.jacobian.bottomRightCorner(2, 2) << -2.0 * s * c * slope, -d - 2.0 * c * c * slope,
+        d + 2.0 * s * s * slope, 2.0 * s * c * slope;
+    result.frequency_derivative = Eigen::VectorXd::Zero(3);
+    return result;
+  }
+};
+
+Scene with_isola() {
+  Scene scene;
+  scene.natural_frequency = Eigen::VectorXd::Ones(1);
+  scene.damping_ratio = Eigen::VectorXd::Zero(1);
+  scene.output = Eigen::VectorXd::Ones(1);
+  scene.excitation = Harmonics(1, 1);
+  scene.excitation.rows()(1, 0) = 0.5;
+  scene.contact = std::make_unique<HumpedDamping>();
+  return scene;
+}
+
+ContinuationOptions range(double begin, double end, int starts) {
+  ContinuationOptions options;
+  options.frequency_begin = begin;
+  options.frequency_end = end;
+  options.search_starts = starts;
+  return options;
+}
+
+TEST(BranchSearch, FindsAnIsola) {
+  const ResponseCurve curve = trace_response(with_isola(), range(0.6, 1.4, 12));
+  ASSERT_TRUE(curve.complete) << curve.diagnosis;
+  EXPECT_EQ(curve.n_starts, 7 * 12);
+  ASSERT_EQ(curve.detached.size(), 1U);
+  const DetachedBranch& isola = curve.detached[0];
+  EXPECT_TRUE(isola.closed);
+  double largest = 0.0;
+  for (const ResponsePoint& point : isola.points) {
+    const double square = point.amplitude * point.amplitude;
+    const double stiffness = 1.0 - point.frequency * point.frequency;
+    const double d = HumpedDamping::damping(square);
+    EXPECT_NEAR((stiffness * stiffness + d * d) * square, 0.25, 1e-10);
+    largest = std::max(largest, point.amplitude);
+  }
+  EXPECT_NEAR(largest, 5.0, 1e-6);  // F/d far from the hump, at a solved peak
+  for (const ResponsePoint& point : curve.points) EXPECT_LT(point.amplitude, 2.0);
+}
+
+TEST(BranchSearch, FindsTheContactingBranchBesideAProvedFreeOne) {
+  // Row 50b. Gap 2, k_v twice the stiffness: above 1.15 rad/s the free amplitude stays below 0.62.
+  tests::SinglePoint single;
+  single.point = {0.0, 2.0, 0.0, -4.0};
+  single.phi_v = 1.0;
+  single.force = 0.2;
+  const Scene scene = tests::single_point_scene(single);
+  const ResponseCurve curve = trace_response(scene, range(1.15, 1.5, 12));
+  ASSERT_TRUE(curve.complete);
+  EXPECT_NE(curve.certificate.find("free"), std::string::npos) << curve.certificate;
+  ASSERT_FALSE(curve.detached.empty());
+  for (const ResponsePoint& point : curve.detached[0].points) {
+    EXPECT_LT(point.report.separated_share, 1.0);
+    EXPECT_GT(point.amplitude, 2.0);
+    EXPECT_LT(point.energy_imbalance, 1e-10);
+  }
+  EXPECT_FALSE(curve.detached[0].closed);
+}
+
+TEST(BranchSearch, FindsNothingWhereThereIsNothing) {
+  // Hardening spring below its fold: one solution everywhere.
+  tests::Duffing duffing;
+  duffing.force = 0.01;
+  const ResponseCurve curve = trace_response(duffing.scene(), range(0.7, 1.5, 6));
+  ASSERT_TRUE(curve.complete);
+  EXPECT_TRUE(curve.detached.empty());
+  EXPECT_EQ(curve.n_starts, 42);
+}
+
+TEST(BranchSearch, KnowsTheFoldsOfTheCurveItself) {
+  // Three solutions at one frequency, all on the curve: none of them is detached.
+  tests::Duffing duffing;
+  const ResponseCurve curve = trace_response(duffing.scene(), range(0.7, 4.0, 6));
+  ASSERT_TRUE(curve.complete);
+  EXPECT_TRUE(curve.detached.empty());
+}
+
+TEST(BranchSearch, IsNotMadeUnlessAskedFor) {
+  const ResponseCurve curve = trace_response(with_isola(), range(0.6, 1.4, 0));
+  EXPECT_EQ(curve.n_starts, 0);
+  EXPECT_TRUE(curve.detached.empty());
+}
+
+}  // namespace
+}  // namespace microslip::solver
