@@ -1,7 +1,9 @@
 #include "pipelines/contact_section.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -105,6 +107,66 @@ std::optional<contact::RoughSurface> roughness_in(const SectionReader& s) {
                         : contact::RoughSurface::matching_gaussian(height);
 }
 
+/// A number, an expression in p and r, or { file = … }. The completed scene keeps the absolute path.
+FieldDescription field_in(SectionReader& s, std::string_view key,
+                          const std::filesystem::path& folder, const char* unit) {
+  const toml::node& node = *s.node(key);
+  FieldDescription field;
+  field.place = place_of(&node, s.file()) + ": " + s.path() + "." + std::string(key);
+  if (const toml::table* table = node.as_table()) {
+    const bool expression = table->contains("expression");
+    const auto text = (*table)[expression ? "expression" : "file"].value<std::string>();
+    if (!text || table->size() != 1) {
+      s.fail(key, "expected { expression = \"…\" } or { file = \"….csv\" }", &node);
+    }
+    if (expression) {
+      field.value = FieldExpression{*text};
+      return field;
+    }
+    const std::filesystem::path file = *text;
+    field.value = FieldTable{file.is_absolute() ? file : folder / file};
+    toml::table complete;
+    complete.is_inline(true);
+    complete.insert_or_assign("file", std::get<FieldTable>(field.value).file.string());
+    s.complete(key, std::move(complete));
+    return field;
+  }
+  if (!node.is_string()) {
+    field.value = s.number_in(node, key);
+    return field;
+  }
+  const std::string text = *node.value<std::string>();
+  try {
+    field.value = to_si(text, unit);
+  } catch (const UnitError&) {  // no quantity, so an expression: its own messages follow
+    field.value = FieldExpression{text};
+  }
+  return field;
+}
+
+void read_preload(SectionReader& s, const std::filesystem::path& folder,
+                  ContactDescription& contact) {
+  const toml::node& field = *s.node("preload_field");
+  if (!(field.is_string() && *field.value<std::string>() == "uniform")) {
+    contact.preload_field = field_in(s, "preload_field", folder, "Pa");
+  }
+  const toml::node& moment = *s.node("preload_moment");
+  const toml::array* list = moment.as_array();
+  if (list == nullptr || list->size() != 2) {
+    s.fail("preload_moment", "expected [M_p, M_r], the moments about p and r", &moment);
+  }
+  contact.preload_moment = {s.number_in(*list->get(0), "preload_moment"),
+                            s.number_in(*list->get(1), "preload_moment")};
+  const bool turned = contact.preload_moment[0] != 0.0 || contact.preload_moment[1] != 0.0;
+  if (turned && contact.preload_field) {
+    s.fail("preload_moment", "a preload_field has its own moments; give one of the two", &moment);
+  }
+  if (turned && s.given("roughness")) {
+    s.fail("preload_moment", "rough surfaces under a moment are not available in this version",
+           &moment);
+  }
+}
+
 void read_fit(const SectionReader& s, ContactDescription& contact) {
   const toml::node& fit = *s.node("fit");
   if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
@@ -125,7 +187,8 @@ void read_fit(const SectionReader& s, ContactDescription& contact) {
 
 }  // namespace
 
-ContactDescription read_contact(const SectionReader& s, ContactLaws& laws) {
+ContactDescription read_contact(SectionReader s, const std::filesystem::path& folder,
+                                ContactLaws& laws) {
   ContactDescription contact;
   if (const toml::node* surface = s.node("surface"); surface->is_array()) {
     s.fail("surface", "two facing bodies are not available in this version; name one surface",
@@ -135,15 +198,17 @@ ContactDescription read_contact(const SectionReader& s, ContactLaws& laws) {
   contact.place = s.place("surface");
   contact.slip_direction = s.direction("slip_direction");
   const toml::node& friction = *s.node("friction_coefficient");
-  if (const toml::table* law = friction.as_table()) {
+  if (const toml::table* law = friction.as_table(); law != nullptr && !law->contains("file")) {
     laws.friction = friction_law_in(s, "friction_coefficient", *law);
-    contact.friction_coefficient = laws.friction->at_rest();
+    contact.friction.value = laws.friction->at_rest();
   } else {
-    contact.friction_coefficient = s.number("friction_coefficient");
+    contact.friction = field_in(s, "friction_coefficient", folder, "1");
+    contact.friction.low = 0.0;
   }
   contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
   laws.roughness = roughness_in(s);
+  read_preload(s, folder, contact);
   contact.wear_coefficient = s.number("wear_coefficient");
   contact.n_points = s.integer("points");
   read_fit(s, contact);

@@ -2,13 +2,16 @@
 /// The [contact] section: surface, stiffness, friction and the laws of the two surfaces.
 #pragma once
 
+#include <filesystem>
+
 #include "pipelines/scene_description.hpp"
 #include "pipelines/section_reader.hpp"
 
 namespace microslip::pipelines {
 
-/// Kinds with a mesh.
-[[nodiscard]] ContactDescription read_contact(const SectionReader& section, ContactLaws& laws);
+/// Kinds with a mesh. @param folder  relative files start here.
+[[nodiscard]] ContactDescription read_contact(SectionReader section, const std::filesystem::path& folder,
+                                              ContactLaws& laws);
 
 /// Modal scenes: laws beside the constants that the points carry.
 /// @param wear_coefficient  [m²/N], written.

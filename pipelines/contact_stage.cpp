@@ -3,11 +3,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "contact/modal_contact_field.hpp"
+#include "contact/preload_field.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -141,6 +143,35 @@ void set_stiffness(ReducedModel& model, const ContactDescription& contact,
   }
 }
 
+/// Friction coefficient and preload of 1 N over the patch, in p and r from its centroid.
+void set_fields(ReducedModel& model, const ContactDescription& contact) {
+  const Eigen::Vector3d origin = patch_centroid(model);
+  const auto centres = in_plane(model.points, origin, model.frame);
+  const auto vertices = in_plane(model.vertices, origin, model.frame);
+  const Field friction(contact.friction);
+  model.friction_coefficient = friction.at(centres.p, centres.r);
+  model.vertex_friction_coefficient = friction.at(vertices.p, vertices.r);
+  model.preload_moment = contact.preload_moment;
+  if (!contact.preload_field) {
+    model.preload = contact::uniform_preload(model.weights, 1.0);
+    model.vertex_preload =
+        Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / model.weights.sum());
+    return;
+  }
+  const Field field(*contact.preload_field);
+  const Eigen::VectorXd shape = field.at(centres.p, centres.r);
+  try {
+    model.preload = contact::scaled_preload(shape, model.weights, 1.0);
+    contact::require_total(model.preload, model.weights, 1.0, 1e-12);
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(contact.preload_field->place + ": " + error.what());
+  }
+  Eigen::Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  model.vertex_preload =
+      field.at(vertices.p, vertices.r) * (model.preload[largest] / shape[largest]);
+}
+
 void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescription& contact,
                  const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
   const mesh::Surface& surface = mesh.surface(contact.surface);
@@ -163,14 +194,7 @@ void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescr
   model.shapes = std::move(shapes.centres);
   model.vertex_shapes = std::move(shapes.vertices);
   set_stiffness(model, contact, sampling, residual);
-  const Eigen::Index n = model.weights.size();
-  const Eigen::Index n_vertices = model.vertices.rows();
-  const double unit_pressure = 1.0 / model.weights.sum();
-  model.friction_coefficient = Eigen::VectorXd::Constant(n, contact.friction_coefficient);
-  model.vertex_friction_coefficient =
-      Eigen::VectorXd::Constant(n_vertices, contact.friction_coefficient);
-  model.preload = Eigen::VectorXd::Constant(n, unit_pressure);
-  model.vertex_preload = Eigen::VectorXd::Constant(n_vertices, unit_pressure);
+  set_fields(model, contact);
 }
 
 void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
@@ -192,6 +216,10 @@ void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
 }
 
 }  // namespace
+
+Eigen::Vector3d patch_centroid(const ReducedModel& model) {
+  return model.points.transpose() * model.weights / model.weights.sum();
+}
 
 Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& contact) {
   const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));

@@ -18,6 +18,9 @@ namespace microslip::pipelines {
 [[nodiscard]] Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh,
                                             const ContactDescription& contact);
 
+/// Area-weighted mean of the contact points [m].
+[[nodiscard]] Eigen::Vector3d patch_centroid(const ReducedModel& model);
+
 /// Damping ratio of each mode. @param frequency  ω_n [rad/s].
 /// @throws SceneError  a list of another length than the modes, or α ≠ 0 with a rigid-body mode.
 [[nodiscard]] Eigen::VectorXd damping_ratios(const ModesDescription& modes,

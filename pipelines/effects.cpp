@@ -26,7 +26,7 @@ ContactFacts facts_of(const SceneDescription& scene) {
                                              [](const auto& p) { return p.normal_stiffness > 0.0; });
   } else if (scene.contact) {
     facts.has_contact = true;
-    facts.has_friction = scene.contact->friction_coefficient > 0.0;
+    facts.has_friction = !scene.contact->friction.is_zero();
     facts.has_normal_stiffness = scene.contact->normal_stiffness.value_or(1.0) > 0.0;
   }
   return facts;

@@ -30,6 +30,11 @@ struct FieldDescription {
   std::string place;        ///< e.g. "scene.toml:12: contact.friction_coefficient"
   double low = -unbounded;  ///< low ≤ value ≤ high everywhere
   double high = unbounded;
+
+  [[nodiscard]] bool is_zero() const {
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr && *number == 0.0;
+  }
 };
 
 /// The field ready for use: expressions parsed, tables read. Copies share what is inside, which does not

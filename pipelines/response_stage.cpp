@@ -9,7 +9,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "contact/preload_equilibrium.hpp"
 #include "pipelines/contact_effects.hpp"
+#include "pipelines/contact_stage.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/time_response.hpp"
 
@@ -23,6 +25,36 @@ Eigen::VectorXd pressures(const Eigen::VectorXd& unit, const Eigen::VectorXd& no
                           double total_stiffness, double load) {
   if (load >= 0.0 || unit.size() == 0 || total_stiffness == 0.0) return load * unit;
   return (load / total_stiffness) * normal_stiffness;
+}
+
+bool has_moment(const ReducedModel& model) {
+  return model.preload_moment[0] != 0.0 || model.preload_moment[1] != 0.0;
+}
+
+/// Bodies that tilt against each other under a force and moments (theory section 12). A point that lifts
+/// off has a gap: negative pressure.
+Eigen::VectorXd tilted_pressures(const ReducedModel& model, double load, bool on_vertices) {
+  const Eigen::Vector3d origin = patch_centroid(model);
+  const auto along = [&](const Eigen::MatrixX3d& points, int axis) -> Eigen::VectorXd {
+    return (points.rowwise() - origin.transpose()) * model.frame.row(axis).transpose();
+  };
+  if (!(model.normal_stiffness.minCoeff() > 0.0)) {
+    throw RefusedError("contact.preload_moment: bodies that tilt need a normal contact stiffness");
+  }
+  try {
+    const contact::ContactArea area({along(model.points, 2), along(model.points, 0), model.weights});
+    const contact::PreloadEquilibrium rest = contact::preload_equilibrium(
+        area, contact::one_sided_springs(model.normal_stiffness),
+        {.force = load, .moment_y = model.preload_moment[1], .moment_z = model.preload_moment[0]});
+    const Eigen::MatrixX3d& points = on_vertices ? model.vertices : model.points;
+    const Eigen::VectorXd& stiffness =
+        on_vertices ? model.vertex_normal_stiffness : model.normal_stiffness;
+    const Eigen::ArrayXd approach = rest.approach + along(points, 0).array() * rest.rotation_y -
+                                    along(points, 2).array() * rest.rotation_z;
+    return stiffness.array() * approach;
+  } catch (const contact::PreloadError& error) {
+    throw RefusedError(fmt::format("preload-unbalanced: contact.preload_moment: {}", error.what()));
+  }
 }
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
@@ -105,7 +137,9 @@ std::vector<contact::PointParameters> point_parameters(const ReducedModel& model
   if (in_newtons && load < 0.0 && total <= 0.0) {
     throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
   }
-  Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
+  Eigen::VectorXd preload = has_moment(model) && load > 0.0
+                                ? tilted_pressures(model, load, on_vertices)
+                                : pressures(unit, stiffness, total, load);
   if (!on_vertices && model.preload_offset.size() > 0) preload += model.preload_offset;
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(preload.size()));
   for (Eigen::Index i = 0; i < preload.size(); ++i) {

@@ -17,6 +17,7 @@
 #include "contact/rough_surface.hpp"
 #include "fem/material.hpp"
 #include "mesh/blade_geometry.hpp"
+#include "pipelines/field_description.hpp"
 
 namespace microslip::pipelines {
 
@@ -67,7 +68,9 @@ struct ContactDescription {
   std::string surface;
   std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
-  double friction_coefficient = 0.0;
+  FieldDescription friction;                       ///< μ over the patch, in p and r from its centroid
+  std::optional<FieldDescription> preload_field;   ///< shape of the preload; none: uniform
+  std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
   std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
   std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
   enum class Fit { automatic, degree, none } fit = Fit::automatic;

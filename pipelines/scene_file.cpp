@@ -404,7 +404,7 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   scene.clamped_place = supports.place("clamped");
   scene.modes = read_modes(reading.section("modes", "modes"));
   if (reading.given.contains("contact")) {
-    scene.contact = read_contact(reading.section("contact", "contact"), scene.laws);
+    scene.contact = read_contact(reading.section("contact", "contact"), reading.folder, scene.laws);
   }
   SectionReader excitation = reading.section("excitation", "excitation");
   scene.forces = read_forces(excitation);

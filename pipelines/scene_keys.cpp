@@ -166,9 +166,15 @@ constexpr std::array contact_keys{
     KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
     KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
     KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
-            "μ, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "μ: a number, an expression in p and r [m] from the centroid of the patch, { file = \"mu.csv\" } with "
+            "columns p, r, value, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
             "{ law = \"hyperbolic\", static = …, rate = … }"},
     roughness_key,
+    KeySpec{"preload_field", other, "Pa", "\"uniform\"", -unbounded, unbounded, false,
+            "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or { file = … }; "
+            "negative: a gap"},
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
+            "about p and r through the centroid, beside each preload; cells may lift off"},
     KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
             "local stiffness per area, or \"rigid\": the residual stiffness alone"},
     KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
