@@ -223,8 +223,8 @@ TEST(SceneFile, NumbersOfTheCompletedSceneKeepEveryDigitAndNoMore) {
   for (const char* number : {"0.10000000000000002", "0.3", "1e-300", "2.0", "3"}) {
     const std::string assignment = std::string("contact.friction_coefficient=") + number;
     const SceneDescription scene = parse(blade_text, {assignment});
-    EXPECT_EQ(parse(scene.complete_toml).contact->friction_coefficient,
-              scene.contact->friction_coefficient);
+    EXPECT_EQ(std::get<double>(parse(scene.complete_toml).contact->friction.value),
+              std::get<double>(scene.contact->friction.value));
     EXPECT_NE(scene.complete_toml.find(std::string("friction_coefficient = ") + number + "\n"),
               std::string::npos)
         << scene.complete_toml;
