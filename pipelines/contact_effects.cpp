@@ -27,6 +27,8 @@ namespace {
 // square, 0.1 %.
 constexpr double negligible_ratio = 0.03;
 constexpr int n_trial_frequencies = 200;
+// As far as the residual of the balance is driven down: coarser, its noise turns branches back.
+constexpr double planar_tolerance = 1e-11;
 
 std::string setting_of(const SceneDescription& scene, const char* name) {
   for (const auto& [effect, setting] : scene.effects) {
@@ -121,6 +123,9 @@ double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& s
 ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
   ContactEffects effects;
   effects.n_harmonics = scene.response ? scene.response->harmonics : 1;
+  if (scene.response && scene.response->method == ResponseDescription::Method::time) {
+    effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
+  }
   effects.friction_law = scene.laws.friction;
   effects.roughness = scene.laws.roughness;
   const std::string setting = setting_of(scene, "second_direction");
@@ -179,7 +184,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
         point, second[row], friction, effects,
         compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
     if (effects.second_direction) {
-      laws.push_back(std::make_shared<contact::PlanarLaw>(surface));
+      laws.push_back(std::make_shared<contact::PlanarLaw>(surface, planar_tolerance));
     } else {
       laws.push_back(std::make_shared<contact::SampledLaw>(surface));
     }

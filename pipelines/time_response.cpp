@@ -38,7 +38,7 @@ solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                       const ResponseDescription& response,
                                       const solver::PointObserver& observe) {
   solver::TimeOptions options;
-  options.n_harmonics = std::max(response.harmonics, options.n_harmonics);
+  options.n_harmonics = std::max(response.harmonics, least_harmonics_of_time);
   solver::ResponseCurve curve;
   int n_left_out = 0;
   solver::TimeState state;
