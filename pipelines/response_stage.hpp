@@ -55,6 +55,12 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
 /// @throws SceneError  no bounds can be told.
 [[nodiscard]] solver::Optimum best_preload(const ReducedModel& model, const SceneDescription& scene);
 
+/// What the unknown contact data do to the best preload: searched again with friction coefficient and
+/// contact stiffness × 0.5 and × 2.
+/// @throws SceneError  as best_preload().
+[[nodiscard]] std::vector<OptimumOfFactor> optimum_bracket(const ReducedModel& model,
+                                                           const SceneDescription& scene);
+
 /// The highest solved peak; without one the largest point. nullptr: no points.
 [[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
 

@@ -211,6 +211,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }
+  if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
   summary_.curves.push_back(std::move(summary));
@@ -238,6 +239,16 @@ void RunRecord::keep_optimum(const solver::Optimum& optimum) {
   const std::lock_guard lock(mutex_);
   summary_.optimum = optimum;
   write_optimum_csv(folder_ / "peak_against_preload.csv", optimum);
+}
+
+void RunRecord::keep_bracket(std::vector<OptimumOfFactor> bracket) {
+  for (const OptimumOfFactor& entry : bracket) {
+    progress_.info(fmt::format("best preload with {} x {:g}: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
+                               entry.parameter, entry.factor, entry.best.parameter,
+                               entry.best.amplitude, to_hz * entry.best.frequency));
+  }
+  const std::lock_guard lock(mutex_);
+  summary_.optimum_bracket = std::move(bracket);
 }
 
 void RunRecord::keep_summary() {

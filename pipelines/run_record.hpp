@@ -57,6 +57,7 @@ class RunRecord {
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
   void keep_optimum(const solver::Optimum& optimum);
+  void keep_bracket(std::vector<OptimumOfFactor> bracket);
   void keep_summary();
 
  private:

@@ -81,6 +81,13 @@ struct CurveResult {
   std::vector<NamedMap> maps;
 };
 
+/// The best preload when one uncertain number of the contact is multiplied.
+struct OptimumOfFactor {
+  std::string parameter;  ///< friction_coefficient | contact_stiffness
+  double factor = 1.0;
+  solver::PeakOfParameter best;
+};
+
 struct StageRecord {
   std::string name;
   double seconds = 0.0;

@@ -98,12 +98,16 @@ using PreloadEntry = std::variant<double, LimitName>;  ///< [N], or a linear lim
 enum class MapName { peak, folds };
 using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 
+/// A motion integrated in time has all harmonics; at least so many are kept of it.
+inline constexpr int least_harmonics_of_time = 15;
+
 struct ResponseDescription {
   OutputDescription output;         ///< kinds with a mesh
   double frequency_begin_hz = 0.0;
   double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
   int harmonics = 1;
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
+  int search_starts = 0;   ///< of a search for detached branches; 0: none
   int n_time_points = 40;  ///< frequencies of method = "time"
   std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
   std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each

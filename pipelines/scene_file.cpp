@@ -256,6 +256,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
     response.method = ResponseDescription::Method::time;
   }
   response.n_time_points = s.integer("points");
+  response.search_starts = s.integer("search_starts");
   const toml::node& harmonics = *s.node("harmonics");
   if (!harmonics.is_integer()) {
     s.fail("harmonics", "expected a whole number; \"auto\" is not available in this version",

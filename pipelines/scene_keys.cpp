@@ -207,6 +207,8 @@ constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, f
 constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
                                   "of method = \"time\": number of frequencies; continuation chooses its own"};
 constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
+constexpr KeySpec search_key{"search_starts", integer, "", "0", 0, 1000, false,
+                             "starts of a search for branches detached from the curve; 0: none"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
 constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};
@@ -226,6 +228,7 @@ constexpr std::array response_keys{
     method_key,
     time_points_key,
     harmonics_key,
+    search_key,
     preload_key,
     optimum_key,
     optimum_range_key,
@@ -239,6 +242,7 @@ constexpr std::array chain_response_keys{
     method_key,
     time_points_key,
     harmonics_key,
+    search_key,
     preload_key,
     optimum_key,
     optimum_range_key,
@@ -247,7 +251,7 @@ constexpr std::array chain_response_keys{
 };
 
 constexpr std::array modal_response_keys{
-    frequency_key, method_key, time_points_key, harmonics_key,
+    frequency_key, method_key, time_points_key, harmonics_key, search_key,
     KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
     KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
     maps_key, phases_key,

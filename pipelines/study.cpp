@@ -69,6 +69,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     if (scene.response->optimum_preload) {
       record.stage("optimum");
       record.keep_optimum(best_preload(model, scene));
+      record.keep_bracket(optimum_bracket(model, scene));
     }
     record.stage("report");
     record.keep_summary();  // the report reads it

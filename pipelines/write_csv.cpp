@@ -88,6 +88,12 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
   make_folder(curves);
   write_whole(curves / (result.name + ".csv"), curve_table(result.curve));
   write_whole(curves / (result.name + ".states.csv"), states_table(result.curve, n_modes));
+  int number = 0;
+  for (const solver::DetachedBranch& branch : result.curve.detached) {
+    solver::ResponseCurve alone;
+    alone.points = branch.points;
+    write_whole(curves / fmt::format("{}_detached_{}.csv", result.name, ++number), curve_table(alone));
+  }
 }
 
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) {

@@ -58,6 +58,16 @@ Json to_json(const ModeSummary& mode) {
 
 Json to_json(const CurveSummary& curve);
 Json to_json(const EffectRecord& effect);
+Json to_json(const solver::SolverEvent& event) {
+  return {{"frequency_Hz", hertz(event.frequency)}, {"remedy", event.remedy}};
+}
+Json to_json(const OptimumOfFactor& entry) {
+  return {{"parameter", entry.parameter},
+          {"factor", entry.factor},
+          {"preload_N", entry.best.parameter},
+          {"amplitude_m", entry.best.amplitude},
+          {"frequency_Hz", hertz(entry.best.frequency)}};
+}
 
 template <typename Item>
 Json to_array(const std::vector<Item>& items) {
@@ -86,7 +96,11 @@ Json to_json(const CurveSummary& curve) {
           {"largest_energy_imbalance", curve.largest_energy_imbalance},
           {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
           {"largest_three_states_share", curve.largest_three_states_share},
-          {"maps", curve.maps}};
+          {"maps", curve.maps},
+          {"certificate", curve.certificate},
+          {"remedies", to_array(curve.remedies)},
+          {"detached_branches", curve.detached_branches},
+          {"search_starts", curve.search_starts}};
 }
 
 Json to_json(const EffectRecord& effect) {
@@ -96,7 +110,7 @@ Json to_json(const EffectRecord& effect) {
           {"reason", effect.reason}};
 }
 
-Json to_json(const solver::Optimum& optimum) {
+Json to_json(const solver::Optimum& optimum, const std::vector<OptimumOfFactor>& bracket) {
   Json trace = Json::array();
   for (const solver::PeakOfParameter& peak : optimum.trace) {
     trace.push_back({{"preload_N", peak.parameter},
@@ -110,6 +124,10 @@ Json to_json(const solver::Optimum& optimum) {
           {"message", optimum.message},
           {"iterations", optimum.iterations},
           {"contact_evaluations", optimum.contact_evaluations},
+          {"notes", optimum.notes},
+          {"whole_curves", optimum.n_curves},
+          {"seconds", optimum.seconds},
+          {"bracket", to_array(bracket)},
           {"trace", trace}};
 }
 
@@ -153,6 +171,10 @@ CurveSummary summarise(const CurveResult& result) {
   const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);
   if (highest != summary.peaks.end()) summary.peak = *highest;
   for (const NamedMap& map : result.maps) summary.maps.push_back(map.name);
+  summary.certificate = result.curve.certificate;
+  summary.remedies = result.curve.log;
+  summary.detached_branches = result.curve.detached.size();
+  summary.search_starts = result.curve.n_starts;
   return summary;
 }
 
@@ -183,7 +205,7 @@ std::string summary_json(const RunSummary& summary, int indent) {
                   {"mesh", summary.mesh ? to_json(*summary.mesh) : Json(nullptr)},
                   {"modes", to_array(summary.modes)},
                   {"curves", to_array(summary.curves)},
-                  {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
+                  {"optimum", summary.optimum ? to_json(*summary.optimum, summary.optimum_bracket) : Json(nullptr)},
                   {"effects", to_array(summary.effects)},
                   {"error_budget", Json::array()}};
   constexpr char space = ' ';

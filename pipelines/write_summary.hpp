@@ -54,6 +54,10 @@ struct CurveSummary {
   double largest_dissipation_mismatch = 0.0;
   double largest_three_states_share = 0.0;
   std::vector<std::string> maps;  ///< stems in maps/
+  std::string certificate;        ///< what was proved instead of solved; empty: solved
+  std::vector<solver::SolverEvent> remedies;
+  std::size_t detached_branches = 0;
+  int search_starts = 0;
 };
 
 struct EffectRecord {
@@ -76,6 +80,7 @@ struct RunSummary {
   std::vector<ModeSummary> modes;
   std::vector<CurveSummary> curves;
   std::optional<solver::Optimum> optimum;
+  std::vector<OptimumOfFactor> optimum_bracket;
   std::vector<EffectRecord> effects;
   std::vector<std::string> warnings;
 };
