@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Loops of contact points over one period, coloured by state; SVG and PNG beside the samples.
+
+    plot_cycle.py FOLDER NAME [NAME …]
+
+Reads FOLDER/NAME.csv as `microslip cycle --plot FOLDER` writes it: friction over u, load over v, and
+where w moves friction over w and the orbit of the friction. The same samples give the same SVG files
+byte for byte. Needs no display.
+"""
+
+import csv
+import os
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+import plot_run
+
+COLOURS = {name: (number, colour) for number, name, colour in plot_run.STATES}
+WORDS = {"stick": "stick", "positive_slip": "positive slip", "negative_slip": "negative slip",
+         "slip": "slip in two directions", "separated": "separated"}
+PRESSURES = (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3))
+
+
+class Samples:
+    """One cycle: columns by name, and a colour for each interval."""
+
+    def __init__(self, path):
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.columns = {name: np.array([float(row[name]) for row in rows])
+                        for name in rows[0] if name != "state"}
+        self.states = [WORDS[row["state"]] for row in rows]
+        self.colours = [COLOURS[state][1] for state in self.states[:-1]]
+        self.two_directions = bool(np.any(self["w_m"] != 0.0))
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+
+def pressure_unit(largest):
+    """Unit in which a pressure reads well: (name, size in pascal)."""
+    return next(((name, size) for name, size in PRESSURES if largest >= size), ("Pa", 1.0))
+
+
+def unit_of(samples, name):
+    largest = np.max(np.abs(samples[name]))
+    return plot_run.length_unit(largest) if name.endswith("_m") else pressure_unit(largest)
+
+
+def draw(axes, samples, abscissa, ordinate, labels):
+    """A closed line, one colour per interval. The light grey of separation gets an outline."""
+    units = [unit_of(samples, name) for name in (abscissa, ordinate)]
+    if abscissa.endswith("Pa"):  # an orbit has one unit and no distortion
+        units = [max(units, key=lambda unit: unit[1])] * 2
+        axes.set_aspect("equal", adjustable="datalim")
+    points = np.column_stack([samples[name] / unit[1]
+                              for name, unit in zip((abscissa, ordinate), units)])
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    apart = np.array(samples.states[:-1]) == "separated"
+    axes.add_collection(LineCollection(pieces[apart], colors="0.6", linewidth=3.0,
+                                       capstyle="round"))
+    axes.add_collection(LineCollection(pieces, colors=samples.colours, linewidth=1.8,
+                                       capstyle="round"))
+    axes.autoscale_view()
+    axes.margins(0.06)
+    axes.plot(*points[0], marker="o", markersize=4, color="0.1", zorder=4)
+    axes.axhline(0.0, color="0.85", linewidth=0.6, zorder=0)
+    axes.set_xlabel(f"{labels[0]} [{units[0][0]}]")
+    axes.set_ylabel(f"{labels[1]} [{units[1][0]}]")
+    axes.grid(True, color="0.93", linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def legend(figure, samples):
+    present = sorted({COLOURS[state] + (state,) for state in samples.states})
+    handles = [Line2D([], [], color=colour, linewidth=1.8, label=name)
+               for _, colour, name in present]
+    outline = [withStroke(linewidth=3.0, foreground="0.6")]
+    for handle in handles:
+        handle.set_path_effects(outline if handle.get_label() == "separated" else [])
+    handles.append(Line2D([], [], color="0.1", marker="o", markersize=4, linestyle="",
+                          label="begin of the period"))
+    plot_run.legend_below(figure, handles)
+
+
+def plot_cycle(folder, name):
+    samples = Samples(os.path.join(folder, name + ".csv"))
+    n_rows = 2 if samples.two_directions else 1
+    figure, grid = plt.subplots(n_rows, 2, figsize=(7.2, 3.0 * n_rows + 0.4), layout="constrained",
+                                squeeze=False)
+    draw(grid[0, 0], samples, "u_m", "friction_Pa", ("displacement u", "friction $f$"))
+    draw(grid[0, 1], samples, "v_m", "normal_Pa", ("approach v", "load $n$"))
+    if samples.two_directions:
+        draw(grid[1, 0], samples, "w_m", "friction_w_Pa", ("displacement w", "friction $f_r$"))
+        draw(grid[1, 1], samples, "friction_Pa", "friction_w_Pa",
+             ("friction $f_p$", "friction $f_r$"))
+    legend(figure, samples)
+    figure.suptitle(name.replace("$", r"\$"), x=0.01, ha="left", fontsize=9)
+    plot_run.save(figure, folder, name)
+
+
+def main():
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 1
+    plt.rcParams.update(plot_run.STYLE)
+    folder, names = sys.argv[1], sys.argv[2:]
+    tasks = [lambda name=name: plot_cycle(folder, name) for name in names]
+    return 0 if plot_run.run_shared(tasks) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
