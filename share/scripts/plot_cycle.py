@@ -35,7 +35,7 @@ class Samples:
         self.columns = {name: np.array([float(row[name]) for row in rows])
                         for name in rows[0] if name != "state"}
         self.states = [WORDS[row["state"]] for row in rows]
-        self.colours = [COLOURS[state][1] for state in self.states[:-1]]
+        self.colours = np.array([COLOURS[state][1] for state in self.states[:-1]])
         self.two_directions = bool(np.any(self["w_m"] != 0.0))
 
     def __getitem__(self, name):
@@ -52,20 +52,28 @@ def unit_of(samples, name):
     return plot_run.length_unit(largest) if name.endswith("_m") else pressure_unit(largest)
 
 
+def lines(axes, samples, points, chosen, width):
+    """One colour per interval. The light grey of separation gets an outline."""
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    apart = chosen & (np.array(samples.states[:-1]) == "separated")
+    for mask, colours, extra in ((apart, "0.6", 1.2), (chosen, samples.colours[chosen], 0.0)):
+        axes.add_collection(LineCollection(pieces[mask], colors=colours, linewidth=width + extra,
+                                           capstyle="round"))
+
+
 def draw(axes, samples, abscissa, ordinate, labels):
-    """A closed line, one colour per interval. The light grey of separation gets an outline."""
+    """A closed line; where the way back may hide the way forth, it is drawn wide below."""
     units = [unit_of(samples, name) for name in (abscissa, ordinate)]
     if abscissa.endswith("Pa"):  # an orbit has one unit and no distortion
         units = [max(units, key=lambda unit: unit[1])] * 2
         axes.set_aspect("equal", adjustable="datalim")
     points = np.column_stack([samples[name] / unit[1]
                               for name, unit in zip((abscissa, ordinate), units)])
-    pieces = np.stack([points[:-1], points[1:]], axis=1)
-    apart = np.array(samples.states[:-1]) == "separated"
-    axes.add_collection(LineCollection(pieces[apart], colors="0.6", linewidth=3.0,
-                                       capstyle="round"))
-    axes.add_collection(LineCollection(pieces, colors=samples.colours, linewidth=1.8,
-                                       capstyle="round"))
+    back = (np.diff(points[:, 0]) < 0.0) & (ordinate == "normal_Pa")
+    if np.any(back):
+        lines(axes, samples, points, back, 4.6)
+        axes.set_title("wide: v falls", loc="right", fontsize=8, color="0.4")
+    lines(axes, samples, points, ~back, 1.8)
     axes.autoscale_view()
     axes.margins(0.06)
     axes.plot(*points[0], marker="o", markersize=4, color="0.1", zorder=4)
@@ -84,7 +92,7 @@ def legend(figure, samples):
     for handle in handles:
         handle.set_path_effects(outline if handle.get_label() == "separated" else [])
     handles.append(Line2D([], [], color="0.1", marker="o", markersize=4, linestyle="",
-                          label="begin of the period"))
+                          label="phase 0"))
     plot_run.legend_below(figure, handles)
 
 
@@ -93,12 +101,12 @@ def plot_cycle(folder, name):
     n_rows = 2 if samples.two_directions else 1
     figure, grid = plt.subplots(n_rows, 2, figsize=(7.2, 3.0 * n_rows + 0.4), layout="constrained",
                                 squeeze=False)
-    draw(grid[0, 0], samples, "u_m", "friction_Pa", ("displacement u", "friction $f$"))
+    along_p = "friction $f_p$" if samples.two_directions else "friction $f$"
+    draw(grid[0, 0], samples, "u_m", "friction_Pa", ("displacement u", along_p))
     draw(grid[0, 1], samples, "v_m", "normal_Pa", ("approach v", "load $n$"))
     if samples.two_directions:
         draw(grid[1, 0], samples, "w_m", "friction_w_Pa", ("displacement w", "friction $f_r$"))
-        draw(grid[1, 1], samples, "friction_Pa", "friction_w_Pa",
-             ("friction $f_p$", "friction $f_r$"))
+        draw(grid[1, 1], samples, "friction_Pa", "friction_w_Pa", (along_p, "friction $f_r$"))
     legend(figure, samples)
     figure.suptitle(name.replace("$", r"\$"), x=0.01, ha="left", fontsize=9)
     plot_run.save(figure, folder, name)
