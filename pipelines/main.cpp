@@ -138,6 +138,9 @@ int init(const Arguments& arguments) {
 }
 
 int cycle(const Arguments& arguments) {
+  if (arguments.plot_folder && arguments.plot_folder->empty()) {
+    throw SceneError("--plot: expected the name of a folder");
+  }
   const CsvTable table = CsvTable::read(arguments.input);
   const std::string json = cycles_as_json(table, arguments.harmonics);
   std::vector<CyclePlot> plots;

@@ -14,7 +14,6 @@ import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
@@ -26,8 +25,12 @@ WORDS = {"stick": "stick", "positive_slip": "positive slip", "negative_slip": "n
 PRESSURES = (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3))
 
 
+def outline(width):
+    return [withStroke(linewidth=width + 1.2, foreground="0.6")]
+
+
 class Samples:
-    """One cycle: columns by name, and a colour for each interval."""
+    """One cycle: columns by name, and the state from each sample on."""
 
     def __init__(self, path):
         with open(path, newline="", encoding="utf-8") as file:
@@ -35,7 +38,6 @@ class Samples:
         self.columns = {name: np.array([float(row[name]) for row in rows])
                         for name in rows[0] if name != "state"}
         self.states = [WORDS[row["state"]] for row in rows]
-        self.colours = np.array([COLOURS[state][1] for state in self.states[:-1]])
         self.two_directions = bool(np.any(self["w_m"] != 0.0))
 
     def __getitem__(self, name):
@@ -52,13 +54,22 @@ def unit_of(samples, name):
     return plot_run.length_unit(largest) if name.endswith("_m") else pressure_unit(largest)
 
 
+def runs(samples, chosen):
+    """Slices of points joined by chosen intervals of one state, with their state."""
+    states = samples.states
+    start = 0
+    for i in range(1, len(chosen) + 1):
+        if i == len(chosen) or chosen[i] != chosen[start] or states[i] != states[start]:
+            if chosen[start]:
+                yield slice(start, i + 1), states[start]
+            start = i
+
+
 def lines(axes, samples, points, chosen, width):
-    """One colour per interval. The light grey of separation gets an outline."""
-    pieces = np.stack([points[:-1], points[1:]], axis=1)
-    apart = chosen & (np.array(samples.states[:-1]) == "separated")
-    for mask, colours, extra in ((apart, "0.6", 1.2), (chosen, samples.colours[chosen], 0.0)):
-        axes.add_collection(LineCollection(pieces[mask], colors=colours, linewidth=width + extra,
-                                           capstyle="round"))
+    """One colour per state. The light grey of separation gets an outline."""
+    for part, state in sorted(runs(samples, chosen), key=lambda run: run[1] != "separated"):
+        axes.plot(points[part, 0], points[part, 1], color=COLOURS[state][1], linewidth=width,
+                  path_effects=outline(width) if state == "separated" else None)
 
 
 def draw(axes, samples, abscissa, ordinate, labels):
@@ -74,7 +85,6 @@ def draw(axes, samples, abscissa, ordinate, labels):
         lines(axes, samples, points, back, 4.6)
         axes.set_title("wide: v falls", loc="right", fontsize=8, color="0.4")
     lines(axes, samples, points, ~back, 1.8)
-    axes.autoscale_view()
     axes.margins(0.06)
     axes.plot(*points[0], marker="o", markersize=4, color="0.1", zorder=4)
     axes.axhline(0.0, color="0.85", linewidth=0.6, zorder=0)
@@ -88,9 +98,8 @@ def legend(figure, samples):
     present = sorted({COLOURS[state] + (state,) for state in samples.states})
     handles = [Line2D([], [], color=colour, linewidth=1.8, label=name)
                for _, colour, name in present]
-    outline = [withStroke(linewidth=3.0, foreground="0.6")]
     for handle in handles:
-        handle.set_path_effects(outline if handle.get_label() == "separated" else [])
+        handle.set_path_effects(outline(1.8) if handle.get_label() == "separated" else [])
     handles.append(Line2D([], [], color="0.1", marker="o", markersize=4, linestyle="",
                           label="phase 0"))
     plot_run.legend_below(figure, handles)
