@@ -254,9 +254,6 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   constexpr std::array<std::string_view, 2> methods{"harmonic_balance", "time"};
   if (s.word("method", methods) == "time") {
     response.method = ResponseDescription::Method::time;
-  } else if (s.given("points")) {
-    s.fail("points", "has no meaning without method = \"time\": continuation chooses its own",
-           s.node("points"));
   }
   response.n_time_points = s.integer("points");
   const toml::node& harmonics = *s.node("harmonics");

@@ -205,7 +205,7 @@ constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
 constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false,
                              "harmonic_balance | time: integrated to the steady state, frequencies swept from → to"};
 constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
-                                  "method = \"time\": number of frequencies"};
+                                  "of method = \"time\": number of frequencies; continuation chooses its own"};
 constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};

@@ -87,6 +87,7 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   m.weights = Eigen::VectorXd::Constant(n, length * width);
   m.shapes = shapes_at(m.points);
   m.tangential_stiffness = Eigen::VectorXd::LinSpaced(n, 1e11, 2e11);
+  m.second_stiffness = Eigen::VectorXd::LinSpaced(n, 2e11, 9e11);
   m.normal_stiffness = Eigen::VectorXd::LinSpaced(n, 3e11, 1e12);
   m.friction_coefficient = Eigen::VectorXd::LinSpaced(n, 0.3, 0.5);
   m.preload = Eigen::VectorXd::Constant(n, 1.0 / m.weights.sum());
@@ -95,6 +96,7 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   m.vertex_shapes = shapes_at(m.vertices);
   const Eigen::Index n_vertices = m.vertices.rows();
   m.vertex_tangential_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 1e11, 2e11);
+  m.vertex_second_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 2e11, 9e11);
   m.vertex_normal_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 3e11, 1e12);
   m.vertex_friction_coefficient = Eigen::VectorXd::LinSpaced(n_vertices, 0.3, 0.5);
   m.vertex_preload = Eigen::VectorXd::Constant(n_vertices, m.preload[0]);

@@ -34,6 +34,7 @@ void expect_same_contact(const ReducedModel& a, const ReducedModel& b) {
   EXPECT_EQ(a.frame, b.frame);
   expect_same_shapes(a.shapes, b.shapes);
   EXPECT_EQ(a.tangential_stiffness, b.tangential_stiffness);
+  EXPECT_EQ(a.second_stiffness, b.second_stiffness);
   EXPECT_EQ(a.normal_stiffness, b.normal_stiffness);
   EXPECT_EQ(a.friction_coefficient, b.friction_coefficient);
   EXPECT_EQ(a.preload, b.preload);
@@ -43,6 +44,7 @@ void expect_same_contact(const ReducedModel& a, const ReducedModel& b) {
   EXPECT_EQ(a.cells, b.cells);
   expect_same_shapes(a.vertex_shapes, b.vertex_shapes);
   EXPECT_EQ(a.vertex_tangential_stiffness, b.vertex_tangential_stiffness);
+  EXPECT_EQ(a.vertex_second_stiffness, b.vertex_second_stiffness);
   EXPECT_EQ(a.vertex_normal_stiffness, b.vertex_normal_stiffness);
   EXPECT_EQ(a.vertex_friction_coefficient, b.vertex_friction_coefficient);
   EXPECT_EQ(a.vertex_preload, b.vertex_preload);

@@ -401,29 +401,72 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   };
   refused(blade_text, "model.kind=step");
   refused(blade_text, "modes.residual=attachment");
-  refused(blade_text, "response.method=time");
-  refused(blade_text, "contact.roughness={ law = \"cubic\", height = \"10 um\" }");
-  refused(blade_text, "contact.preload_field=uniform");
-  refused(blade_text, "contact.preload_moment=[1, 0]");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
-  refused(blade_text, "contact.friction_coefficient={ law = \"hyperbolic\" }");
-  refused(blade_text, "contact.friction_coefficient=0.3+0.1*p");
   refused(blade_text, "contact=[{ surface = \"a\" }, { surface = \"b\" }]");
-  for (const char* effect :
-       {"second_direction", "higher_harmonics", "roughness", "rate_dependence"}) {
-    refused(modal_text, std::string("effects.") + effect + "=on");
+  for (const char* effect : {"higher_harmonics", "roughness", "rate_dependence"}) {
+    expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
+                     {effect, "needs"});
   }
+  expect_complaint(complaint(modal_text, {"effects.higher_harmonics=off", "response.harmonics=3"}),
+                   {"contradicts response.harmonics"});
   for (const char* effect : {"normal_motion", "separation", "mean_coupling", "stability"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=off"}),
                      {"cannot be switched off in this version"});
   }
   expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
-  for (const char* harmonics : {"2", "auto", "0", "1.0"}) {
+  for (const char* harmonics : {"auto", "0", "1.0", "100"}) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
-                     {"response.harmonics", "this version"});
+                     {"response.harmonics"});
   }
   const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"x.inp\"");
   expect_complaint(complaint(mesh), {"x.inp", "this version"});
+}
+
+TEST(SceneFile, LawsOfContactAreRead) {
+  const SceneDescription blade =
+      parse(blade_text, {"contact.friction_coefficient={ law = \"exponential\", static = 0.5, kinetic = "
+                         "\"30 %\", rate = \"2 s/mm\" }",
+                         "contact.roughness=[{ law = \"cubic\", height = \"3 um\" }, { law = \"cubic\", "
+                         "height = \"4 um\" }]",
+                         "contact.preload_field={ expression = \"1 + 10*p\" }"});
+  ASSERT_TRUE(blade.laws.friction && blade.laws.roughness);
+  EXPECT_EQ(blade.laws.friction->at(0.0).value, 0.5);
+  EXPECT_NEAR(blade.laws.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0), 1e-15);
+  EXPECT_DOUBLE_EQ(blade.laws.roughness->height(), 5e-6);
+  ASSERT_TRUE(blade.contact->preload_field.has_value());
+  EXPECT_EQ(complaint(blade.complete_toml), "");
+  const SceneDescription field = parse(blade_text, {"contact.friction_coefficient=0.3+0.1*p",
+                                                    "contact.preload_moment=[\"2 N*m\", 0]"});
+  EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contact->friction.value));
+  EXPECT_EQ(field.contact->preload_moment[0], 2.0);
+  const SceneDescription modal = parse(
+      modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
+                   "response.harmonics=5", "response.method=time", "response.points=7"});
+  EXPECT_NEAR(modal.laws.friction->at(1.0).value, 0.1, 1e-15);
+  EXPECT_EQ(modal.response->harmonics, 5);
+  EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
+  EXPECT_EQ(modal.response->n_time_points, 7);
+}
+
+TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
+  const auto bad = [](const std::string& value, const std::vector<std::string>& words) {
+    expect_complaint(complaint(blade_text, {value}), words);
+  };
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", rate = 1 }", {"static is missing"});
+  bad("contact.friction_coefficient={ law = \"linear\" }", {"exponential, hyperbolic"});
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", static = 1, rate = 1, kinetic = 1 }",
+      {"kinetic"});
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", static = -1, rate = 1 }",
+      {"static", "at least 0"});
+  bad("contact.friction_coefficient={ expression = 3 }", {"expression"});
+  bad("contact.roughness={ law = \"cubic\" }", {"height is missing"});
+  bad("contact.roughness={ law = \"cubic\", height = 1e-6, hight = 2 }", {"hight", "known"});
+  bad("contact.roughness=[{ law = \"cubic\", height = 1e-6 }, { law = \"gaussian\", height = 1e-6 }]",
+      {"cubic surface against a gaussian"});
+  bad("contact.preload_moment=[1]", {"[M_p, M_r]"});
+  expect_complaint(complaint(blade_text, {"contact.preload_moment=[1, 0]",
+                                          "contact.preload_field={ expression = \"p\" }"}),
+                   {"preload_moment", "one of the two"});
 }
 
 TEST(BadScene, KeysThatSayNothingAreRefused) {
@@ -436,7 +479,8 @@ TEST(BadScene, KeysThatSayNothingAreRefused) {
   free.erase(begin, free.find("[excitation]") - begin);
   expect_complaint(complaint(free), {"response.preload", "no [contact]"});
   expect_complaint(complaint(modal_text, {"response.preload=5"}), {"preload"});
-  expect_complaint(complaint(modal_text, {"contact.surface=a"}), {"contact", "modal"});
+  expect_complaint(complaint(modal_text, {"contact.surface=a"}),
+                   {"contact.surface", "unknown key", "friction_law"});
 }
 
 TEST(BadScene, ALengthUnitMustBeALength) {
@@ -473,8 +517,8 @@ TEST(BadModalScene, InlinePointsTellTheirLine) {
   expect_complaint(complaint(replaced(text, "{ weight = 2, ", "{ ")), {second, "no weight"});
   expect_complaint(complaint(replaced(text, "phi_v_2 = 0.25", "phi_v_3 = 0.25")),
                    {"unknown column", "phi_v_3", "2 modes"});
-  expect_complaint(complaint(replaced(text, "phi_v_2 = 0.25", "phi_w_2 = 0.25")),
-                   {second, "phi_w_2", "along p only"});
+  expect_complaint(complaint(replaced(text, "phi_v_2 = 0.25", "tangential_stiffness_r = 1")),
+                   {"this point has no tangential_stiffness_r"});
   EXPECT_EQ(complaint(replaced(text, "phi_v_2 = 0.25", "phi_w_2 = 0")), "");
   expect_complaint(complaint(modal_text, {"modal.points=[5]"}), {"expected tables"});
   expect_complaint(complaint(modal_text, {"modal.points=5"}), {"CSV file"});
