@@ -2,10 +2,8 @@
 /// The command `cycle`: a table of contact points and motions → their steady friction cycles as JSON
 /// (interfaces.md section 4).
 ///
-/// A row with one harmonic is solved in closed form (friction_cycle.hpp) and carries its Jacobian; a row
-/// with more is solved event by event (event_law.hpp), both exact. A row that moves along r as well is
-/// solved by the planar law (planar_cycle.hpp), to 1e-12 of its force scale; the column
-/// tangential_stiffness_r gives it another stiffness there.
+/// Which law serves a row is said in cycle_row.hpp; a row with one harmonic carries its Jacobian, and the
+/// column tangential_stiffness_r gives a row that moves along r another stiffness there.
 #pragma once
 
 #include <optional>

@@ -19,6 +19,7 @@
 
 #include "fem/slepc_session.hpp"
 #include "pipelines/command_line.hpp"
+#include "pipelines/cycle_plot.hpp"
 #include "pipelines/cycle_table.hpp"
 #include "pipelines/exit_code.hpp"
 #include "pipelines/interrupt.hpp"
@@ -39,6 +40,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::optional<int> harmonics;
+  std::optional<std::string> plot_folder;
   std::string tolerance;
   std::string budget;
   bool resume = false;
@@ -136,13 +138,20 @@ int init(const Arguments& arguments) {
 }
 
 int cycle(const Arguments& arguments) {
+  if (arguments.plot_folder && arguments.plot_folder->empty()) {
+    throw SceneError("--plot: expected the name of a folder");
+  }
   const CsvTable table = CsvTable::read(arguments.input);
   const std::string json = cycles_as_json(table, arguments.harmonics);
+  std::vector<CyclePlot> plots;
+  if (arguments.plot_folder) plots = cycle_plots(table);
   if (arguments.dry_run) {
     std::cout << fmt::format("{} points; every row is complete\n", table.n_rows());
-  } else {
-    put_out(arguments, json);
+    return 0;
   }
+  if (arguments.plot_folder) write_cycle_plots(plots, *arguments.plot_folder);
+  put_out(arguments, json);
+  if (arguments.plot_folder) draw_cycle_plots(plots, *arguments.plot_folder);
   return 0;
 }
 
@@ -230,6 +239,8 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       ->add_option("--harmonics", a.harmonics,
                    "highest harmonic of the forces put out; default the highest of the table")
       ->check(CLI::Range(1, largest_harmonic));
+  cycle_command->add_option("--plot", a.plot_folder,
+                            "folder for loops of every row: sampled CSV, SVG and PNG by its id");
   with_scene(add_command(app, a, chosen, "converge",
                          "what accuracy costs (not available in this version)", []() -> int {
                            throw SceneError(

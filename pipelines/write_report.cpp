@@ -1,7 +1,7 @@
 #include "pipelines/write_report.hpp"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -9,8 +9,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/child_process.hpp"
 #include "pipelines/output_file.hpp"
+#include "pipelines/plot_script.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -18,35 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The interpreter the packages of the set-up belong to; another may come first on the PATH.
-constexpr const char* python = "/usr/bin/python3";
 /// Twenty curves with maps take about 15 s on one slow core.
 constexpr std::chrono::seconds plot_limit{180};
 
-/// Beside the source tree's build, beside an installed program, or where it was built.
-std::filesystem::path plot_script() {
-  std::error_code code;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
-  const std::array<std::filesystem::path, 3> candidates{
-      program / "../../share/scripts/plot_run.py",
-      program / "../share/microslip/scripts/plot_run.py",
-      std::filesystem::path(MICROSLIP_SCRIPTS) / "plot_run.py",
-  };
-  for (const auto& candidate : candidates) {
-    if (std::filesystem::exists(candidate, code)) return candidate.lexically_normal();
-  }
-  throw std::runtime_error("plot_run.py is not installed: looked in " +
-                           candidates.back().parent_path().string() + " and beside the program");
-}
-
 std::string make_plots(const std::filesystem::path& folder) {
-  try {
-    const ChildResult result =
-        run_child({python, plot_script().string(), folder.string()}, plot_limit);
-    return result.succeeded ? "" : "plots were not made: " + result.message;
-  } catch (const std::runtime_error& error) {
-    return std::string("plots were not made: ") + error.what();
-  }
+  return run_plot_script("plot_run.py", {folder.string()}, plot_limit);
 }
 
 std::string read_summary(const std::filesystem::path& folder) {

@@ -247,6 +247,21 @@ TEST_F(Program, WritesNothingWhenARowIsBad) {
   expect("cycle none.csv", 1, {"none.csv: no such file"});
 }
 
+TEST_F(Program, PlotsCyclesIntoAFolder) {
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,1,0.5,1,1,0,0,2,0\n");
+  const std::string plain = run("cycle t.csv").out;
+  const Outcome drawn = run("cycle t.csv --plot below/loops", "DISPLAY=");
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, plain);
+  for (const char* file : {"1.csv", "1.svg", "1.png", "2.csv", "2.svg", "2.png"}) {
+    EXPECT_TRUE(exists(std::string("below/loops/") + file)) << file;
+  }
+  EXPECT_EQ(run("cycle t.csv --plot other --dry-run").code, 0);
+  EXPECT_FALSE(exists("other"));
+  expect("cycle t.csv --plot t.csv/below", 4, {"t.csv/below"});
+  expect("cycle t.csv --plot ''", 1, {"--plot", "folder"});
+}
+
 TEST_F(Program, DryRunWritesNothing) {
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
   write(path("scene.toml"), scene_text);
