@@ -50,10 +50,15 @@ std::string at_hertz(const std::string& text, double frequency) {
 
 CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
                          const PointObserver& observe)
-    : balance_(scene, options.n_harmonics),
+    : scene_(scene),
       options_(options),
+      balance_(std::make_unique<HarmonicBalance>(scene, first_harmonics(scene, options))),
       observe_(observe),
-      range_(std::abs(options.frequency_end - options.frequency_begin)) {}
+      range_(std::abs(options.frequency_end - options.frequency_begin)) {
+  if (options.harmonic_tolerance > 0.0) {
+    choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
+  }
+}
 
 double CurveTracer::progress(double frequency) const {
   return (frequency - options_.frequency_begin) /
@@ -62,21 +67,22 @@ double CurveTracer::progress(double frequency) const {
 
 StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
   if (last_x_.size() != at.point.x.size() || last_x_ != at.point.x) {
-    last_stability_ = assess_stability(balance_, at.evaluation.jacobian, at.point.parameter);
+    last_stability_ = assess_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
     last_x_ = at.point.x;
   }
   return last_stability_;
 }
 
 Scaling CurveTracer::scaling_at(const NewtonResult& at) {
-  Scaling scaling = natural_scaling(balance_, at.point.x, at.point.parameter);
+  Scaling scaling = natural_scaling(*balance_, at.point.x, at.point.parameter);
   scaling.parameter = std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
   return scaling;
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  ResponsePoint point = certified_point(balance_, at, at.point.parameter, stability_at(at));
+  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability_at(at));
   point.mark = mark;
+  point.harmonics_left_out = left_out_;
   return point;
 }
 
@@ -108,8 +114,68 @@ void CurveTracer::stop(const std::string& diagnosis, const std::string& message)
   curve_.message = message;
 }
 
-bool CurveTracer::add_specials(const BranchWalker& walker, double share_of_segment) {
-  const std::vector<SpecialPoint> found = special_points(walker, balance_);
+void CurveTracer::use(const HarmonicSet& set) {
+  balance_ = std::make_unique<HarmonicBalance>(scene_, set);
+  last_x_.resize(0);
+}
+
+NewtonResult CurveTracer::settled(NewtonResult at) {
+  if (!choice_) return at;
+  SettledSolution result =
+      settle_harmonics(*choice_, scene_, balance_->set(), std::move(at), options_.residual_tolerance);
+  curve_.contact_evaluations += result.evaluations;
+  curve_.iterations += result.iterations;
+  if (!result.settled) curve_.log.push_back({result.solution.point.parameter, "harmonics-kept"});
+  left_out_ = result.left_out;
+  use(result.set);
+  return std::move(result.solution);
+}
+
+bool CurveTracer::change_harmonics(BranchWalker& walker, const HarmonicSet& set) {
+  std::unique_ptr<HarmonicBalance> old = std::move(balance_);
+  use(set);
+  const bool changed = walker.change_unknowns([&](const Eigen::VectorXd& x) {
+    return balance_->unknowns(old->harmonics(x));
+  });
+  if (!changed) {
+    balance_ = std::move(old);
+    last_x_.resize(0);
+    curve_.log.push_back({walker.now().solution.point.parameter, "harmonics-kept"});
+  }
+  take_stock(walker);
+  return changed;
+}
+
+bool CurveTracer::enlarge(BranchWalker& walker, const BranchVector& point) {
+  const WalkerPoint& now = walker.now();
+  const HarmonicDecision decision = choice_->enlarged(*balance_, point, now.tangent, now.scaling);
+  ++curve_.contact_evaluations;
+  left_out_ = decision.left_out;
+  return decision.set != balance_->set() && change_harmonics(walker, decision.set);
+}
+
+void CurveTracer::enlarge(BranchWalker& walker) {
+  if (!choice_) return;
+  while (enlarge(walker, walker.now().solution.point)) {
+  }
+}
+
+void CurveTracer::reduce(BranchWalker& walker) {
+  if (!choice_) return;
+  const WalkerPoint& now = walker.now();
+  const HarmonicDecision decision =
+      choice_->reduced(*balance_, now.solution, now.tangent, now.scaling);
+  if (decision.set != balance_->set()) static_cast<void>(change_harmonics(walker, decision.set));
+}
+
+bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
+  std::vector<SpecialPoint> found = special_points(walker, *balance_);
+  const auto lacks = [&](const SpecialPoint& special) {
+    return enlarge(walker, special.solution.point);
+  };
+  while (choice_ && std::any_of(found.begin(), found.end(), lacks)) {
+    found = special_points(walker, *balance_);
+  }
   take_stock(walker);
   for (const SpecialPoint& special : found) {
     if (special.share < share_of_segment && !add(special.solution, special.mark)) return false;
@@ -117,7 +183,21 @@ bool CurveTracer::add_specials(const BranchWalker& walker, double share_of_segme
   return true;
 }
 
-bool CurveTracer::finish(const BranchWalker& walker) {
+ResponseCurve CurveTracer::finished() {
+  int highest = 1;
+  for (const ResponsePoint& point : curve_.points) {
+    highest = std::max(highest, point.q.n_harmonics());
+  }
+  for (ResponsePoint& point : curve_.points) {
+    if (point.q.n_harmonics() == highest) continue;
+    Harmonics q(highest, scene_.n_modes());
+    q.rows().topRows(point.q.rows().rows()) = point.q.rows();
+    point.q = std::move(q);
+  }
+  return std::move(curve_);
+}
+
+bool CurveTracer::finish(BranchWalker& walker) {
   const double before = walker.before().solution.point.parameter;
   const double now = walker.now().solution.point.parameter;
   const double share = (options_.frequency_end - before) / (now - before);
@@ -145,7 +225,8 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
                       (a.parameter - b.parameter) / scaling.parameter);
   };
   const BranchVector& now = walker.now().solution.point;
-  return distance(now, *entry_) < distance(now, walker.before().solution.point);
+  const BranchVector entry{balance_->unknowns(entry_->q), entry_->frequency};
+  return distance(now, entry) < distance(now, walker.before().solution.point);
 }
 
 bool CurveTracer::walk(BranchWalker& walker) {
@@ -153,6 +234,7 @@ bool CurveTracer::walk(BranchWalker& walker) {
     const bool stepped = walker.advance();
     take_stock(walker);
     if (!stepped) return true;
+    enlarge(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
       static_cast<void>(finish(walker));
@@ -169,9 +251,10 @@ bool CurveTracer::walk(BranchWalker& walker) {
       return false;
     }
     if (closed(walker, n_steps)) {
-      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->parameter));
+      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
       return false;
     }
+    reduce(walker);
   }
   stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
                      " points");
@@ -180,7 +263,7 @@ bool CurveTracer::walk(BranchWalker& walker) {
 
 BranchWalker CurveTracer::walker_from(NewtonResult start) {
   const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
-    return balance_.evaluate(x, frequency);
+    return balance_->evaluate(x, frequency);
   };
   walker_evaluations_ = walker_iterations_ = 0;
   n_remedies_ = 0;
@@ -200,12 +283,12 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
     const double frequency =
         from.parameter + ahead * (options_.frequency_end - options_.frequency_begin);
     if (progress(frequency) >= 1.0) break;
-    NewtonResult corrected = solve_at(balance_, from.x, frequency, newton);
+    NewtonResult corrected = solve_at(*balance_, from.x, frequency, newton);
     curve_.contact_evaluations += corrected.evaluations;
     curve_.iterations += corrected.iterations;
     const bool plain = corrected.converged;
     if (!plain) {
-      StartPoint start = find_start(balance_, frequency, options_.residual_tolerance);
+      StartPoint start = find_start(*balance_, frequency, options_.residual_tolerance);
       curve_.contact_evaluations += start.evaluations;
       curve_.iterations += start.iterations;
       if (!start.solution) continue;
@@ -217,34 +300,36 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
   return std::nullopt;
 }
 
-ResponseCurve CurveTracer::follow(NewtonResult start) {
-  entry_ = start.point;
-  if (!add(start)) return std::move(curve_);
+ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
+  use(set);
+  start = settled(std::move(start));
+  entry_ = {balance_->harmonics(start.point.x), start.point.parameter};
+  if (!add(start)) return finished();
   BranchWalker walker = walker_from(std::move(start));
   if (walk(walker)) {
     stop(stall_name(walker.stall()),
          at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
   }
-  return std::move(curve_);
+  return finished();
 }
 
 ResponseCurve CurveTracer::run() {
-  StartPoint start = find_start(balance_, options_.frequency_begin, options_.residual_tolerance);
+  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance);
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
   if (!start.solution) {
     stop("no-start",
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
-    return std::move(curve_);
+    return finished();
   }
-  std::optional<NewtonResult> next = std::move(start.solution);
+  std::optional<NewtonResult> next = settled(std::move(*start.solution));
   for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
     if (!add(*next)) {
       stop("interrupted", at_hertz("stopped", next->point.parameter));
-      return std::move(curve_);
+      return finished();
     }
     BranchWalker walker = walker_from(std::move(*next));
-    if (!walk(walker)) return std::move(curve_);
+    if (!walk(walker)) return finished();
     const double last = walker.now().solution.point.parameter;
     const char* name = stall_name(walker.stall());
     next = restart(walker);
@@ -253,11 +338,12 @@ ResponseCurve CurveTracer::run() {
     } else if (!on_the_branch(walker.now(), next->point)) {
       stop("branch-jump", at_hertz(std::string(name) + ", and another branch beyond it", last));
       curve_.log.push_back({last, "other-branch"});
-      entry_ = next->point;
+      entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
     }
+    if (next) next = settled(std::move(*next));
   }
   if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
-  return std::move(curve_);
+  return finished();
 }
 
 }  // namespace microslip::solver

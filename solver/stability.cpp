@@ -39,8 +39,8 @@ Eigen::MatrixXd slow_flow(const HarmonicBalance& balance, const Eigen::MatrixXd&
   flow.block(0, size, n, n).setIdentity();
   flow.block(size, 0, n, size) = -jacobian.topRows(n);
   flow.block(size, size, n, n).diagonal() = -damping.matrix();
-  for (int k = 1; k <= balance.n_harmonics(); ++k) {
-    const Eigen::Index s = (2 * k - 1) * n;
+  Eigen::Index s = n;
+  for (const int k : balance.set().orders()) {
     const Eigen::Index c = s + n;
     const double spin = 2.0 * k * frequency;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -51,6 +51,7 @@ Eigen::MatrixXd slow_flow(const HarmonicBalance& balance, const Eigen::MatrixXd&
       flow.row(s + i).head(size) = -(damping[i] * sine + spin * cosine) / square;
       flow.row(c + i).head(size) = (spin * sine - damping[i] * cosine) / square;
     }
+    s += 2 * n;
   }
   return flow;
 }
