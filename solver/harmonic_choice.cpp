@@ -105,7 +105,7 @@ int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
 HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
                                           const BranchVector& tangent,
                                           const Scaling& scaling) const {
-  HarmonicDecision decision{balance.set(), 0.0};
+  HarmonicDecision decision{balance.set()};
   const double amplitude = amplitude_of(balance, point.x);
   const int probe = probed(balance.set(), point.parameter);
   if (!scene_.contact || amplitude == 0.0 || probe == balance.set().count()) return decision;
@@ -123,6 +123,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
     shares.push_back({order, output_change(wide, step) / amplitude});
     decision.left_out += shares.back().error;
   }
+  decision.missing = decision.left_out;
   std::stable_sort(shares.begin(), shares.end(),
                    [](const Share& a, const Share& b) { return a.error > b.error; });
   std::vector<int> added;
@@ -139,7 +140,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
 HarmonicDecision HarmonicChoice::reduced(const HarmonicBalance& balance,
                                          const NewtonResult& solution, const BranchVector& tangent,
                                          const Scaling& scaling) const {
-  HarmonicDecision decision{balance.set(), 0.0};
+  HarmonicDecision decision{balance.set()};
   const Eigen::VectorXd& x = solution.point.x;
   const double amplitude = amplitude_of(balance, x);
   if (balance.set() == least_ || amplitude == 0.0) return decision;

@@ -26,6 +26,7 @@ namespace microslip::solver {
 struct HarmonicDecision {
   HarmonicSet set;
   double left_out = 0.0;  ///< Σ e_k of harmonics that the set misses, of those probed
+  double missing = 0.0;   ///< the same of the set that was asked about
 };
 
 class HarmonicChoice {
