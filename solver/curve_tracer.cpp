@@ -67,7 +67,7 @@ double CurveTracer::progress(double frequency) const {
 
 StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
   if (last_x_.size() != at.point.x.size() || last_x_ != at.point.x) {
-    last_stability_ = assess_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
+    last_stability_ = slow_flow_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
     last_x_ = at.point.x;
   }
   return last_stability_;
@@ -80,7 +80,9 @@ Scaling CurveTracer::scaling_at(const NewtonResult& at) {
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability_at(at));
+  const StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
+                                                   at.point.parameter, stability_at(at));
+  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
   point.harmonics_left_out = left_out_;
   return point;

@@ -52,7 +52,7 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   peak.point = at.point;
   peak.scaling = scaling;
   const double frequency = at.point.parameter;
-  const double width = assess_stability(balance, at.evaluation.jacobian, frequency).nearest;
+  const double width = slow_flow_stability(balance, at.evaluation.jacobian, frequency).nearest;
   peak.scaling.parameter = std::clamp(width, narrowest * frequency, widest * frequency);
   const BranchVector along{direction.x,
                            direction.parameter * scaling.parameter / peak.scaling.parameter};
