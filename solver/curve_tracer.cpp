@@ -142,7 +142,6 @@ bool CurveTracer::change_harmonics(BranchWalker& walker, const HarmonicSet& set)
   if (!changed) {
     balance_ = std::move(old);
     last_x_.resize(0);
-    curve_.log.push_back({walker.now().solution.point.parameter, "harmonics-kept"});
   }
   take_stock(walker);
   return changed;
@@ -152,8 +151,13 @@ bool CurveTracer::enlarge(BranchWalker& walker, const BranchVector& point) {
   const WalkerPoint& now = walker.now();
   const HarmonicDecision decision = choice_->enlarged(*balance_, point, now.tangent, now.scaling);
   ++curve_.contact_evaluations;
-  left_out_ = decision.left_out;
-  return decision.set != balance_->set() && change_harmonics(walker, decision.set);
+  left_out_ = decision.missing;
+  if (decision.added.empty()) return false;
+  if (change_harmonics(walker, decision.set)) return true;
+  const HarmonicSet next = balance_->set().united({decision.added.front()});
+  if (decision.added.size() > 1 && change_harmonics(walker, next)) return true;
+  curve_.log.push_back({now.solution.point.parameter, "harmonics-kept"});
+  return false;
 }
 
 void CurveTracer::enlarge(BranchWalker& walker) {

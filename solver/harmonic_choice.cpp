@@ -105,7 +105,7 @@ int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
 HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
                                           const BranchVector& tangent,
                                           const Scaling& scaling) const {
-  HarmonicDecision decision{balance.set()};
+  HarmonicDecision decision{balance.set(), {}};
   const double amplitude = amplitude_of(balance, point.x);
   const int probe = probed(balance.set(), point.parameter);
   if (!scene_.contact || amplitude == 0.0 || probe == balance.set().count()) return decision;
@@ -126,21 +126,20 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
   decision.missing = decision.left_out;
   std::stable_sort(shares.begin(), shares.end(),
                    [](const Share& a, const Share& b) { return a.error > b.error; });
-  std::vector<int> added;
   for (const Share& share : shares) {
     if (decision.left_out <= added_down_to * tolerance_) break;
-    added.push_back(share.order);
+    decision.added.push_back(share.order);
     decision.left_out -= share.error;
   }
   decision.left_out = std::max(decision.left_out, 0.0);
-  decision.set = decision.set.united(added);
+  decision.set = decision.set.united(decision.added);
   return decision;
 }
 
 HarmonicDecision HarmonicChoice::reduced(const HarmonicBalance& balance,
                                          const NewtonResult& solution, const BranchVector& tangent,
                                          const Scaling& scaling) const {
-  HarmonicDecision decision{balance.set()};
+  HarmonicDecision decision{balance.set(), {}};
   const Eigen::VectorXd& x = solution.point.x;
   const double amplitude = amplitude_of(balance, x);
   if (balance.set() == least_ || amplitude == 0.0) return decision;
@@ -169,6 +168,20 @@ HarmonicDecision HarmonicChoice::reduced(const HarmonicBalance& balance,
   return decision;
 }
 
+/// Newton with more harmonics from a solution with fewer.
+NewtonResult widened(const Scene& scene, const HarmonicBalance& from, const HarmonicSet& set,
+                     const NewtonResult& at, double tolerance, SettledSolution& count) {
+  const HarmonicBalance larger(scene, set);
+  NewtonOptions options;
+  options.tolerance = tolerance;
+  options.max_iterations = 40;
+  NewtonResult next = solve_at(larger, larger.unknowns(from.harmonics(at.point.x)),
+                               at.point.parameter, options);
+  count.evaluations += next.evaluations;
+  count.iterations += next.iterations;
+  return next;
+}
+
 SettledSolution settle_harmonics(const HarmonicChoice& choice, const Scene& scene, HarmonicSet set,
                                  NewtonResult at, double tolerance) {
   SettledSolution result{std::move(set), std::move(at)};
@@ -177,31 +190,28 @@ SettledSolution settle_harmonics(const HarmonicChoice& choice, const Scene& scen
     const HarmonicBalance balance(scene, result.set);
     const Eigen::VectorXd& x = result.solution.point.x;
     const BranchVector hold{Eigen::VectorXd::Zero(x.size()), 1.0};
-    HarmonicDecision decision = choice.enlarged(balance, result.solution.point, hold,
-                                                natural_scaling(balance, x, frequency));
+    const HarmonicDecision decision = choice.enlarged(balance, result.solution.point, hold,
+                                                      natural_scaling(balance, x, frequency));
     ++result.evaluations;
-    result.left_out = decision.left_out;
-    if (decision.set == result.set) return result;
-    const HarmonicBalance larger(scene, decision.set);
-    NewtonOptions options;
-    options.tolerance = tolerance;
-    options.max_iterations = 40;
-    NewtonResult next =
-        solve_at(larger, larger.unknowns(balance.harmonics(x)), frequency, options);
-    result.evaluations += next.evaluations;
-    result.iterations += next.iterations;
+    result.left_out = decision.missing;
+    if (decision.added.empty()) return result;
+    HarmonicSet wanted = decision.set;
+    NewtonResult next = widened(scene, balance, wanted, result.solution, tolerance, result);
+    if (!next.converged && decision.added.size() > 1) {
+      wanted = result.set.united({decision.added.front()});
+      next = widened(scene, balance, wanted, result.solution, tolerance, result);
+    }
     if (!next.converged) {
-      StartPoint start = find_start(larger, frequency, tolerance);
+      wanted = decision.set;
+      StartPoint start = find_start(HarmonicBalance(scene, wanted), frequency, tolerance);
       result.evaluations += start.evaluations;
       result.iterations += start.iterations;
-      if (!start.solution) {
-        result.settled = false;
-        return result;
-      }
+      result.settled = start.solution.has_value();
+      if (!result.settled) return result;
       next = std::move(*start.solution);
     }
     result.solution = std::move(next);
-    result.set = std::move(decision.set);
+    result.set = std::move(wanted);
   }
 }
 

@@ -25,8 +25,9 @@ namespace microslip::solver {
 /// A set of harmonics with what it leaves out.
 struct HarmonicDecision {
   HarmonicSet set;
-  double left_out = 0.0;  ///< Σ e_k of harmonics that the set misses, of those probed
-  double missing = 0.0;   ///< the same of the set that was asked about
+  std::vector<int> added;  ///< those that matter most first
+  double left_out = 0.0;   ///< Σ e_k of harmonics that the set misses, of those probed
+  double missing = 0.0;    ///< the same of the set that was asked about
 };
 
 class HarmonicChoice {
