@@ -98,8 +98,8 @@ HarmonicChoice::HarmonicChoice(const Scene& scene, double tolerance, int highest
 
 int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
   const double resonance = std::ceil(std::min(top_frequency_ / frequency, 1.0 * farthest_resonance));
-  const int wanted = std::max(set.highest() + probed_ahead, static_cast<int>(resonance));
-  return std::max(std::min(wanted, highest_), set.highest());
+  // Beyond the highest allowed as well: what is left out there is told.
+  return std::max(set.highest() + probed_ahead, static_cast<int>(resonance));
 }
 
 HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
@@ -108,7 +108,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
   HarmonicDecision decision{balance.set(), {}};
   const double amplitude = amplitude_of(balance, point.x);
   const int probe = probed(balance.set(), point.parameter);
-  if (!scene_.contact || amplitude == 0.0 || probe == balance.set().count()) return decision;
+  if (!scene_.contact || amplitude == 0.0) return decision;
   const HarmonicBalance wide(scene_, probe);
   const auto widened = [&](const Eigen::VectorXd& x) { return wide.unknowns(balance.harmonics(x)); };
   const BalanceEvaluation at = wide.evaluate(widened(point.x), point.parameter);
@@ -128,6 +128,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
                    [](const Share& a, const Share& b) { return a.error > b.error; });
   for (const Share& share : shares) {
     if (decision.left_out <= added_down_to * tolerance_) break;
+    if (share.order > highest_) continue;
     decision.added.push_back(share.order);
     decision.left_out -= share.error;
   }
