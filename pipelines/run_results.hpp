@@ -86,6 +86,7 @@ struct OptimumOfFactor {
   std::string parameter;  ///< friction_coefficient | contact_stiffness
   double factor = 1.0;
   solver::PeakOfParameter best;
+  bool found = false;  ///< false: `best` is the lowest seen, at a bound of the search
 };
 
 struct StageRecord {

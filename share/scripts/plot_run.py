@@ -236,10 +236,15 @@ def peaks_of(run):
 
 def trace_of(run):
     path = os.path.join(run.folder, "peak_against_preload.csv")
+    return trace_in(path, "preload_N")
+
+
+def trace_in(path, name):
+    """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
     table = read_table(path) if os.path.exists(path) else {}
     if not table:
         return np.empty((0, 3))
-    return np.column_stack([table["preload_N"], table["frequency_Hz"], table["amplitude_m"]])
+    return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
 
 
 def draw_peaks(column, run, family, trace, sign):
@@ -270,7 +275,7 @@ def draw_limits(column, run, limits, named):
 
 
 def mark_optimum(column, run, optimum):
-    best = (optimum["preload_N"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
+    best = (optimum["value"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
     for axes, value in ((column[0], best[1]), (column[1], best[2])):
         axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
                      linewidth=0.6, zorder=5)
@@ -301,12 +306,41 @@ def plot_peaks(run, folder):
         draw_limits(column, run, limits, named=i == len(sides) - 1)
         name = "preload scale [–]" if run.scaled else "preload [N]" if side > 0 else "gap: −preload [N]"
         column[1].set_xlabel(name)
-    if optimum and optimum.get("found", True) and sides[-1] > 0:
+    if optimum and optimum["found"] and optimum["parameter"] == "preload" and sides[-1] > 0:
         mark_optimum(grid[:, -1], run, optimum)
     grid[0, 0].set_ylabel(f"peak amplitude [{run.unit}]")
     grid[1, 0].set_ylabel("peak frequency [Hz]")
     figure.suptitle(run.summary.get("title", ""), x=0.01, ha="left", fontsize=9)
     save(figure, folder, "peak_against_preload")
+
+
+def plot_parameter(run, folder):
+    """Peak against a number of the scene that is not the preload."""
+    trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
+    if len(trace) < 2:
+        return
+    optimum = run.summary["optimum"]
+    figure, column = plt.subplots(2, 1, figsize=(6.4, 4.8), layout="constrained", sharex=True,
+                                  height_ratios=[1.5, 1])
+    for axes, values in zip(column, (trace[:, 2] / run.size, trace[:, 1])):
+        axes.plot(trace[:, 0], values, color="0.35", linewidth=1.1, marker=".", markersize=4)
+        axes.grid(True, which="major", color="0.92", linewidth=0.6)
+        axes.set_axisbelow(True)
+    if trace[0, 0] > 0 and trace[-1, 0] > 5 * trace[0, 0]:
+        log_scale(column[0].xaxis)
+    log_scale(column[0].yaxis)
+    if optimum["found"]:
+        best = (optimum["value"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
+        for axes, value in zip(column, best[1:]):
+            axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
+                         linewidth=0.6, zorder=5)
+        column[0].set_title(f"best {best[0]:.4g}: {best[1]:.4g} {run.unit} at {best[2]:.4g} Hz",
+                            loc="right", fontsize=8, color=ACCENT)
+    column[1].set_xlabel(f"{optimum['parameter']} [SI], preload {optimum['preload_N']:.4g} N")
+    column[0].set_ylabel(f"peak amplitude [{run.unit}]")
+    column[1].set_ylabel("peak frequency [Hz]")
+    figure.suptitle(run.summary.get("title", ""), x=0.01, ha="left", fontsize=9)
+    save(figure, folder, "peak_against_parameter")
 
 
 class ContactMap:
@@ -491,7 +525,7 @@ def main():
     run = Run(sys.argv[1])
     folder = os.path.join(sys.argv[1], "plots")
     os.makedirs(folder, exist_ok=True)
-    tasks = [lambda: plot_peaks(run, folder), lambda: plot_curves(run, folder),
+    tasks = [lambda: plot_peaks(run, folder), lambda: plot_parameter(run, folder), lambda: plot_curves(run, folder),
              *map_tasks(run, folder)]
     return 0 if run_shared(tasks) else 1
 
