@@ -92,6 +92,8 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   NamedMap map;
   map.name = name;
   map.frequency_hz = point.frequency / two_pi;
+  map.amplitude = point.amplitude;
+  map.stability = point.stability;
   const bool closed_form = model.effects.closed_form();
   const auto draw = [&](bool on_vertices) {
     const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);

@@ -25,6 +25,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.tri import Triangulation
 
 STYLE = {
     "svg.hashsalt": "microslip",
@@ -270,8 +271,16 @@ def draw_limits(column, run, limits, named):
             axes.axhline(value, color=FREE if name == "free" else STUCK, linewidth=0.9, zorder=1,
                          linestyle="-" if name == "free" else (0, (6, 2)))
             if named:
-                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"), va="center",
-                              xytext=(4, 0), textcoords="offset points", fontsize=8)
+                above = is_upper(value, name, limits, axes is column[0])
+                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"),
+                              va="bottom" if above else "top", xytext=(4, -1 if above else 1),
+                              textcoords="offset points", fontsize=8)
+
+
+def is_upper(value, name, limits, amplitudes):
+    """Whether this limit's label goes above its line: the lines may lie close together."""
+    others = [pair[1 if amplitudes else 0] for other, pair in limits.items() if other != name]
+    return not others or limits[name][1 if amplitudes else 0] >= max(others)
 
 
 def mark_optimum(column, run, optimum):
@@ -281,10 +290,9 @@ def mark_optimum(column, run, optimum):
                      linewidth=0.6, zorder=5)
         axes.axvline(best[0], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
     unit = "× " if run.scaled else ""
-    column[0].annotate(
-        f"best preload {unit}{best[0]:.4g}{'' if run.scaled else ' N'}:\n"
-        f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", (best[0], best[1]), color=ACCENT,
-        xytext=(0.97, 0.95), textcoords="axes fraction", ha="right", va="top", fontsize=8)
+    column[0].set_title(f"best preload {unit}{best[0]:.4g}{'' if run.scaled else ' N'}: "
+                        f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", loc="right", color=ACCENT,
+                        fontsize=8)
 
 
 def plot_peaks(run, folder):
@@ -343,6 +351,13 @@ def plot_parameter(run, folder):
     save(figure, folder, "peak_against_parameter")
 
 
+def triangles_of(cells):
+    """Corner numbers of triangles; quadrilaterals are cut in two."""
+    if cells.shape[1] == 3:
+        return cells
+    return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
+
+
 class ContactMap:
     """One maps/NAME.h5, lengths of the patch in millimetres."""
 
@@ -350,6 +365,7 @@ class ContactMap:
         import h5py
         with h5py.File(path, "r") as file:
             self.frequency = file["frequency_Hz"][0]
+            self.amplitude, self.stable = file["amplitude_m"][0], int(file["stable"][0])
             self.phase = file["phase_deg"][:]
             self.state = file["state"][:]
             self.weights = file["weights"][:]
@@ -358,12 +374,16 @@ class ContactMap:
             self.cells = vertices[cells] if len(cells) else None
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
+            name = "vertex_state_start_deg"
+            self.starts = file[name][:] if name in file and len(cells) else None
+            self.triangles = triangles_of(cells) if len(cells) else None
         corners = vertices if self.cells is not None else self.points
         self.names = "p [mm]", "r [mm]"
         if np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):  # a long patch lies on its side
             corners, self.points = corners[:, ::-1], self.points[:, ::-1]
             self.cells = None if self.cells is None else self.cells[:, :, ::-1]
             self.names = self.names[::-1]
+        self.corners = corners
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def shares(self, phase):
@@ -372,6 +392,20 @@ class ContactMap:
         state = self.state[:, phase]
         return (weights[state == 0].sum(), weights[np.isin(state, (1, 2, 4))].sum(),
                 weights[state == 3].sum())
+
+    def draw_boundaries(self, axes, phase):
+        """Where a state begins at this phase [deg]: level lines of the transition angles, interpolated between
+        vertices. A triangle counts where the angle exists at its corners and does not leap around the period."""
+        if self.starts is None:
+            return
+        for angles in self.starts.T:
+            ahead = (angles - phase + 180.0) % 360.0 - 180.0
+            at_corners = ahead[self.triangles]
+            smooth = np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
+            if not smooth.any() or not (np.nanmin(at_corners[smooth]) < 0 < np.nanmax(at_corners[smooth])):
+                continue
+            mesh = Triangulation(*self.corners.T, self.triangles[smooth])
+            axes.tricontour(mesh, np.nan_to_num(ahead), levels=[0.0], colors="black", linewidths=0.7)
 
     def draw(self, axes, colours=None, values=None, cmap=None):
         """Cells in given colours, or coloured by values; lone points where there are no cells."""
@@ -410,6 +444,7 @@ def draw_states(axes, contact, angle):
     colour_of = {value: colour for value, _, colour in STATES}
     phase = int(np.argmin(np.abs((contact.phase - angle + 180) % 360 - 180)))
     contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
+    contact.draw_boundaries(axes, contact.phase[phase])
     stick, slip, apart = contact.shares(phase)
     axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
                    f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8)
@@ -418,7 +453,10 @@ def draw_states(axes, contact, angle):
 def draw_sum(figure, axes, contact, values, name):
     """A sum over the period on the patch, from zero."""
     drawn = contact.draw(axes, values=values, cmap="cividis")
-    drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
+    if not values.max() > 0:  # a scale of nothing would invent one
+        axes.set_title(f"{name}: 0", loc="left", fontsize=8)
+        return
+    drawn.set_clim(0.0, values.max())
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)
     axes.set_title(name, loc="left", fontsize=8)
@@ -475,7 +513,10 @@ def plot_map(path, folder, title):
         row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
         figure = plot_row(contact) if row else plot_patch(contact)
         state_legend(figure, contact)
-    figure.suptitle(f"{title}, {contact.frequency:.6g} Hz", x=0.01, ha="left", fontsize=9)
+    unit, size = length_unit(contact.amplitude)
+    stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
+    figure.suptitle(f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}", x=0.01,
+                    ha="left", fontsize=9)
     save(figure, folder, "map_" + name)
 
 
