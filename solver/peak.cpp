@@ -70,6 +70,12 @@ std::string sentence(const char* text, double value) {
   return stream.str();
 }
 
+/// Where the peak passes a limit between two values of the trace, on their chord: inside of a convex valley.
+double crossing(const PeakOfParameter& below, const PeakOfParameter& above, double limit) {
+  const double share = (limit - below.amplitude) / (above.amplitude - below.amplitude);
+  return below.parameter + share * (above.parameter - below.parameter);
+}
+
 /// How well the minimum is determined: the interval about it that is as good to 1 %, and other minima as
 /// good to 2 %. `trace` is sorted by parameter.
 std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best) {
@@ -86,7 +92,11 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
       std::find_if(std::make_reverse_iterator(centre), trace.rend(), level(1.01)).base();
   std::ostringstream text;
   text.precision(6);
-  text << "as good to 1 % from " << left->parameter << " to " << std::prev(right)->parameter;
+  const double limit = 1.01 * best.amplitude;
+  text << "as good to 1 % from "
+       << (left == trace.begin() ? left->parameter : crossing(*left, *std::prev(left), limit)) << " to "
+       << (right == trace.end() ? std::prev(right)->parameter
+                                : crossing(*std::prev(right), *right, limit));
   for (auto one = trace.begin(); one != trace.end(); ++one) {
     const bool elsewhere = one < left || one >= right;
     const bool lowest =
