@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -12,6 +13,7 @@
 #include <numbers>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@
 #include "pipelines/interrupt.hpp"
 #include "pipelines/output_file.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
 #include "pipelines/write_csv.hpp"
 #include "pipelines/model_file.hpp"
 #include "pipelines/write_map.hpp"
@@ -47,10 +50,29 @@ int lock_folder(const std::filesystem::path& folder) {
   return descriptor;
 }
 
-/// Files of an earlier run would stand beside the new ones and be taken for theirs.
+/// What a run writes and the next one removes: it would stand beside new files and be taken for theirs.
+constexpr std::array result_names{"curves",    "maps",    "motion",    "plots",
+                                  "modes.csv", "modes.vtu", "model.h5", "report.md",
+                                  "summary.json", "peak_against_preload.csv",
+                                  "peak_against_parameter.csv"};
+
+/// Whatever bears the name of a result is an earlier run's, or not ours to remove: a run begins with its
+/// scene and its log.
+void require_own(const std::filesystem::path& folder) {
+  const auto holds = [&](const char* name) { return std::filesystem::exists(folder / name); };
+  if (holds("scene.toml") && holds("log.txt")) return;
+  std::vector<const char*> names(result_names.begin(), result_names.end());
+  names.push_back("scene.toml");
+  for (const char* name : names) {
+    if (!holds(name)) continue;
+    throw SceneError(fmt::format("-o {}: holds \"{}\", which no run has written and a run would replace; "
+                                 "choose another folder",
+                                 folder.string(), name));
+  }
+}
+
 void clear_results(const std::filesystem::path& folder) {
-  for (const char* name : {"curves", "maps", "motion", "plots", "summary.json", "modes.csv",
-                           "modes.vtu", "model.h5", "report.md", "peak_against_preload.csv"}) {
+  for (const char* name : result_names) {
     std::error_code ignored;  // what cannot be removed cannot be written either: said there
     std::filesystem::remove_all(folder / name, ignored);
   }
@@ -73,6 +95,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   if (!writes_) return;
   make_folder(folder_);
   require_writable(folder_);
+  require_own(folder_);
   lock_ = lock_folder(folder_);
   clear_results(folder_);
   progress_.keep_in(folder_);
@@ -235,25 +258,36 @@ void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint
                to_hz * point.frequency);
 }
 
-void RunRecord::keep_optimum(const solver::Optimum& optimum) {
+void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
+                             const solver::Optimum& optimum) {
+  const bool in_newtons = model.load_measure == LoadMeasure::force;
+  const std::string unit = !request.of_preload() ? "" : in_newtons ? " N" : " of the points' preload";
+  const std::string what =
+      request.of_preload() ? "best preload"
+                           : fmt::format("best {} under preload {:g}", request.key, request.load);
   progress_.info(optimum.found
-                     ? fmt::format("best preload: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
-                                   optimum.best.parameter, optimum.best.amplitude,
-                                   to_hz * optimum.best.frequency)
-                     : "best preload: not found: " + optimum.message);
+                     ? fmt::format("{}: {:.6g}{}, peak {:.6g} m at {:.6g} Hz", what,
+                                   optimum.best.parameter, unit,
+                                   optimum.best.amplitude, to_hz * optimum.best.frequency)
+                     : fmt::format("{}: not found: {}", what, optimum.message));
   const std::lock_guard lock(mutex_);
-  summary_.optimum = optimum;
-  write_optimum_csv(folder_ / "peak_against_preload.csv", optimum);
+  OptimumSummary& summary = summary_.optimum.emplace();
+  summary.request = request;
+  summary.optimum = optimum;
+  if (!in_newtons) summary.newtons_per_load = model.weights.dot(model.preload);
+  write_optimum_csv(folder_, request, optimum);
 }
 
 void RunRecord::keep_bracket(std::vector<OptimumOfFactor> bracket) {
   for (const OptimumOfFactor& entry : bracket) {
-    progress_.info(fmt::format("best preload with {} x {:g}: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
-                               entry.parameter, entry.factor, entry.best.parameter,
-                               entry.best.amplitude, to_hz * entry.best.frequency));
+    progress_.info(fmt::format("with {} x {:g}: {} {:.6g}, peak {:.6g} m at {:.6g} Hz",
+                               entry.parameter, entry.factor,
+                               entry.found ? "best" : "lowest seen, at a bound:",
+                               entry.best.parameter, entry.best.amplitude,
+                               to_hz * entry.best.frequency));
   }
   const std::lock_guard lock(mutex_);
-  summary_.optimum_bracket = std::move(bracket);
+  summary_.optimum->bracket = std::move(bracket);
 }
 
 void RunRecord::keep_summary() {

@@ -85,6 +85,8 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
   point.harmonics_left_out = left_out_;
+  // At a fold a multiplier is 1: on which side it falls is rounding.
+  if (mark == PointMark::fold) point.stability = Stability::not_assessed;
   return point;
 }
 
