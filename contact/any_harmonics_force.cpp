@@ -32,6 +32,12 @@ ForceAndJacobian AnyHarmonicsForce::evaluate(const Harmonics& q, double frequenc
   return q.n_harmonics() == 1 ? closed_.evaluate(q, frequency) : events_.evaluate(q, frequency);
 }
 
+ForceAndJacobian AnyHarmonicsForce::evaluate_rows(const Harmonics& q, double frequency,
+                                                  const std::vector<Eigen::Index>& rows) const {
+  return q.n_harmonics() == 1 ? closed_.evaluate_rows(q, frequency, rows)
+                              : events_.evaluate_rows(q, frequency, rows);
+}
+
 CycleReport AnyHarmonicsForce::report(const Harmonics& q, double frequency) const {
   return q.n_harmonics() == 1 ? closed_.report(q, frequency) : events_.report(q, frequency);
 }

@@ -4,6 +4,8 @@
 /// so that a solver may change the number of harmonics from point to point and pays for those it has.
 #pragma once
 
+#include <vector>
+
 #include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
 
@@ -19,6 +21,8 @@ class AnyHarmonicsForce final : public ModalForce {
   [[nodiscard]] Eigen::Index n_modes() const override { return closed_.n_modes(); }
   /// @throws std::invalid_argument  another number of modes, or no harmonic.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
+  [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
+                                               const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

@@ -80,23 +80,11 @@ Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
   return unknowns(Harmonics(set_.highest(), scene_.n_modes(), full));
 }
 
-/// Force and derivatives in the unknowns alone.
+/// Force and derivatives in the unknowns alone; all rows of the force.
 contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
                                                       double frequency) const {
-  contact::ForceAndJacobian all = scene_.contact->evaluate(harmonics(x), frequency);
-  if (set_.complete()) return all;
-  const Eigen::Index n = scene_.n_modes();
-  const auto n_blocks = static_cast<Eigen::Index>(rows_.size());
-  contact::ForceAndJacobian result{std::move(all.force), Eigen::MatrixXd(size(), size()),
-                                   unknowns(all.frequency_derivative)};
-  for (Eigen::Index i = 0; i < n_blocks; ++i) {
-    for (Eigen::Index j = 0; j < n_blocks; ++j) {
-      const Eigen::Index row = n * rows_[static_cast<std::size_t>(i)];
-      const Eigen::Index column = n * rows_[static_cast<std::size_t>(j)];
-      result.jacobian.block(i * n, j * n, n, n) = all.jacobian.block(row, column, n, n);
-    }
-  }
-  return result;
+  if (set_.complete()) return scene_.contact->evaluate(harmonics(x), frequency);
+  return scene_.contact->evaluate_rows(harmonics(x), frequency, rows_);
 }
 
 void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,

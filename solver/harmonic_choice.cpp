@@ -22,6 +22,10 @@ constexpr int probed_ahead = 4;         // harmonics beyond the highest of the s
 // less than 1e-3 of the first harmonic even at a damping of 1e-2.
 constexpr int farthest_resonance = 15;
 
+// Of the force scale: what symmetry leaves of a harmonic is some 1e-15 of it, and a resonance of damping
+// 1e-6 makes no more of this than 1e-6 of the amplitude.
+constexpr double silent = 1e-12;
+
 struct Share {
   int order = 0;
   double error = 0.0;
@@ -102,6 +106,20 @@ int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
   return std::max(set.highest() + probed_ahead, static_cast<int>(resonance));
 }
 
+std::vector<int> HarmonicChoice::heard(const HarmonicBalance& balance, const BranchVector& point,
+                                       int highest, const Scaling& scaling) const {
+  Harmonics q(highest, scene_.n_modes());
+  const Harmonics known = balance.harmonics(point.x);
+  q.rows().topRows(known.rows().rows()) = known.rows();
+  const Harmonics force = scene_.contact->evaluate_rows(q, point.parameter, {}).force;
+  std::vector<int> orders;
+  for (int k = 1; k <= highest; ++k) {
+    const double size = std::hypot(force.sine(k).norm(), force.cosine(k).norm());
+    if (size > silent * scaling.residual && !balance.set().contains(k)) orders.push_back(k);
+  }
+  return orders;
+}
+
 HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
                                           const BranchVector& tangent,
                                           const Scaling& scaling) const {
@@ -109,7 +127,8 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
   const double amplitude = amplitude_of(balance, point.x);
   const int probe = probed(balance.set(), point.parameter);
   if (!scene_.contact || amplitude == 0.0) return decision;
-  const HarmonicBalance wide(scene_, probe);
+  const HarmonicBalance wide(scene_, balance.set().united(heard(balance, point, probe, scaling)));
+  if (wide.set() == balance.set()) return decision;
   const auto widened = [&](const Eigen::VectorXd& x) { return wide.unknowns(balance.harmonics(x)); };
   const BalanceEvaluation at = wide.evaluate(widened(point.x), point.parameter);
   const auto factors = factors_of(at, widened(tangent.x), tangent.parameter, scaling);

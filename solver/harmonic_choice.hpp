@@ -50,6 +50,9 @@ class HarmonicChoice {
                                          const BranchVector& tangent, const Scaling& scaling) const;
 
  private:
+  /// Orders up to the highest in which the contact answers, those of the balance left out.
+  [[nodiscard]] std::vector<int> heard(const HarmonicBalance& balance, const BranchVector& point,
+                                       int highest, const Scaling& scaling) const;
   [[nodiscard]] int probed(const HarmonicSet& set, double frequency) const;
 
   const Scene& scene_;
