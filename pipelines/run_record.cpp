@@ -221,6 +221,19 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
+/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told.
+void RunRecord::warn_of_precision(const CurveSummary& curve) {
+  constexpr double certified = 1e-10;
+  const double worst = std::max({curve.largest_residual, curve.largest_energy_imbalance,
+                                 curve.largest_dissipation_mismatch});
+  if (worst <= certified) return;
+  progress_.warning(fmt::format(
+      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
+      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",
+      curve.name, curve.largest_residual, curve.largest_energy_imbalance,
+      curve.largest_dissipation_mismatch));
+}
+
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
@@ -234,6 +247,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                                     to_hz * peak->frequency)
                       : std::string()));
   CurveSummary summary = summarise(result);
+  warn_of_precision(summary);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;
