@@ -97,7 +97,10 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"
                        : "the given stiffness is used as it is");
-  add("stability", facts.has_contact, "slow-flow eigenvalues of every point",
+  const bool several = scene.response && scene.response->harmonics > 1;
+  add("stability", facts.has_contact,
+      several ? "Hill's exponents of every point with several harmonics, where they can tell"
+              : "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add_second_direction(scene, model, effects);
   add("higher_harmonics", scene.response && scene.response->harmonics > 1, harmonics_text(scene),

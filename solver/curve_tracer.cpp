@@ -177,17 +177,27 @@ void CurveTracer::reduce(BranchWalker& walker) {
 }
 
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
+  const double left_out_now = left_out_;
   std::vector<SpecialPoint> found = special_points(walker, *balance_);
-  const auto lacks = [&](const SpecialPoint& special) {
-    return enlarge(walker, special.solution.point);
+  std::vector<double> left_out(found.size(), 0.0);
+  const auto any_lacks = [&] {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (enlarge(walker, found[i].solution.point)) return true;
+      left_out[i] = left_out_;
+    }
+    return false;
   };
-  while (choice_ && std::any_of(found.begin(), found.end(), lacks)) {
+  while (choice_ && any_lacks()) {
     found = special_points(walker, *balance_);
+    left_out.assign(found.size(), 0.0);
   }
   take_stock(walker);
-  for (const SpecialPoint& special : found) {
-    if (special.share < share_of_segment && !add(special.solution, special.mark)) return false;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    left_out_ = left_out[i];
+    const bool within = found[i].share < share_of_segment;
+    if (within && !add(found[i].solution, found[i].mark)) return false;
   }
+  left_out_ = left_out_now;
   return true;
 }
 
