@@ -1,7 +1,7 @@
 #include "solver/harmonic_choice.hpp"
 
+#include <cmath>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -80,6 +80,23 @@ TEST(HarmonicChoice, WhatIsLeftOutIsTheErrorToFirstOrder) {
   EXPECT_GT(error, tolerance);  // else the test tells nothing
   EXPECT_LT(error, 1.3 * decision.missing);
   EXPECT_GT(error, 0.1 * decision.missing);
+}
+
+TEST(HarmonicChoice, InternalResonanceCallsForItsHarmonic) {
+  // 3ω = ω₂ (hard case 48): the third harmonic of friction drives the second mode at resonance.
+  Scene scene = event_chain(30.0);
+  const double frequency = two_pi * 21.0;
+  scene.natural_frequency[1] = 3.0 * frequency;
+  const HarmonicDecision tuned = asked(scene, 1, frequency);
+  EXPECT_TRUE(tuned.set.contains(3));
+  EXPECT_EQ(tuned.added.at(0), 3);
+  EXPECT_GT(tuned.missing, 10.0 * tolerance);
+  ContinuationOptions one;
+  one.n_harmonics = 1;
+  const double amplitude = solve_at_frequency(scene, frequency, one).points.at(0).amplitude;
+  const ResponsePoint chosen = solve_at_frequency(scene, frequency, choosing()).points.at(0);
+  EXPECT_GT(std::abs(chosen.amplitude - amplitude), 10.0 * tolerance * amplitude);
+  EXPECT_LE(chosen.harmonics_left_out, 0.5 * tolerance);
 }
 
 TEST(HarmonicChoice, DropsHarmonicsThatDoNothing) {
