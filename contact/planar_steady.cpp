@@ -41,6 +41,18 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
+/// Phases at which slip ends, once for every window of the period that pushes the slider.
+std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
+  std::vector<double> found;
+  const std::vector<PlanarPiece>& pieces = orbit.pieces;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const PlanarPiece& next = pieces[i + 1 < pieces.size() ? i + 1 : 0];
+    const bool ends = pieces[i].state == ContactState::slip && next.state != ContactState::slip;
+    if (ends) found.push_back(pieces[i].end);
+  }
+  return found;
+}
+
 /// Newton's method on the period map, with the march as its safeguard.
 class FixedPoint {
  public:
@@ -69,6 +81,7 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
       if (!steady.orbit.slips) break;
+      if (period == patience && rest_in_corner(steady)) break;
       const Vector2d moved = steady.orbit.end - slider;
       const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
@@ -101,9 +114,27 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
+      if (period >= patience && rest_in_corner(steady)) break;
       slider = steady.orbit.end;
     }
     return steady;
+  }
+
+  /// Whether the two windows that push in the last period leave the slider in their corner. If so the
+  /// orbit is that of the slider at rest there.
+  bool rest_in_corner(SteadyOrbit& steady) const {
+    const std::vector<double> ends = ends_of_slip(steady.orbit);
+    if (ends.size() != 2) return false;
+    const std::optional<SliderCorner> corner =
+        meeting_corner(motion_, {ends[0], ends[1]}, steady.orbit.end);
+    if (!corner.has_value()) return false;
+    PlanarOrbit rest = walk_orbit(motion_, intervals_, corner->slider, options_);
+    if (rest.slips) return false;
+    steady.orbit = std::move(rest);
+    steady.corner = corner;
+    steady.history.clear();
+    steady.defect = 0.0;
+    return true;
   }
 
   const PlanarMotion& motion_;
@@ -135,8 +166,12 @@ SteadyDerivative steady_derivative(const PlanarMotion& motion, const SteadyOrbit
   OrbitVariation variation(motion, OrbitVariation::Columns::all);
   const Eigen::Index n = variation.n_parameters();
   if (steady.regime == CycleRegime::full_stick) {
-    variation.set_virgin_slider();
-    for (const PlanarOrbit& before : steady.history) variation.carry(before);
+    if (steady.corner.has_value()) {
+      variation.set_corner_slider(*steady.corner);
+    } else {
+      variation.set_virgin_slider();
+      for (const PlanarOrbit& before : steady.history) variation.carry(before);
+    }
   }
   variation.carry_and_integrate(steady.orbit);
   SteadyDerivative result;

@@ -15,6 +15,9 @@
 /// Source: theory section 9.
 #pragma once
 
+#include <optional>
+
+#include "contact/planar_corner.hpp"
 #include "contact/planar_orbit.hpp"
 #include "contact/planar_variation.hpp"
 
@@ -24,7 +27,8 @@ struct SteadyOrbit {
   CycleRegime regime = CycleRegime::separated;
   PlanarOrbit orbit;
   std::vector<PlanarOrbit>
-      history;          ///< full stick: periods before the last, from the virgin slider
+      history;  ///< full stick: periods before the last, from the virgin slider; none at a corner
+  std::optional<SliderCorner> corner;  ///< full stick: the corner the slider was pushed into
   double defect = 0.0;  ///< estimated distance from the fixed point, in f / F₀
 };
 

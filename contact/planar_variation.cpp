@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
 #include "contact/planar_quadrature.hpp"
 
 namespace microslip::contact {
@@ -39,6 +41,20 @@ void OrbitVariation::set_virgin_slider() {
   if (n_parameters_ == 0) return;
   slider_(0, 0) = -motion_.active()[0] / motion_.length_scale();
   slider_(1, 2) = -motion_.active()[1] / motion_.length_scale();
+}
+
+void OrbitVariation::set_corner_slider(const SliderCorner& corner) {
+  slider_.setZero(2, n_columns());
+  if (n_parameters_ == 0) return;
+  Eigen::Matrix2d gradient;
+  Eigen::Matrix2Xd excess(2, n_parameters_);
+  for (Index i = 0; i < 2; ++i) {
+    const CornerSide& side = corner.side[static_cast<std::size_t>(i)];
+    set_parameters(motion_.at(side.phase));
+    gradient.row(i) = side.gradient.transpose();
+    excess.row(i) = -side.gradient.transpose() * position_ - radius_;
+  }
+  slider_.leftCols(n_parameters_) = -gradient.fullPivLu().solve(excess);
 }
 
 void OrbitVariation::carry(const PlanarOrbit& orbit) {

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/planar_corner.hpp"
 #include "contact/planar_orbit.hpp"
 
 namespace microslip::contact {
@@ -35,6 +36,8 @@ class OrbitVariation {
   void set_free_slider();
   /// Begins with the virgin slider, s = 0, and no freedom.
   void set_virgin_slider();
+  /// Begins at rest in a corner, which moves with the motion: ∇G_i · δs = −δG_i.
+  void set_corner_slider(const SliderCorner& corner);
   /// Carries δs over one period.
   void carry(const PlanarOrbit& orbit);
   /// The same, and integrates δf: force_p(), force_r().
