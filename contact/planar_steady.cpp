@@ -53,6 +53,23 @@ std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
   return found;
 }
 
+/// Smallest Newton step and smallest move of a period so far. Far from the cycle the first may grow while
+/// the second shrinks; where one direction contracts fast and another slowly it is the other way round.
+class Progress {
+ public:
+  /// Whether one of them has fallen by a tenth at least; keeps the smaller values.
+  bool add(double newton, double move) {
+    const bool falls = newton < 0.9 * newton_ || move < 0.9 * move_;
+    newton_ = std::min(newton_, newton);
+    move_ = std::min(move_, move);
+    return falls;
+  }
+
+ private:
+  double newton_ = INFINITY;
+  double move_ = INFINITY;
+};
+
 /// Newton's method on the period map, with the march as its safeguard.
 class FixedPoint {
  public:
@@ -73,7 +90,8 @@ class FixedPoint {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
     Vector2d fallback = slider;
-    double smallest = INFINITY;
+    Progress progress;
+    int stalled = 0;
     double last_size = 0.0;
     bool tried = false;
     for (int period = 0;; ++period) {
@@ -88,13 +106,16 @@ class FixedPoint {
       const double size = force_of(motion_, moved);
       if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
-      if (tried && !(steady.defect < 0.9 * smallest)) {
+      const bool improved = progress.add(steady.defect, size);
+      stalled = improved ? 0 : stalled + 1;
+      // Two periods without progress this close: it is the steps of the walk that differ.
+      if (stalled >= 2 && steady.defect <= 100.0 * options_.tolerance) break;
+      if (tried && !improved) {
         slider = fallback;
         tried = false;
-        smallest = INFINITY;
+        progress = {};
         continue;
       }
-      smallest = steady.defect;
       fallback = steady.orbit.end;
       const bool slow = period + 1 >= patience && size > fast * last_size;
       last_size = size;
