@@ -216,7 +216,9 @@ class Walk {
     step.slider = slider_;
     step.length = length;
     const bool last = time_ + length >= interval_->end;
-    return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step);
+    const std::vector<SlipStep>& done = orbit_.pieces.back().steps;
+    const SlipStep* before = done.empty() ? nullptr : &done.back();
+    return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step, before);
   }
 
   /// The longest step from here within the tolerance.

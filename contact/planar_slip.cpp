@@ -98,6 +98,36 @@ RadauNodes make_nodes() {
 
 Eigen::Vector2d across(const Eigen::Vector2d& e) { return {-e[1], e[0]}; }
 
+/// (I + λK₀)⁻¹ f* with |f| = r to a tolerance.
+Eigen::Vector2d returned(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
+                         double radius, double tolerance) {
+  const double size = trial.norm();
+  if (size <= radius) return trial;
+  if (radius <= 0.0) return Eigen::Vector2d::Zero();
+  if (stiffness[0] == stiffness[1]) return trial * (radius / size);
+  // 1/|f| is nearly linear and concave in λ: Newton's method on it rises to the root without
+  // overshooting from λ = 0.
+  double lambda = 0.0;
+  Eigen::Vector2d force = trial;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector2d divisor = (1.0 + lambda * stiffness.array()).matrix();
+    force = trial.cwiseQuotient(divisor);
+    const double f = force.norm();
+    const double slope =
+        force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
+    const double change = (f - radius) / radius * f * f / slope;
+    lambda += change;
+    if (std::abs(f - radius) <= tolerance * radius) break;
+  }
+  return force * (radius / force.norm());
+}
+
+/// Good enough to begin Newton's method with.
+Eigen::Vector2d rough_return(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
+                             double radius) {
+  return returned(trial, stiffness, radius, 1e-3);
+}
+
 /// Stages from successive returns, direction by direction. Where a return finds stick the direction is
 /// kept: slip is continued backwards, and its negative rate tells the walk where it ended.
 void guess(const PlanarMotion& motion, SlipStep& step) {
@@ -109,7 +139,7 @@ void guess(const PlanarMotion& motion, SlipStep& step) {
     const Eigen::Vector2d trial = k.cwiseProduct(now.position - slider);
     const double size = trial.norm();
     if ((size > now.radius || i == 0) && size > 0.0) {
-      last = now.radius > 0.0 ? returned_force(trial, k, now.radius) : trial;
+      last = now.radius > 0.0 ? rough_return(trial, k, now.radius) : trial;
       last.normalize();
     } else if (i == 0) {
       last = Eigen::Vector2d::UnitX();
@@ -117,6 +147,25 @@ void guess(const PlanarMotion& motion, SlipStep& step) {
     step.direction.col(i) = last;
     slider = now.position - now.radius * motion.compliance().cwiseProduct(last);
   }
+}
+
+/// Stages from the polynomial of the step before, continued. Where it runs away from the first return
+/// there is no guess.
+bool guess_from(const PlanarMotion& motion, const SlipStep& before, SlipStep& step) {
+  constexpr double farthest = 4.0;  // steps grow by no more; beyond, the polynomial is noise
+  if (before.begin + before.length != step.begin || step.length > farthest * before.length) {
+    return false;
+  }
+  Eigen::Vector2d last = before.direction.col(n_stages - 1);
+  for (int i = 0; i < n_stages; ++i) {
+    const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
+    const double x = (now.phase - before.begin) / before.length;
+    Eigen::Vector2d force = motion.stiffness().cwiseProduct(now.position - before.slider_at(x));
+    force.normalize();
+    if (!(force.dot(last) > 0.8)) return false;
+    step.direction.col(i) = last = force;
+  }
+  return true;
 }
 
 void set_stages(const PlanarMotion& motion, SlipStep& step) {
@@ -176,6 +225,20 @@ double improve(const PlanarMotion& motion, SlipStep& step) {
   return largest;
 }
 
+/// Newton's method on (2) from the directions of the step.
+bool iterate(const PlanarMotion& motion, SlipStep& step) {
+  constexpr double small_turn = 1e-9;  // the step after it, quadratic, is below rounding
+  constexpr int most_iterations = 12;
+  set_stages(motion, step);
+  for (int i = 0; i < most_iterations; ++i) {
+    set_factor(motion, step);
+    const double largest = improve(motion, step);
+    if (largest >= 1e6) return false;
+    if (largest < small_turn) return true;
+  }
+  return false;
+}
+
 /// Of the slider and, where the stiffness varies with the load, of the limit of friction.
 double top_term(const PlanarMotion& motion, const SlipStep& step) {
   const RadauNodes& rule = radau_nodes();
@@ -199,25 +262,7 @@ const RadauNodes& radau_nodes() {
 
 Eigen::Vector2d returned_force(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
                                double radius) {
-  const double size = trial.norm();
-  if (size <= radius) return trial;
-  if (radius <= 0.0) return Eigen::Vector2d::Zero();
-  if (stiffness[0] == stiffness[1]) return trial * (radius / size);
-  // 1/|f| is nearly linear and concave in λ: Newton's method on it rises to the root without
-  // overshooting from λ = 0.
-  double lambda = 0.0;
-  Eigen::Vector2d force = trial;
-  for (int i = 0; i < 60; ++i) {
-    const Eigen::Vector2d divisor = (1.0 + lambda * stiffness.array()).matrix();
-    force = trial.cwiseQuotient(divisor);
-    const double f = force.norm();
-    const double slope =
-        force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
-    const double change = (f - radius) / radius * f * f / slope;
-    lambda += change;
-    if (std::abs(f - radius) <= 4e-16 * radius) break;
-  }
-  return force * (radius / force.norm());
+  return returned(trial, stiffness, radius, 4e-16);
 }
 
 double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction,
@@ -244,22 +289,17 @@ Eigen::Vector2d SlipStep::slider_at(double x) const {
   return sum / total;
 }
 
-bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step) {
+bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
+                const SlipStep* before) {
   const RadauNodes& rule = radau_nodes();
   for (std::size_t i = 0; i < n_stages; ++i) {
     const double nudge = i + 1 == n_stages ? end_nudge : 0.0;
     step.instant[i] = motion.at(step.begin + rule.node[i] * step.length, nudge);
   }
-  guess(motion, step);
-  set_stages(motion, step);
-  constexpr double small_turn = 1e-9;  // the step after it, quadratic, is below rounding
-  constexpr int most_iterations = 12;
-  bool converged = false;
-  for (int i = 0; i < most_iterations && !converged; ++i) {
-    set_factor(motion, step);
-    const double largest = improve(motion, step);
-    if (largest >= 1e6) break;
-    converged = largest < small_turn;
+  bool converged = before != nullptr && guess_from(motion, *before, step) && iterate(motion, step);
+  if (!converged) {
+    guess(motion, step);
+    converged = iterate(motion, step);
   }
   if (!converged) {
     guess(motion, step);

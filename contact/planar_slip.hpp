@@ -75,9 +75,11 @@ struct SlipStep {
   [[nodiscard]] Eigen::Vector2d slider_at(double x) const;
 };
 
-/// Solves (2) by Newton's method, started from successive returns.
+/// Solves (2) by Newton's method, started from the step before, or else from successive returns.
 /// @param end_nudge  side of a kink for the derivatives of the law at the end of the step, ≤ 0.
+/// @param before     step that ended where this one begins, if there is one: saves iterations.
 /// @return whether it converged; if not, `step` holds the successive returns, a solution of first order.
-[[nodiscard]] bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step);
+[[nodiscard]] bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
+                              const SlipStep* before = nullptr);
 
 }  // namespace microslip::contact

@@ -64,11 +64,6 @@ PlanarCase slipping_planar(std::mt19937_64& random) {
   return closed_planar(random, std::exp(uniform(random, -0.5, 3.0)), std::exp(gauss(random)));
 }
 
-/// A little slip somewhere in the period: between full stick and slip for good.
-PlanarCase creeping_planar(std::mt19937_64& random) {
-  return closed_planar(random, std::exp(uniform(random, -1.6, -0.2)), 2.0);
-}
-
 PlanarCase grazing_planar(std::mt19937_64& random) {
   PlanarCase c = closed_planar(random, std::exp(uniform(random, -1.0, 2.0)), 1.0);
   c.motion.rows().col(1).tail(c.motion.rows().rows() - 3).setZero();
@@ -94,6 +89,10 @@ PlanarCase generic_planar(std::mt19937_64& random) {
 
 PlanarCase dragged_planar(std::mt19937_64& random) {
   return closed_planar(random, std::exp(uniform(random, -4.0, -1.2)), 2.0);
+}
+
+PlanarCase creeping_planar(std::mt19937_64& random) {
+  return closed_planar(random, std::exp(uniform(random, -1.6, -0.2)), 2.0);
 }
 
 PlanarCase onset_planar(std::mt19937_64& random) {

@@ -20,6 +20,8 @@ struct PlanarStratum {
 [[nodiscard]] PlanarCase generic_planar(std::mt19937_64& random);
 /// Never separated; means that drag the virgin slider, amplitudes that leave the point stuck.
 [[nodiscard]] PlanarCase dragged_planar(std::mt19937_64& random);
+/// The same with larger amplitudes: a little slip somewhere in the period, or stuck after a long way.
+[[nodiscard]] PlanarCase creeping_planar(std::mt19937_64& random);
 /// The same with the amplitude at the onset of slip, closer than 10 % and down to 1e-9 on either side:
 /// a straight or elliptic motion under constant load, of which the onset is known.
 [[nodiscard]] PlanarCase onset_planar(std::mt19937_64& random);
