@@ -44,20 +44,19 @@ class Windows {
 
  private:
   [[nodiscard]] double guard_rate(const PlanarInstant& now, const Vector2d& slider) const {
-    const Vector2d force = motion_.stiffness().cwiseProduct(now.position - slider);
+    const Vector2d force = now.force(slider);
     const double size = force.norm();
-    const Vector2d rate = motion_.stiffness().cwiseProduct(now.velocity);
-    return (size > 0.0 ? force.dot(rate) / size : 0.0) - now.radius_rate;
+    return (size > 0.0 ? force.dot(now.force_rate(slider)) / size : 0.0) - now.radius_rate;
   }
 
   [[nodiscard]] CornerSide at(double phase, const Vector2d& slider) const {
     const PlanarInstant now = motion_.at(phase);
     CornerSide side;
     side.phase = phase;
-    side.force = motion_.stiffness().cwiseProduct(now.position - slider);
+    side.force = now.force(slider);
     const double size = side.force.norm();
     side.excess = size - now.radius;
-    if (size > 0.0) side.gradient = -motion_.stiffness().cwiseProduct(side.force) / size;
+    if (size > 0.0) side.gradient = -now.stiffness.cwiseProduct(side.force) / size;
     return side;
   }
 

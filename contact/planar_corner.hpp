@@ -5,11 +5,11 @@
 /// outside is pushed in; where the boundaries of two windows of the period meet at an acute angle it goes
 /// to and fro between them, by ever smaller steps, towards their corner:
 ///
-///   G_i(s) = max_{θ near θ_i} |K₀ (x − s)| − r = 0,    i = 1, 2                                 (1)
+///   G_i(s) = max_{θ near θ_i} |K (x − s)| − r = 0,    i = 1, 2                                 (1)
 ///
 /// G is convex in s, so that Newton's method on (1), begun outside both, stays outside and approaches the
 /// corner from one side. If it turns back there is no corner: the two ellipses have no point in common, and
-/// the slider slips for good. ∇G = −K₀ e with the direction e of the force.
+/// the slider slips for good. ∇G = −K e with the direction e of the force.
 ///
 /// Source: theory sections 4.2, 9 (common point of the discs).
 #pragma once
@@ -25,7 +25,7 @@ namespace microslip::contact {
 struct CornerSide {
   double phase = 0.0;
   double excess = 0.0;                                ///< G / F₀
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();    ///< K₀ (x − s) / F₀
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();    ///< K (x − s) / F₀
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero(); ///< ∇G by s / L₀
 };
 

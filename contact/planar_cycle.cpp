@@ -158,8 +158,9 @@ Eigen::Vector3d PlanarLaw::stuck_stiffness() const {
     return {rubs ? law_.first_stiffness() : 0.0, law_.point().normal_stiffness,
             rubs ? law_.second_stiffness() : 0.0};
   }
-  const double ratio = rest.friction_coefficient > 0.0 ? rest.stiffness_ratio : 0.0;
-  return {ratio * law_.first_stiffness(), rest.load_by_approach, ratio * law_.second_stiffness()};
+  const double rubs = rest.friction_coefficient > 0.0 ? 1.0 : 0.0;
+  return {rubs * rest.stiffness_ratio * law_.first_stiffness(), rest.load_by_approach,
+          rubs * rest.second_stiffness_ratio * law_.second_stiffness()};
 }
 
 }  // namespace microslip::contact

@@ -98,7 +98,7 @@ RadauNodes make_nodes() {
 
 Eigen::Vector2d across(const Eigen::Vector2d& e) { return {-e[1], e[0]}; }
 
-/// (I + λK₀)⁻¹ f* with |f| = r to a tolerance.
+/// (I + λK)⁻¹ f* with |f| = r to a tolerance.
 Eigen::Vector2d returned(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
                          double radius, double tolerance) {
   const double size = trial.norm();
@@ -130,28 +130,27 @@ Eigen::Vector2d rough_return(const Eigen::Vector2d& trial, const Eigen::Vector2d
 
 /// Stages from successive returns, direction by direction. Where a return finds stick the direction is
 /// kept: slip is continued backwards, and its negative rate tells the walk where it ended.
-void guess(const PlanarMotion& motion, SlipStep& step) {
-  const Eigen::Vector2d& k = motion.stiffness();
+void guess(SlipStep& step) {
   Eigen::Vector2d slider = step.slider;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
   for (int i = 0; i < n_stages; ++i) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d trial = k.cwiseProduct(now.position - slider);
+    const Eigen::Vector2d trial = now.force(slider);
     const double size = trial.norm();
     if ((size > now.radius || i == 0) && size > 0.0) {
-      last = now.radius > 0.0 ? rough_return(trial, k, now.radius) : trial;
+      last = now.radius > 0.0 ? rough_return(trial, now.stiffness, now.radius) : trial;
       last.normalize();
     } else if (i == 0) {
       last = Eigen::Vector2d::UnitX();
     }
     step.direction.col(i) = last;
-    slider = now.position - now.radius * motion.compliance().cwiseProduct(last);
+    slider = now.edge(last);
   }
 }
 
 /// Stages from the polynomial of the step before, continued. Where it runs away from the first return
 /// there is no guess.
-bool guess_from(const PlanarMotion& motion, const SlipStep& before, SlipStep& step) {
+bool guess_from(const SlipStep& before, SlipStep& step) {
   constexpr double farthest = 4.0;  // steps grow by no more; beyond, the polynomial is noise
   if (before.begin + before.length != step.begin || step.length > farthest * before.length) {
     return false;
@@ -160,7 +159,7 @@ bool guess_from(const PlanarMotion& motion, const SlipStep& before, SlipStep& st
   for (int i = 0; i < n_stages; ++i) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
     const double x = (now.phase - before.begin) / before.length;
-    Eigen::Vector2d force = motion.stiffness().cwiseProduct(now.position - before.slider_at(x));
+    Eigen::Vector2d force = now.force(before.slider_at(x));
     force.normalize();
     if (!(force.dot(last) > 0.8)) return false;
     step.direction.col(i) = last = force;
@@ -168,12 +167,10 @@ bool guess_from(const PlanarMotion& motion, const SlipStep& before, SlipStep& st
   return true;
 }
 
-void set_stages(const PlanarMotion& motion, SlipStep& step) {
+void set_stages(SlipStep& step) {
   const RadauNodes& rule = radau_nodes();
   for (int i = 0; i < n_stages; ++i) {
-    const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
-    step.stage.col(i) =
-        now.position - now.radius * motion.compliance().cwiseProduct(step.direction.col(i));
+    step.stage.col(i) = step.instant[static_cast<std::size_t>(i)].edge(step.direction.col(i));
   }
   for (int i = 0; i < n_stages; ++i) {
     // Row sums of D vanish: differences from the first point keep small steps accurate.
@@ -185,13 +182,12 @@ void set_stages(const PlanarMotion& motion, SlipStep& step) {
   }
 }
 
-void set_factor(const PlanarMotion& motion, SlipStep& step) {
+void set_factor(SlipStep& step) {
   const RadauNodes& rule = radau_nodes();
   Eigen::Matrix<double, n_stages, n_stages> A;
   for (int j = 0; j < n_stages; ++j) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(j)];
-    const Eigen::Vector2d turn =
-        -now.radius * motion.compliance().cwiseProduct(across(step.direction.col(j)));
+    const Eigen::Vector2d turn = -now.reach().cwiseProduct(across(step.direction.col(j)));
     for (int i = 0; i < n_stages; ++i) {
       A(i, j) = rule.derivative(i, j + 1) * across(step.direction.col(i)).dot(turn);
     }
@@ -204,7 +200,7 @@ void set_factor(const PlanarMotion& motion, SlipStep& step) {
 
 /// One Newton step; returns the largest change of an angle, less what rounding of positions of order one
 /// does to it where both the ellipse and the way are small.
-double improve(const PlanarMotion& motion, SlipStep& step) {
+double improve(SlipStep& step) {
   Stages residual;
   for (int i = 0; i < n_stages; ++i) {
     residual[i] = across(step.direction.col(i)).dot(step.travel.col(i));
@@ -221,18 +217,18 @@ double improve(const PlanarMotion& motion, SlipStep& step) {
     const Eigen::Vector2d e = step.direction.col(i);
     step.direction.col(i) = std::cos(turn) * e + std::sin(turn) * across(e);
   }
-  set_stages(motion, step);
+  set_stages(step);
   return largest;
 }
 
 /// Newton's method on (2) from the directions of the step.
-bool iterate(const PlanarMotion& motion, SlipStep& step) {
+bool iterate(SlipStep& step) {
   constexpr double small_turn = 1e-9;  // the step after it, quadratic, is below rounding
   constexpr int most_iterations = 12;
-  set_stages(motion, step);
+  set_stages(step);
   for (int i = 0; i < most_iterations; ++i) {
-    set_factor(motion, step);
-    const double largest = improve(motion, step);
+    set_factor(step);
+    const double largest = improve(step);
     if (largest >= 1e6) return false;
     if (largest < small_turn) return true;
   }
@@ -265,11 +261,10 @@ Eigen::Vector2d returned_force(const Eigen::Vector2d& trial, const Eigen::Vector
   return returned(trial, stiffness, radius, 4e-16);
 }
 
-double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction,
-                 const Eigen::Vector2d& compliance) {
+double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d normal = across(direction);
-  const Eigen::Vector2d d = now.velocity - now.radius_rate * compliance.cwiseProduct(direction);
-  const Eigen::Vector2d Cn = compliance.cwiseProduct(normal);
+  const Eigen::Vector2d d = now.velocity - now.reach_rate().cwiseProduct(direction);
+  const Eigen::Vector2d Cn = normal.cwiseQuotient(now.stiffness);
   return direction.dot(d) - direction.dot(Cn) / normal.dot(Cn) * normal.dot(d);
 }
 
@@ -296,15 +291,15 @@ bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
     const double nudge = i + 1 == n_stages ? end_nudge : 0.0;
     step.instant[i] = motion.at(step.begin + rule.node[i] * step.length, nudge);
   }
-  bool converged = before != nullptr && guess_from(motion, *before, step) && iterate(motion, step);
+  bool converged = before != nullptr && guess_from(*before, step) && iterate(step);
   if (!converged) {
-    guess(motion, step);
-    converged = iterate(motion, step);
+    guess(step);
+    converged = iterate(step);
   }
   if (!converged) {
-    guess(motion, step);
-    set_stages(motion, step);
-    set_factor(motion, step);
+    guess(step);
+    set_stages(step);
+    set_factor(step);
   }
   step.top_term = top_term(motion, step);
   return converged;

@@ -48,6 +48,9 @@ struct SurfaceState {
   double load_per_ratio_by_approach = 0.0;  ///< [N/m³]
   double second_load_per_ratio = 0.0;
   double second_load_per_ratio_by_approach = 0.0;
+  /// g_r/g_p [-], finite where both vanish, and its derivative [1/m].
+  double ratio_of_stiffness = 1.0;
+  double ratio_of_stiffness_by_approach = 0.0;
 };
 
 /// Compliance of the bodies in series with the surfaces, per area: displacement by pressure. May be
@@ -104,6 +107,8 @@ class SurfaceLaw {
   /// u of (2) at v + v_rest [m].
   [[nodiscard]] double surface_approach(double closure) const;
   void add_rough_state(double approach, SurfaceState& state) const;
+  /// g_r/g_p of (3) for the share h* and dh*/dv.
+  void add_ratio_of_stiffness(double share, double share_by_approach, SurfaceState& state) const;
 
   PointParameters point_;    // in full contact, series included
   double second_stiffness_;  // likewise
