@@ -23,6 +23,58 @@ CycleRegime regime_of_contact(const Intervals& intervals) {
                                                                   : CycleRegime::separation;
 }
 
+/// A point in units of force near its own forces, a power of two away from those of the caller: nothing
+/// under- or overflows on the way, and results are the same to the last bit in any such unit. Rough
+/// surfaces, which have a length of their own, are left as they are.
+struct ScaledPoint {
+  ScaledPoint(const SurfaceLaw& surface, const Harmonics& x, double omega)
+      : law(surface), motion(x), frequency(omega) {
+    if (!surface.is_smooth()) return;
+    const int exponent = exponent_of(surface, x);
+    if (exponent == 0) return;
+    const double factor = std::ldexp(1.0, -exponent);
+    unit = std::ldexp(1.0, exponent);
+    law = surface.in_units(factor);
+    motion.rows() *= factor;
+    frequency *= unit;  // speeds stay what they are
+  }
+
+  /// Of two of the largest force.
+  static int exponent_of(const SurfaceLaw& surface, const Harmonics& x) {
+    const Eigen::Index moving = x.rows().rows() - 1;
+    const auto amplitude = [&](Eigen::Index i) {
+      return x.rows().col(i).tail(moving).cwiseAbs().maxCoeff();
+    };
+    const PointParameters& point = surface.point();
+    const double load = std::max(std::abs(point.preload),
+                                 point.normal_stiffness * x.rows().col(1).cwiseAbs().maxCoeff());
+    const double force = std::max({surface.first_stiffness() * amplitude(0),
+                                   surface.second_stiffness() * amplitude(2),
+                                   point.friction_coefficient * load});
+    constexpr int largest = 1000;  // both the factor and its inverse are normal numbers
+    if (!(force > 0.0) || !std::isfinite(force)) return 0;
+    return std::clamp(std::ilogb(force), -largest, largest);
+  }
+
+  double unit = 1.0;  ///< in those of the caller, lengths and forces alike
+  SurfaceLaw law;
+  Harmonics motion;
+  double frequency;
+};
+
+/// Back to the units of the caller.
+void count_in(double unit, PointHistory& history) {
+  history.force.rows() *= unit;
+  history.slip_distance *= unit;
+  history.dissipated_energy = history.dissipated_energy * unit * unit;
+  history.normal_slip = history.normal_slip * unit * unit;
+  for (PointInstant& instant : history.instants) {
+    instant.motion *= unit;
+    instant.traction *= unit;
+    instant.slider *= unit;
+  }
+}
+
 /// Whether the point would slide if nothing held it: μ = 0 with stiffness and tangential motion.
 bool slides_freely(const PlanarMotion& motion) {
   const SurfaceLaw& law = motion.law();
@@ -99,7 +151,8 @@ PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance)
 
 void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
   check_motion(motion);
-  const PlanarMotion planar(law_, motion, frequency);
+  const ScaledPoint point(law_, motion, frequency);
+  const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
   const OrbitOptions options{tolerance_, static_cast<double>(H)};
@@ -107,6 +160,7 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
   result.force = planar_force(planar, intervals, steady.orbit, H);
+  result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
   result.frequency_derivative.setZero(m);
   const Eigen::MatrixXd load = load_derivative(planar, intervals);
@@ -120,15 +174,16 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   for (Eigen::Index i = 0; i < load.rows(); ++i) {
     result.jacobian.row(3 * i) = friction.first.row(i).head(m);
     result.jacobian.row(3 * i + 2) = friction.second.row(i).head(m);
-    result.frequency_derivative[3 * i] = friction.first(i, m);
-    result.frequency_derivative[3 * i + 2] = friction.second(i, m);
+    result.frequency_derivative[3 * i] = friction.first(i, m) * point.unit * point.unit;
+    result.frequency_derivative[3 * i + 2] = friction.second(i, m) * point.unit * point.unit;
   }
 }
 
 PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
                                 const Eigen::VectorXd& phases, int n_harmonics) const {
   check_motion(motion);
-  const PlanarMotion planar(law_, motion, frequency);
+  const ScaledPoint point(law_, motion, frequency);
+  const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const double highest = std::max(n_harmonics, motion.n_harmonics());
   const SteadyOrbit steady = cycle_of(planar, intervals, {tolerance_, highest});
@@ -148,6 +203,7 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   for (const double phase : phases) {
     result.instants.push_back(planar_instant(planar, steady.orbit, phase));
   }
+  count_in(point.unit, result);
   return result;
 }
 

@@ -138,7 +138,14 @@ double PlanarMotion::approach_rate(double phase) const {
 
 Eigen::Vector2d PlanarMotion::virgin_slider() const {
   const Eigen::Vector2d mean(harmonics_.mean()[0], harmonics_.mean()[2]);
-  return -mean.cwiseProduct(active_) / length_scale_;
+  // Farther away only the direction counts, and squares would overflow.
+  constexpr double farthest = 1e120;
+  Eigen::Vector2d slider = -mean.cwiseProduct(active_) / length_scale_;
+  const double size = slider.cwiseAbs().maxCoeff();
+  if (size > farthest) {
+    slider = -mean.cwiseProduct(active_) / mean.cwiseAbs().maxCoeff() * farthest;
+  }
+  return slider;
 }
 
 }  // namespace microslip::contact
