@@ -65,6 +65,7 @@ struct ScaledPoint {
 /// Back to the units of the caller.
 void count_in(double unit, PointHistory& history) {
   history.force.rows() *= unit;
+  history.defect *= unit;
   history.slip_distance *= unit;
   history.dissipated_energy = history.dissipated_energy * unit * unit;
   history.normal_slip = history.normal_slip * unit * unit;
@@ -115,6 +116,12 @@ SteadyOrbit cycle_of(const PlanarMotion& motion, const Intervals& intervals,
   return steady;
 }
 
+/// In units of force; 0 where the search met its tolerance or has nothing left to do.
+double defect_of(const PlanarMotion& motion, const SteadyOrbit& steady, double tolerance) {
+  const bool met = steady.closes || steady.defect <= tolerance;
+  return met ? 0.0 : steady.defect * motion.force_scale();
+}
+
 void check_motion(const Harmonics& motion) {
   if (motion.n_signals() == n_point_signals && motion.n_harmonics() >= 1) return;
   throw std::invalid_argument("PlanarLaw: a motion of " + std::to_string(motion.n_signals()) +
@@ -159,6 +166,7 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   const SteadyOrbit steady = cycle_of(planar, intervals, options);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
+  result.defect = defect_of(planar, steady, tolerance_) * point.unit;
   result.force = planar_force(planar, intervals, steady.orbit, H);
   result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
@@ -189,6 +197,7 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   const SteadyOrbit steady = cycle_of(planar, intervals, {tolerance_, highest});
   PointHistory result;
   result.regime = steady.regime;
+  result.defect = defect_of(planar, steady, tolerance_);
   result.segments = planar_segments(steady.orbit);
   result.force = planar_force(planar, intervals, steady.orbit, n_harmonics);
   if (planar.has_friction()) {

@@ -12,6 +12,8 @@
 /// A point that never slips nor separates keeps the slider it was left with: virgin, s = 0, and pushed by
 /// one period after another, beginning at θ = 0, until nothing moves it.
 ///
+/// Where the search for the periodic slider ends before the tolerance, the result says so by its defect.
+///
 /// A direction without stiffness carries no friction. μ = 0 slips without force.
 ///
 /// Source: theory sections 3, 4.2, 6, 7, 8, 9, 10, 11.

@@ -12,10 +12,9 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Newton's method helps after this many periods, and only a march that shrinks its moves by less than
-/// this factor: a slider pushed into full stick comes to rest faster, and where it does is history.
+/// Newton's method helps after this many periods: most sliders pushed into full stick have come to rest
+/// by then, and where they do is history.
 constexpr int patience = 2;
-constexpr double fast = 0.05;
 /// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
 constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
@@ -57,9 +56,9 @@ std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
 /// the second shrinks; where one direction contracts fast and another slowly it is the other way round.
 class Progress {
  public:
-  /// Whether one of them has fallen by a tenth at least; keeps the smaller values.
+  /// Whether one of them has fallen, Newton steps by little at least where they creep; keeps the smaller.
   bool add(double newton, double move) {
-    const bool falls = newton < 0.9 * newton_ || move < 0.9 * move_;
+    const bool falls = newton < 0.98 * newton_ || move < 0.9 * move_;
     newton_ = std::min(newton_, newton);
     move_ = std::min(move_, move);
     return falls;
@@ -91,25 +90,26 @@ class FixedPoint {
     Vector2d slider = motion_.virgin_slider();
     Vector2d fallback = slider;
     Progress progress;
-    int stalled = 0;
-    double last_size = 0.0;
+    int failures = 0;
     bool tried = false;
     for (int period = 0;; ++period) {
       if (period > 0 && !helped_) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
+      steady.closes = true;
       if (!steady.orbit.slips) break;
-      if (period == patience && rest_in_corner(steady)) break;
+      if (period + 1 == patience && rest_in_corner(steady)) break;
       const Vector2d moved = steady.orbit.end - slider;
       const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved);
-      if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
+      steady.closes = size <= rounding;
+      if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
-      stalled = improved ? 0 : stalled + 1;
-      // Two periods without progress this close: it is the steps of the walk that differ.
-      if (stalled >= 2 && steady.defect <= 100.0 * options_.tolerance) break;
+      failures += tried && !improved ? 1 : 0;
+      // No progress this close: it is the steps of the walk that differ from period to period.
+      if (failures >= 3 && steady.defect <= 1e4 * options_.tolerance) break;
       if (tried && !improved) {
         slider = fallback;
         tried = false;
@@ -117,9 +117,7 @@ class FixedPoint {
         continue;
       }
       fallback = steady.orbit.end;
-      const bool slow = period + 1 >= patience && size > fast * last_size;
-      last_size = size;
-      tried = slow && newton.allFinite() && steady.defect < 4.0;  // no slider is farther
+      tried = period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;  // none is farther
       slider = tried ? Vector2d(slider + newton) : fallback;
       helped_ = helped_ || tried;
     }
@@ -134,8 +132,9 @@ class FixedPoint {
       if (period > 0) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
+      steady.closes = steady.defect <= rounding;
       if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
-      if (period >= patience && rest_in_corner(steady)) break;
+      if (period + 1 >= patience && rest_in_corner(steady)) break;
       slider = steady.orbit.end;
     }
     return steady;
@@ -155,6 +154,7 @@ class FixedPoint {
     steady.corner = corner;
     steady.history.clear();
     steady.defect = 0.0;
+    steady.closes = true;
     return true;
   }
 

@@ -60,10 +60,6 @@ PlanarCase closed_planar(std::mt19937_64& random, double amplitude, double mean)
   return c;
 }
 
-PlanarCase slipping_planar(std::mt19937_64& random) {
-  return closed_planar(random, std::exp(uniform(random, -0.5, 3.0)), std::exp(gauss(random)));
-}
-
 PlanarCase grazing_planar(std::mt19937_64& random) {
   PlanarCase c = closed_planar(random, std::exp(uniform(random, -1.0, 2.0)), 1.0);
   c.motion.rows().col(1).tail(c.motion.rows().rows() - 3).setZero();
@@ -85,6 +81,10 @@ PlanarCase generic_planar(std::mt19937_64& random) {
   const bool round = count(random, 0, 3) == 0;
   c.second_stiffness = round ? c.point.tangential_stiffness : std::exp(gauss(random));
   return c;
+}
+
+PlanarCase slipping_planar(std::mt19937_64& random) {
+  return closed_planar(random, std::exp(uniform(random, -0.5, 3.0)), std::exp(gauss(random)));
 }
 
 PlanarCase dragged_planar(std::mt19937_64& random) {

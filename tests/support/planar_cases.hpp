@@ -18,6 +18,8 @@ struct PlanarStratum {
 
 /// 1 to 3 harmonics, means, different stiffness along p and r, gaps.
 [[nodiscard]] PlanarCase generic_planar(std::mt19937_64& random);
+/// Never separated, amplitudes from the limit of friction to twenty times it.
+[[nodiscard]] PlanarCase slipping_planar(std::mt19937_64& random);
 /// Never separated; means that drag the virgin slider, amplitudes that leave the point stuck.
 [[nodiscard]] PlanarCase dragged_planar(std::mt19937_64& random);
 /// The same with larger amplitudes: a little slip somewhere in the period, or stuck after a long way.
