@@ -75,8 +75,8 @@ std::optional<SliderCorner> meeting_corner(const PlanarMotion& motion,
   std::array<double, 2> near = phases;
   double turn = 0.0;
   double last = INFINITY;
-  // A corner that is all but a point, where Newton's steps only halve, takes 26 of them to half of the
-  // digits, which is what rounding of G leaves of such a corner.
+  // A corner that is all but a point, where Newton's steps only halve, takes 26 of them to half of
+  // the digits, which is what rounding of G leaves of such a corner.
   constexpr int most_steps = 60;
   constexpr double rounding = 2e-16;
   for (int i = 0; i < most_steps; ++i) {

@@ -24,9 +24,9 @@ namespace microslip::contact {
 /// One side of the corner: the phase at which its ellipse is felt most.
 struct CornerSide {
   double phase = 0.0;
-  double excess = 0.0;                                ///< G / F₀
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();    ///< K (x − s) / F₀
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero(); ///< ∇G by s / L₀
+  double excess = 0.0;                                 ///< G / F₀
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();     ///< K (x − s) / F₀
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< ∇G by s / L₀
 };
 
 struct SliderCorner {

@@ -25,19 +25,19 @@ namespace microslip::contact {
 /// One phase. Rates are with respect to θ.
 struct PlanarInstant {
   double phase = 0.0;
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x / L₀
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' / L₀
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();   ///< x / L₀
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();   ///< x' / L₀
   Eigen::Vector2d stiffness = Eigen::Vector2d::Ones();  ///< K L₀/F₀, diagonal, both > 0
   Eigen::Vector2d stiffness_rate = Eigen::Vector2d::Zero();
   Eigen::Vector2d stiffness_by_approach = Eigen::Vector2d::Zero();  ///< [1/m]
-  double approach_rate = 0.0;                          ///< v' [m]
-  SurfaceState surface;                                ///< in units of the law
-  double radius = 0.0;                                 ///< r / F₀
-  double radius_rate = 0.0;                            ///< r' / F₀
-  double radius_by_approach = 0.0;                     ///< ∂r/∂v / F₀ [1/m]
-  double radius_by_rate = 0.0;                         ///< ∂r/∂σ / F₀ [s/m]
-  double speed = 0.0;                                  ///< hypot(u', w') [m]
-  Eigen::Vector2d heading = Eigen::Vector2d::Zero();   ///< (u', w') / speed; 0 at rest
+  double approach_rate = 0.0;                                       ///< v' [m]
+  SurfaceState surface;                                             ///< in units of the law
+  double radius = 0.0;                                              ///< r / F₀
+  double radius_rate = 0.0;                                         ///< r' / F₀
+  double radius_by_approach = 0.0;                                  ///< ∂r/∂v / F₀ [1/m]
+  double radius_by_rate = 0.0;                                      ///< ∂r/∂σ / F₀ [s/m]
+  double speed = 0.0;                                               ///< hypot(u', w') [m]
+  Eigen::Vector2d heading = Eigen::Vector2d::Zero();                ///< (u', w') / speed; 0 at rest
 
   /// K (x − s) / F₀: the force of a slider, but for g.
   [[nodiscard]] Eigen::Vector2d force(const Eigen::Vector2d& slider) const {

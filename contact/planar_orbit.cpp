@@ -169,9 +169,7 @@ class Walk {
 
   /// The same where the force has no minimum inside.
   [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high) const {
-    const auto guard = [this](const PlanarInstant& now) {
-      return stick_guard(now, slider_);
-    };
+    const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
     const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
     const Guard before = guard(low);
     const Guard after = guard(high);

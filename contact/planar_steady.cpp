@@ -117,7 +117,8 @@ class FixedPoint {
         continue;
       }
       fallback = steady.orbit.end;
-      tried = period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;  // none is farther
+      tried =
+          period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;  // none is farther
       slider = tried ? Vector2d(slider + newton) : fallback;
       helped_ = helped_ || tried;
     }

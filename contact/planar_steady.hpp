@@ -29,7 +29,7 @@ struct SteadyOrbit {
   std::vector<PlanarOrbit>
       history;  ///< full stick: periods before the last, from the virgin slider; none at a corner
   std::optional<SliderCorner> corner;  ///< full stick: the corner the slider was pushed into
-  double defect = 0.0;  ///< estimated distance from the fixed point, in f / F₀
+  double defect = 0.0;                 ///< estimated distance from the fixed point, in f / F₀
   /// Whether the period ends where it began to the last bits: nothing is left to iterate, however ill
   /// the fixed point is determined.
   bool closes = true;

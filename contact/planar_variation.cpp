@@ -154,8 +154,7 @@ void OrbitVariation::step(const SlipStep& slip) {
   for (int j = 0; j < n_stages; ++j) {
     if (n_parameters_ == 0) break;
     set_parameters(slip.instant[static_cast<std::size_t>(j)]);
-    stage_.middleRows<2>(2 * j) =
-        position_ - Vector2d(slip.direction.col(j)).asDiagonal() * reach_;
+    stage_.middleRows<2>(2 * j) = position_ - Vector2d(slip.direction.col(j)).asDiagonal() * reach_;
     stage_radius_.row(j) = radius_;
     stage_ratio_.row(j) = ratio_;
   }
@@ -200,8 +199,7 @@ void OrbitVariation::integrate_stick(const PlanarPiece& piece) {
     force_now_.noalias() = (-stiffness).asDiagonal() * slider_;
     force_now_.leftCols(n_parameters_).noalias() += stiffness.asDiagonal() * position_;
     force_now_.leftCols(n_parameters_).noalias() += force * ratio_;
-    force_now_.row(1).leftCols(n_parameters_) +=
-        (ratio * force[1] / now.stiffness[1]) * stiffness_;
+    force_now_.row(1).leftCols(n_parameters_) += (ratio * force[1] / now.stiffness[1]) * stiffness_;
     add_force(weight);
   };
   visit_nodes(motion_, piece.begin, piece.end, motion_.n_harmonics(), add);

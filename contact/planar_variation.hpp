@@ -66,11 +66,11 @@ class OrbitVariation {
   bool integrates_ = false;
   Eigen::VectorXd basis_;
   Eigen::VectorXd basis_rate_;
-  Eigen::Matrix2Xd position_;  // δx / L₀, 2 × n_parameters
-  Eigen::RowVectorXd radius_;  // δr / F₀
+  Eigen::Matrix2Xd position_;     // δx / L₀, 2 × n_parameters
+  Eigen::RowVectorXd radius_;     // δr / F₀
   Eigen::RowVectorXd stiffness_;  // δK along r; that along p is constant
   Eigen::Matrix2Xd reach_;        // δ(r/K) / L₀
-  Eigen::RowVectorXd ratio_;   // δg
+  Eigen::RowVectorXd ratio_;      // δg
   Eigen::Matrix2Xd slider_;
   Eigen::Matrix2Xd force_now_;  // δf / F₀
   Eigen::Matrix<double, 2 * n_stages, Eigen::Dynamic> stage_;

@@ -65,8 +65,7 @@ solver::Scene two_points(double preload, int n_harmonics) {
   scene.excitation.rows().row(1) << 0.03, 0.0;
   scene.excitation.rows().row(2) << 0.0, 0.02;
   const contact::PointParameters point{0.5, 0.4, 0.4, preload};
-  const auto law =
-      std::make_shared<contact::PlanarLaw>(contact::SurfaceLaw(point, 0.3), tolerance);
+  const auto law = std::make_shared<contact::PlanarLaw>(contact::SurfaceLaw(point, 0.3), tolerance);
   contact::ModalShapes shapes;
   shapes.u = (Eigen::Matrix2d() << 1.0, 0.3, 0.8, -0.4).finished();
   shapes.v = (Eigen::Matrix2d() << 0.2, 0.1, -0.3, 0.2).finished();
@@ -112,8 +111,9 @@ BENCHMARK(planar_curve)
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   for (const test::PlanarStratum& stratum : test::planar_strata()) {
-    benchmark::RegisterBenchmark(("planar_law/" + std::string(stratum.name)).c_str(),
-                                 [&stratum](benchmark::State& state) { planar_law(state, stratum); })
+    benchmark::RegisterBenchmark(
+        ("planar_law/" + std::string(stratum.name)).c_str(),
+        [&stratum](benchmark::State& state) { planar_law(state, stratum); })
         ->Iterations(n_states)
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);

@@ -135,8 +135,8 @@ test::SurfaceMoment moment_of(const PointParameters& point, double second_stiffn
            stiffness(second_stiffness, rough.second_compliance)}};
 }
 
-// Bodies that are not equally stiff along p and r make the ratio of the two stiffnesses vary with the
-// load; the law must not take one for both.
+// Bodies that are not equally stiff along p and r make the ratio of the two stiffnesses vary with
+// the load; the law must not take one for both.
 TEST(PlanarLawReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
   std::mt19937_64 random(20260104);
   std::normal_distribution<double> g;
@@ -149,10 +149,9 @@ TEST(PlanarLawReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
                            std::exp(g(random)) / c.point.tangential_stiffness,
                            i % 5 == 0 ? 0.0 : 4.0 * std::exp(g(random)) / c.second_stiffness, 0.8,
                            i % 2 == 0 ? 0.8 : 0.4};
-    const SurfaceLaw surface(c.point, c.second_stiffness,
-                             FrictionLaw::exponential(rough.slow, rough.fast, 0.7),
-                             RoughSurface::cubic(rough.height),
-                             {rough.first_compliance, 0.0, rough.second_compliance});
+    const SurfaceLaw surface(
+        c.point, c.second_stiffness, FrictionLaw::exponential(rough.slow, rough.fast, 0.7),
+        RoughSurface::cubic(rough.height), {rough.first_compliance, 0.0, rough.second_compliance});
     c.surface = [&](long double approach, long double speed) {
       return moment_of(c.point, c.second_stiffness, rough, approach, speed);
     };

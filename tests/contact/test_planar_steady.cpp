@@ -1,5 +1,5 @@
-// The periodic slider of a planar point: where a stuck one comes to rest, against its closed form and
-// against the plain march, and how the search ends at the onset of slip.
+// The periodic slider of a planar point: where a stuck one comes to rest, against its closed form
+// and against the plain march, and how the search ends at the onset of slip.
 #include "contact/planar_steady.hpp"
 
 #include <cmath>
@@ -25,8 +25,9 @@ Harmonics straight_with_mean(double amplitude, double mean) {
 
 PlanarLaw unit_law() { return PlanarLaw(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
 
-// Discs of radius 1 around (±a, 0) meet at (0, ±√(1 − a²)): a mean larger than that is let slip until
-// the spring across carries just this much. With a → 1 a march would need 1/(1 − a) periods and more.
+// Discs of radius 1 around (±a, 0) meet at (0, ±√(1 − a²)): a mean larger than that is let slip
+// until the spring across carries just this much. With a → 1 a march would need 1/(1 − a) periods
+// and more.
 TEST(PlanarSteady, AStuckPointKeepsAsMuchMeanAsItsCornerAllows) {
   for (const double gap : {0.2, 1e-2, 1e-4, 1e-6, 1e-9}) {
     const double a = 1.0 - gap;
@@ -136,8 +137,7 @@ TEST(PlanarSteady, TheCornerMovesAsItsDerivativeSays) {
       law.traction(moved, 1.0, right);
       moved.vector()[j] -= 2.0 * step;
       law.traction(moved, 1.0, left);
-      const Eigen::VectorXd expected =
-          (right.force.vector() - left.force.vector()) / (2.0 * step);
+      const Eigen::VectorXd expected = (right.force.vector() - left.force.vector()) / (2.0 * step);
       // The corner has a curvature of its own, large where the two edges meet at a small angle.
       EXPECT_LT((expected - traction.jacobian.col(j)).norm(), 1e-4 * traction.jacobian.norm())
           << "case " << i << ", column " << j;

@@ -122,8 +122,8 @@ PlanarCase onset_planar(std::mt19937_64& random) {
 
 const std::vector<PlanarStratum>& planar_strata() {
   static const std::vector<PlanarStratum> strata{
-      {"generic", generic_planar},   {"slipping", slipping_planar}, {"creeping", creeping_planar},
-      {"dragged", dragged_planar},   {"onset", onset_planar},       {"grazing", grazing_planar}};
+      {"generic", generic_planar}, {"slipping", slipping_planar}, {"creeping", creeping_planar},
+      {"dragged", dragged_planar}, {"onset", onset_planar},       {"grazing", grazing_planar}};
   return strata;
 }
 
