@@ -23,6 +23,9 @@ struct ForceAndJacobian {
   Harmonics force;                       ///< G [N/√kg]
   Eigen::MatrixXd jacobian;              ///< ∂G/∂q [1/s²], n × n
   Eigen::VectorXd frequency_derivative;  ///< ∂G/∂ω at fixed q, n; zero unless rate-dependent
+  /// Largest ‖δG‖ by which G may be off because a law did not meet its own tolerance [N/√kg]. Whoever
+  /// judges a residual adds it.
+  double defect = 0.0;
 };
 
 /// What one solution did over its period: judged once per accepted point, not per iterate.
@@ -61,7 +64,7 @@ class ModalForce {
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
     if (n_rows == q.rows().rows()) return all;
     ForceAndJacobian some{std::move(all.force), Eigen::MatrixXd(n_rows * n, n_rows * n),
-                          Eigen::VectorXd(n_rows * n)};
+                          Eigen::VectorXd(n_rows * n), all.defect};
     for (Eigen::Index i = 0; i < n_rows; ++i) {
       const Eigen::Index row = rows[static_cast<std::size_t>(i)] * n;
       some.frequency_derivative.segment(i * n, n) = all.frequency_derivative.segment(row, n);

@@ -167,10 +167,22 @@ void require_response(const SceneDescription& scene) {
   if (!scene.without_contact.empty()) throw SceneError(scene.without_contact);
 }
 
+double some_load(const SceneDescription& scene) {
+  double largest = 1.0;
+  bool any = false;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    const auto* load = std::get_if<double>(&request.preload);
+    if (load == nullptr || *load <= 0.0) continue;
+    largest = any ? std::max(largest, *load) : *load;
+    any = true;
+  }
+  return largest;
+}
+
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
-  const solver::Scene problem = solver_scene(model, 1.0);
+  const solver::Scene problem = solver_scene(model, some_load(scene));
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
   if (problem.contact) stuck += problem.contact->stuck_stiffness();
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
@@ -224,7 +236,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   const solver::ContinuationOptions options = continuation_options(*scene.response);
   CurveResult result{request.name, request.preload, {}, {}};
   if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
-    result.curve = solver::trace_linear(solver_scene(model, 1.0),
+    result.curve = solver::trace_linear(solver_scene(model, some_load(scene)),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
                                         options);

@@ -40,6 +40,10 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 /// @throws SceneError  no [response], or one that speaks of a contact the scene does not have.
 void require_response(const SceneDescription& scene);
 
+/// The largest positive load of the curves, else 1: for what does not depend on the load, where moments
+/// must be in equilibrium with one.
+[[nodiscard]] double some_load(const SceneDescription& scene);
+
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
 void require_held(const ReducedModel& model, const SceneDescription& scene);
 
