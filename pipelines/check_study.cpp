@@ -76,7 +76,7 @@ void describe_effects(const SceneDescription& scene, const ReducedModel* model, 
 
 /// Natural frequencies with every contact point stuck [Hz], ascending.
 Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
-  const solver::Scene scene = solver_scene(model, 1.0);
+  const solver::Scene scene = limit_scene(model);
   Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
   if (scene.contact) K += scene.contact->stuck_stiffness();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, Eigen::EigenvaluesOnly);

@@ -16,7 +16,6 @@
 #include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
 #include "contact/sampled_cycle.hpp"
-#include "contact/surface_law.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
 
@@ -159,12 +158,25 @@ contact::ModalShapes simulated_shapes(const ReducedModel& model, bool on_vertice
   return shapes;
 }
 
-std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
-                                                                 double load, bool on_vertices) {
-  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
+contact::SurfaceLaw surface_of_point(const ReducedModel& model,
+                                     const contact::PointParameters& point, Eigen::Index row,
+                                     bool on_vertices) {
   const Eigen::VectorXd& second =
       on_vertices ? model.vertex_second_stiffness : model.second_stiffness;
   const Eigen::MatrixX3d& compliance = on_vertices ? model.vertex_compliance : model.compliance;
+  const bool slides = point.friction_coefficient > 0.0;
+  const contact::FrictionLaw friction =
+      slides && model.effects.friction_law
+          ? *model.effects.friction_law
+          : contact::FrictionLaw::constant(point.friction_coefficient);
+  return surface_law(
+      point, second[row], friction, model.effects,
+      compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
+}
+
+std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
+                                                                 double load, bool on_vertices) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
   const ContactEffects& effects = model.effects;
   std::vector<std::shared_ptr<const contact::PointLaw>> laws;
   laws.reserve(points.size());
@@ -175,14 +187,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
       laws.push_back(std::make_shared<contact::EventLaw>(point));
       continue;
     }
-    const bool slides = point.friction_coefficient > 0.0;
-    const contact::FrictionLaw friction =
-        slides && effects.friction_law
-            ? *effects.friction_law
-            : contact::FrictionLaw::constant(point.friction_coefficient);
-    const contact::SurfaceLaw surface = surface_law(
-        point, second[row], friction, effects,
-        compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
+    const contact::SurfaceLaw surface = surface_of_point(model, point, row, on_vertices);
     if (effects.second_direction) {
       laws.push_back(std::make_shared<contact::PlanarLaw>(surface, planar_tolerance));
     } else {

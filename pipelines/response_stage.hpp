@@ -30,9 +30,12 @@ struct CurveRequest {
 /// The same patch as the solver takes it. Modes and excitation of the model are copied.
 [[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
 
-/// A moment beside the preload leaves every cell loaded, for all loads the scene asks for: then the linear
-/// distribution of theory section 12 is the equilibrium.
-/// @throws RefusedError  it does not; the message names the least load that would do.
+/// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in full
+/// contact.
+[[nodiscard]] solver::Scene limit_scene(ReducedModel model);
+
+/// Moments beside the preload can be balanced under all loads the scene asks for.
+/// @throws RefusedError  they cannot; the message names the force they need.
 void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
