@@ -204,18 +204,6 @@ void set_forces(ModalModel& model, SectionReader& s, const ChainSystem& system) 
   s.complete("forces", std::move(completed));
 }
 
-/// The lowest modes, as many as asked for.
-void keep_lowest(ChainSystem& system, const SectionReader& s) {
-  if (!s.given("count")) return;
-  const int count = s.integer("count");
-  if (count > system.frequency.size()) {
-    s.fail("count", fmt::format("{} modes of a system that has {}", count, system.frequency.size()),
-           s.node("count"));
-  }
-  system.frequency.conservativeResize(count);
-  system.shapes.conservativeResize(Eigen::NoChange, count);
-}
-
 }  // namespace
 
 ModalModel read_chain(LeanSections sections, const std::string& output) {

@@ -47,7 +47,7 @@ struct TiltedArea {
 };
 
 /// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
-/// `bar` and `chain`.
+/// `bar`, `chain` and `block`.
 struct ModalModel {
   Eigen::VectorXd frequency_hz;
   Eigen::VectorXd damping_ratio;
