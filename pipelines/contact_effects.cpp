@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "contact/patch_force.hpp"
 #include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
+#include "contact/planar_transient.hpp"
 #include "contact/sampled_cycle.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -211,17 +213,17 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
 std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
   const ContactEffects& effects = model.effects;
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
   if (effects.second_direction || effects.friction_law || effects.roughness) {
-    throw RefusedError(fmt::format(
-        "response.method = \"time\" integrates smooth contact with constant friction along p; this scene "
-        "has {}",
-        effects.second_direction ? "friction along r as well (effects.second_direction = \"off\" leaves it out)"
-        : effects.roughness      ? "rough surfaces"
-                                 : "a friction coefficient that follows the slip speed"));
+    std::vector<contact::SurfaceLaw> laws;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      laws.push_back(surface_of_point(model, points[i], static_cast<Eigen::Index>(i), false));
+    }
+    return std::make_unique<contact::PlanarTransient>(model.weights, std::move(laws),
+                                                      simulated_shapes(model, false));
   }
   return std::make_unique<contact::PatchTransient>(
-      contact::ContactPatch(model.weights, point_parameters(model, load, false)),
-      simulated_shapes(model, false));
+      contact::ContactPatch(model.weights, points), simulated_shapes(model, false));
 }
 
 }  // namespace microslip::pipelines

@@ -26,7 +26,6 @@ namespace microslip::pipelines {
 [[nodiscard]] std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load);
 
 /// The same contact for integration in time; nullptr: the scene has none.
-/// @throws RefusedError  an effect that is not integrated in time.
 [[nodiscard]] std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model,
                                                                        double load);
 
