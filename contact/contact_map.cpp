@@ -1,6 +1,7 @@
 #include "contact/contact_map.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -12,6 +13,7 @@ namespace microslip::contact {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr Eigen::Index n_states = 5;  // of ContactState
 
 void require(bool condition, const std::string& message) {
   if (!condition) {
@@ -31,6 +33,7 @@ ContactMap empty_map(Eigen::Index n, int n_phases) {
                                  &map.slip_duration, &map.separation_duration}) {
     field->setZero(n);
   }
+  map.state_start.setConstant(n, n_states, std::numeric_limits<double>::quiet_NaN());
   return map;
 }
 
@@ -41,8 +44,10 @@ void check_request(int n_phases, double wear_coefficient) {
       "wear_coefficient = " + std::to_string(wear_coefficient) + ", must be finite and at least 0");
 }
 
-void set_durations(ContactMap& map, Eigen::Index point, std::span<const CycleSegment> segments) {
+void set_segments(ContactMap& map, Eigen::Index point, std::span<const CycleSegment> segments) {
   for (const CycleSegment& segment : segments) {
+    double& start = map.state_start(point, static_cast<Eigen::Index>(segment.state));
+    if (std::isnan(start) && segments.size() > 1) start = segment.start;
     if (segment.state == ContactState::separated) {
       map.separation_duration[point] += segment.length / two_pi;
     } else if (segment.state != ContactState::stick) {
@@ -88,7 +93,7 @@ ContactMap contact_map(const std::vector<PointParameters>& points, const ModalSh
       map.approach(i, j) = now.v;
       map.slip(i, j) = now.slider;
     }
-    set_durations(map, i, cycle.segments());
+    set_segments(map, i, cycle.segments());
     map.dissipated_energy[i] = cycle.dissipated_energy;
     map.slip_distance[i] = cycle.slip_distance;
     map.wear_depth[i] = wear_coefficient * cycle.normal_slip;
@@ -118,7 +123,7 @@ ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
     for (Eigen::Index j = 0; j < n_phases; ++j) {
       set_instant(map, i, j, history.instants[static_cast<std::size_t>(j)]);
     }
-    set_durations(map, i, history.segments);
+    set_segments(map, i, history.segments);
     map.dissipated_energy[i] = history.dissipated_energy;
     map.slip_distance[i] = history.slip_distance;
     map.wear_depth[i] = wear_coefficient * history.normal_slip;

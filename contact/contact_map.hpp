@@ -27,6 +27,9 @@ struct ContactMap {
   Eigen::MatrixXd slip;                   ///< s, position of the slider along p [m]
   /// The same along r; without columns where motion along r is not simulated.
   Eigen::MatrixXd friction_traction_r, relative_displacement_r, slip_r;
+  /// Transition angles: where in [0, 2π) each ContactState first begins, NaN where it never does or
+  /// lasts the whole period [rad], n × 5. A boundary between states at θ is a level line of these.
+  Eigen::MatrixXd state_start;
   Eigen::VectorXd slip_duration;          ///< share of the period in slip [-], n
   Eigen::VectorXd separation_duration;    ///< share of the period without contact [-], n
   Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n

@@ -61,6 +61,8 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   NamedMap map;
   map.name = name;
   map.frequency_hz = point.frequency / two_pi;
+  map.amplitude = point.amplitude;
+  map.stability = point.stability;
   const bool closed_form = model.effects.closed_form();
   const auto draw = [&](bool on_vertices) {
     const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
@@ -157,8 +159,10 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
       const auto* load = std::get_if<double>(&request.preload);
       if (load != nullptr) static_cast<void>(tilted_pressures(model, area, *load, false));
     }
-    const auto& range = scene.response->optimum_range;
-    if (range) static_cast<void>(tilted_pressures(model, area, (*range)[0], false));
+    const auto& optimum = scene.response->optimum;
+    if (optimum && optimum->of_preload() && optimum->range) {
+      static_cast<void>(tilted_pressures(model, area, (*optimum->range)[0], false));
+    }
   }
 }
 
@@ -236,79 +240,6 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
     }
   }
   return maps;
-}
-
-namespace {
-
-solver::OptimumOptions optimum_options(const SceneDescription& scene) {
-  solver::OptimumOptions options;
-  if (scene.response->optimum_range) {
-    options.lower = (*scene.response->optimum_range)[0];
-    options.upper = (*scene.response->optimum_range)[1];
-  } else {
-    options.lower = std::numeric_limits<double>::infinity();
-    for (const CurveRequest& request : curve_requests(scene)) {
-      const auto* load = std::get_if<double>(&request.preload);
-      if (load == nullptr || *load <= 0.0) continue;
-      options.lower = std::min(options.lower, *load);
-      options.upper = std::max(options.upper, *load);
-    }
-  }
-  if (!(options.lower < options.upper)) {
-    throw SceneError(
-        "response.optimum: needs response.optimum_range = [low, high] in N, or two positive preloads");
-  }
-  return options;
-}
-
-solver::Optimum minimise(const ReducedModel& model, const SceneDescription& scene,
-                         const solver::OptimumOptions& options) {
-  return solver::minimise_peak([&](double load) { return solver_scene(model, load); },
-                               continuation_options(*scene.response), options);
-}
-
-ReducedModel with_friction(ReducedModel model, double factor) {
-  model.friction_coefficient *= factor;
-  model.vertex_friction_coefficient *= factor;
-  return model;
-}
-
-ReducedModel with_stiffness(ReducedModel model, double factor) {
-  for (Eigen::VectorXd* stiffness :
-       {&model.tangential_stiffness, &model.second_stiffness, &model.normal_stiffness}) {
-    *stiffness *= factor;
-  }
-  return model;
-}
-
-}  // namespace
-
-solver::Optimum best_preload(const ReducedModel& model, const SceneDescription& scene) {
-  return minimise(model, scene, optimum_options(scene));
-}
-
-std::vector<OptimumOfFactor> optimum_bracket(const ReducedModel& model,
-                                             const SceneDescription& scene) {
-  // Laws of their own hold friction or stiffness elsewhere than in the points.
-  const bool has_friction = !model.effects.friction_law;
-  const bool has_stiffness = !model.effects.roughness;
-  const solver::OptimumOptions options = optimum_options(scene);
-  std::vector<OptimumOfFactor> bracket;
-  for (const double factor : {0.5, 2.0}) {
-    if (has_friction) {
-      // Friction acts through μ n: the best preload moves by about 1/factor, and the range with it.
-      solver::OptimumOptions moved = options;
-      moved.lower /= factor;
-      moved.upper /= factor;
-      bracket.push_back({"friction_coefficient", factor,
-                         minimise(with_friction(model, factor), scene, moved).best});
-    }
-    if (has_stiffness) {
-      bracket.push_back({"contact_stiffness", factor,
-                         minimise(with_stiffness(model, factor), scene, options).best});
-    }
-  }
-  return bracket;
 }
 
 }  // namespace microslip::pipelines

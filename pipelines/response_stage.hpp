@@ -54,16 +54,6 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
                                                const SceneDescription& scene,
                                                const CurveResult& result);
 
-/// Best preload between the bounds the scene gives, or its smallest and largest positive preload.
-/// @throws SceneError  no bounds can be told.
-[[nodiscard]] solver::Optimum best_preload(const ReducedModel& model, const SceneDescription& scene);
-
-/// What the unknown contact data do to the best preload: searched again with friction coefficient and
-/// contact stiffness × 0.5 and × 2.
-/// @throws SceneError  as best_preload().
-[[nodiscard]] std::vector<OptimumOfFactor> optimum_bracket(const ReducedModel& model,
-                                                           const SceneDescription& scene);
-
 /// The highest solved peak; without one the largest point. nullptr: no points.
 [[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
 

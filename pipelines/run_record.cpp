@@ -230,25 +230,36 @@ void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint
                to_hz * point.frequency);
 }
 
-void RunRecord::keep_optimum(const solver::Optimum& optimum) {
+void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
+                             const solver::Optimum& optimum) {
+  const bool in_newtons = model.load_measure == LoadMeasure::force;
+  const std::string unit = !request.of_preload() ? "" : in_newtons ? " N" : " of the points' preload";
+  const std::string what =
+      request.of_preload() ? "best preload"
+                           : fmt::format("best {} under preload {:g}", request.key, request.load);
   progress_.info(optimum.found
-                     ? fmt::format("best preload: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
-                                   optimum.best.parameter, optimum.best.amplitude,
-                                   to_hz * optimum.best.frequency)
-                     : "best preload: not found: " + optimum.message);
+                     ? fmt::format("{}: {:.6g}{}, peak {:.6g} m at {:.6g} Hz", what,
+                                   optimum.best.parameter, unit,
+                                   optimum.best.amplitude, to_hz * optimum.best.frequency)
+                     : fmt::format("{}: not found: {}", what, optimum.message));
   const std::lock_guard lock(mutex_);
-  summary_.optimum = optimum;
-  write_optimum_csv(folder_ / "peak_against_preload.csv", optimum);
+  OptimumSummary& summary = summary_.optimum.emplace();
+  summary.request = request;
+  summary.optimum = optimum;
+  if (!in_newtons) summary.newtons_per_load = model.weights.dot(model.preload);
+  write_optimum_csv(folder_, request, optimum);
 }
 
 void RunRecord::keep_bracket(std::vector<OptimumOfFactor> bracket) {
   for (const OptimumOfFactor& entry : bracket) {
-    progress_.info(fmt::format("best preload with {} x {:g}: {:.6g} N, peak {:.6g} m at {:.6g} Hz",
-                               entry.parameter, entry.factor, entry.best.parameter,
-                               entry.best.amplitude, to_hz * entry.best.frequency));
+    progress_.info(fmt::format("with {} x {:g}: {} {:.6g}, peak {:.6g} m at {:.6g} Hz",
+                               entry.parameter, entry.factor,
+                               entry.found ? "best" : "lowest seen, at a bound:",
+                               entry.best.parameter, entry.best.amplitude,
+                               to_hz * entry.best.frequency));
   }
   const std::lock_guard lock(mutex_);
-  summary_.optimum_bracket = std::move(bracket);
+  summary_.optimum->bracket = std::move(bracket);
 }
 
 void RunRecord::keep_summary() {

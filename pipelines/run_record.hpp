@@ -56,7 +56,8 @@ class RunRecord {
   void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
-  void keep_optimum(const solver::Optimum& optimum);
+  void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
+                    const solver::Optimum& optimum);
   void keep_bracket(std::vector<OptimumOfFactor> bracket);
   void keep_summary();
 

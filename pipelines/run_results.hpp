@@ -69,6 +69,8 @@ struct ReducedModel {
 struct NamedMap {
   std::string name;           ///< e.g. "preload_1000_peak": stem of the files
   double frequency_hz = 0.0;
+  double amplitude = 0.0;     ///< of the output, half peak-to-peak [m]
+  solver::Stability stability = solver::Stability::not_assessed;
   contact::ContactMap points;    ///< at the contact points (cells)
   contact::ContactMap vertices;  ///< at the vertices of the cells; empty without cells
 };
@@ -85,6 +87,7 @@ struct OptimumOfFactor {
   std::string parameter;  ///< friction_coefficient | contact_stiffness
   double factor = 1.0;
   solver::PeakOfParameter best;
+  bool found = false;  ///< false: `best` is the lowest seen, at a bound of the search
 };
 
 struct StageRecord {

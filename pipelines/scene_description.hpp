@@ -111,6 +111,15 @@ using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 /// A motion integrated in time has all harmonics; at least so many are kept of it.
 inline constexpr int least_harmonics_of_time = 15;
 
+/// The one number of a scene whose best value is searched.
+struct OptimumRequest {
+  std::string key;  ///< "preload", or the key of another number: "contact.friction_coefficient"
+  std::optional<std::array<double, 2>> range;  ///< in SI; none: between the positive preloads
+  double load = 0.0;  ///< under which another key is searched: preload [N] or scale
+
+  [[nodiscard]] bool of_preload() const { return key == "preload"; }
+};
+
 struct ResponseDescription {
   OutputDescription output;         ///< kinds with a mesh
   double frequency_begin_hz = 0.0;
@@ -122,8 +131,7 @@ struct ResponseDescription {
   std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
   std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
   bool limits = true;                     ///< modal scenes: free and stuck curves as well
-  bool optimum_preload = false;
-  std::optional<std::array<double, 2>> optimum_range;  ///< [N]
+  std::optional<OptimumRequest> optimum;
   std::vector<MapEntry> maps;
   int map_phases = 72;
 };

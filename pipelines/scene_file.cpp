@@ -16,6 +16,7 @@
 #include "pipelines/csv_table.hpp"
 #include "pipelines/modal_scene.hpp"
 #include "pipelines/modes_section.hpp"
+#include "pipelines/optimum_section.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
@@ -277,7 +278,7 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
 }
 
 /// Range, method, preloads and maps: what scenes with a preload in newtons share.
-ResponseDescription read_loads(const SectionReader& s) {
+ResponseDescription read_loads(const SectionReader& s, std::string_view kind) {
   ResponseDescription response;
   read_range(s, response);
   read_method(s, response);
@@ -288,38 +289,19 @@ ResponseDescription read_loads(const SectionReader& s) {
   } else {
     response.preload.push_back(preload_in(s, preload));
   }
-  if (s.given("optimum")) {
-    constexpr std::array<std::string_view, 1> parameters{"preload"};
-    static_cast<void>(s.word("optimum", parameters));
-    response.optimum_preload = true;
-  }
-  if (s.given("optimum_range")) {
-    const toml::node& node = *s.node("optimum_range");
-    const toml::array* list = node.as_array();
-    if (list == nullptr || list->size() != 2)
-      s.fail("optimum_range", "expected [low, high]", &node);
-    const std::array<double, 2> range{s.number_in(*list->get(0), "optimum_range"),
-                                      s.number_in(*list->get(1), "optimum_range")};
-    if (!(range[0] > 0.0 && range[0] < range[1])) {
-      s.fail("optimum_range", "expected 0 < low < high", &node);
-    }
-    if (!response.optimum_preload) {
-      s.fail("optimum_range", "has no meaning without optimum = \"preload\"", &node);
-    }
-    response.optimum_range = range;
-  }
+  response.optimum = read_optimum(s, response, kind);
   read_maps(s, response);
   return response;
 }
 
-ResponseDescription read_response(const SectionReader& s) {
+ResponseDescription read_response(const SectionReader& s, std::string_view kind) {
   const OutputDescription output = read_output(s);
-  ResponseDescription response = read_loads(s);
+  ResponseDescription response = read_loads(s, kind);
   response.output = output;
   return response;
 }
 
-ResponseDescription read_modal_response(const SectionReader& s) {
+ResponseDescription read_modal_response(const SectionReader& s, std::string_view kind) {
   ResponseDescription response;
   read_range(s, response);
   read_method(s, response);
@@ -337,6 +319,7 @@ ResponseDescription read_modal_response(const SectionReader& s) {
   const toml::node& limits = *s.node("limits");
   if (!limits.is_boolean()) s.fail("limits", "expected true or false", &limits);
   response.limits = *limits.value<bool>();
+  response.optimum = read_optimum(s, response, kind);
   read_maps(s, response);
   return response;
 }
@@ -409,7 +392,7 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   scene.forces = read_forces(excitation);
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
-    scene.response = read_response(response);
+    scene.response = read_response(response, kind);
     if (!scene.contact) refuse_contact_keys(response);
   }
 }
@@ -419,7 +402,7 @@ void read_modal_scene(Reading& reading, SceneDescription& scene) {
   scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
   scene.laws = read_contact_laws(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
-    scene.response = read_modal_response(reading.section("response", "response.modal"));
+    scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
   }
 }
 
@@ -434,7 +417,7 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   std::optional<BlockOutput> output;
   if (reading.given.contains("response")) {
     SectionReader response = section("response");
-    scene.response = kind == "bar" ? read_modal_response(response) : read_loads(response);
+    scene.response = kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
     if (kind == "chain") coordinate = response.text("output");
     if (kind == "block") output = read_block_output(response);
   }
@@ -449,13 +432,9 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   scene.model = model;
 }
 
-}  // namespace
-
-SceneDescription parse_scene(const std::string& text, const std::string& name,
-                             const std::filesystem::path& folder,
-                             const std::vector<std::string>& overrides) {
-  Reading reading{parse_text(text, name), {}, name, folder};
-  for (const std::string& assignment : overrides) apply_override(reading.given, assignment);
+SceneDescription scene_of(toml::table given, const std::string& name,
+                          const std::filesystem::path& folder) {
+  Reading reading{std::move(given), {}, name, folder};
   const std::string kind = kind_of(reading);
   check_sections(reading, kind);
   SceneDescription scene;
@@ -478,6 +457,42 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
   scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
+}
+
+/// Both ends of a search must be scenes themselves.
+void check_optimum(const SceneDescription& scene) {
+  if (!scene.response || !scene.response->optimum || scene.response->optimum->of_preload()) return;
+  const OptimumRequest& optimum = *scene.response->optimum;
+  for (const double bound : *optimum.range) {
+    try {
+      static_cast<void>(with_value(scene, optimum.key, bound));
+    } catch (const SceneError& error) {
+      throw SceneError(fmt::format("response.optimum_range: {:g} is no value of {}: {}", bound,
+                                   optimum.key, error.what()));
+    }
+  }
+}
+
+}  // namespace
+
+SceneDescription parse_scene(const std::string& text, const std::string& name,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::string>& overrides) {
+  toml::table given = parse_text(text, name);
+  for (const std::string& assignment : overrides) apply_override(given, assignment);
+  SceneDescription scene = scene_of(std::move(given), name, folder);
+  check_optimum(scene);
+  return scene;
+}
+
+SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
+  const std::string name = scene.file.string();
+  toml::table given = parse_text(scene.complete_toml, name);
+  if (toml::table* response = given["response"].as_table()) {
+    for (const char* search : {"optimum", "optimum_range", "optimum_at"}) response->erase(search);
+  }
+  apply_override(given, fmt::format("{}={:.17g}", key, value));
+  return scene_of(std::move(given), name, std::filesystem::absolute(scene.file).parent_path());
 }
 
 SceneDescription read_scene(const std::filesystem::path& file,

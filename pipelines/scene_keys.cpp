@@ -259,10 +259,15 @@ constexpr KeySpec preload_key{
     "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
     "total normal force, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
 constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
-                              "\"preload\": solve for the best one", true};
+                              "the number whose best value is searched: \"preload\", or any key of the "
+                              "scene, e.g. \"contact.friction_coefficient\"", true};
 constexpr KeySpec optimum_range_key{
     "optimum_range", other, "N", "", 0, 0, false,
-    "[low, high] of the search; else the smallest and largest positive preload", true};
+    "[low, high] of the search, in the unit of that key; for the preload else the smallest and largest "
+    "positive one", true};
+constexpr KeySpec optimum_at_key{
+    "optimum_at", other, "N", "", 0, 0, false,
+    "preload (kind modal, bar: scale) under which another key is searched; else the only positive one", true};
 
 constexpr std::array response_keys{
     KeySpec{"output", other, "", "", 0, 0, false, "{ at = …, direction = […] }: the displacement that is told"},
@@ -274,6 +279,7 @@ constexpr std::array response_keys{
     preload_key,
     optimum_key,
     optimum_range_key,
+    optimum_at_key,
     maps_key,
     phases_key,
 };
@@ -288,6 +294,7 @@ constexpr std::array chain_response_keys{
     preload_key,
     optimum_key,
     optimum_range_key,
+    optimum_at_key,
     maps_key,
     phases_key,
 };
@@ -310,7 +317,7 @@ constexpr std::array modal_response_keys{
     frequency_key, method_key, time_points_key, harmonics_key, search_key,
     KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
     KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
-    maps_key, phases_key,
+    optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key,
 };
 
 constexpr std::array modal_keys{

@@ -1,15 +1,17 @@
 #include "pipelines/study.hpp"
 
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "mesh/element_shape.hpp"
-#include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/curve_family.hpp"
 #include "pipelines/effects.hpp"
+#include "pipelines/model_family.hpp"
+#include "pipelines/optimum_stage.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/run_record.hpp"
 #include "pipelines/structure_stage.hpp"
@@ -18,32 +20,31 @@
 namespace microslip::pipelines {
 namespace {
 
-/// mesh → modes → contact: the finite-element half, or the numbers a modal scene gives.
-ReducedModel reduce(const SceneDescription& scene, RunRecord& record) {
-  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    ReducedModel model = reduced_model(*modal);
-    model.effects = contact_effects(model, scene);
-    record.keep_effects(effects_of(scene, &model));
-    record.keep_model(model);
-    return model;
-  }
+using StructurePointer = std::shared_ptr<const SolvedStructure>;
+
+/// mesh → modes. nullptr: a kind that gives its modes itself.
+StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
+  if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   record.stage("mesh");
-  const mesh::Mesh mesh = obtain_mesh(scene, record.mesh_file());
+  mesh::Mesh mesh = obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);
   record.keep_mesh(mesh, scene.material.density);
   record.stage("modes");
-  StructureModes structure = solve_structure(mesh, scene);
-  record.keep_modes(mesh, structure, damping_ratios(scene.modes, structure.basis.frequency));
+  StructureModes modes = solve_structure(mesh, scene);
+  record.keep_modes(mesh, modes, damping_ratios(scene.modes, modes.basis.frequency));
   record.stage("contact");
+  return std::make_shared<const SolvedStructure>(SolvedStructure{std::move(mesh), std::move(modes)});
+}
+
+/// → contact: the arrays the response stage needs.
+ReducedModel reduce(const SceneDescription& scene, const StructurePointer& structure,
+                    RunRecord& record) {
   std::vector<std::string> warnings;
-  ReducedModel model =
-      reduce_to_contact(mesh, scene, structure.basis,
-                        structure.residual ? &*structure.residual : nullptr, warnings);
+  ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
-  model.effects = contact_effects(model, scene);
   record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);
-  record.keep_structure(mesh, std::move(structure.basis));
+  if (structure) record.keep_structure(structure->mesh, structure->modes.basis);
   return model;
 }
 
@@ -59,17 +60,19 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
   return record.run([&] {
     require_response(scene);
-    const ReducedModel model = reduce(scene, record);
+    const StructurePointer structure = solve(scene, record);
+    const ReducedModel model = reduce(scene, structure, record);
     require_held(model, scene);
     require_loads(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.stage("maps");
     draw_maps(model, scene, curves, record);
-    if (scene.response->optimum_preload) {
+    if (scene.response->optimum) {
       record.stage("optimum");
-      record.keep_optimum(best_preload(model, scene));
-      record.keep_bracket(optimum_bracket(model, scene));
+      OptimumSearch search(model, scene, structure);
+      record.keep_optimum(model, *scene.response->optimum, search.best());
+      record.keep_bracket(search.bracket());
     }
     record.stage("report");
     record.keep_summary();  // the report reads it
@@ -81,7 +84,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
 
 int modes_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
-  return record.run([&] { static_cast<void>(reduce(scene, record)); });
+  return record.run([&] { static_cast<void>(reduce(scene, solve(scene, record), record)); });
 }
 
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {

@@ -108,14 +108,17 @@ void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) 
   write_whole(file, table);
 }
 
-void write_optimum_csv(const std::filesystem::path& file, const solver::Optimum& optimum) {
-  std::string table = "preload_N,frequency_Hz,amplitude_m,mark\n";
+void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
+                       const solver::Optimum& optimum) {
+  std::string table = request.of_preload() ? "preload_N" : "value";
+  table += ",frequency_Hz,amplitude_m,mark\n";
   for (const solver::PeakOfParameter& peak : optimum.trace) {
     append_row(table, {peak.parameter, peak.frequency / two_pi, peak.amplitude});
     const bool best = optimum.found && peak.parameter == optimum.best.parameter;
     table += best ? ",optimum\n" : ",\n";
   }
-  write_whole(file, table);
+  write_whole(folder / (request.of_preload() ? "peak_against_preload.csv" : "peak_against_parameter.csv"),
+              table);
 }
 
 }  // namespace microslip::pipelines

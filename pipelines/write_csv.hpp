@@ -35,9 +35,10 @@ struct ModeTable {
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
 
-/// peak_against_preload.csv, the trace of an optimum: `preload_N,frequency_Hz,amplitude_m,mark`,
-/// `mark` = optimum on its row.
+/// The trace of an optimum: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,mark`, or
+/// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row.
 /// @throws ExhaustedError  cannot be written.
-void write_optimum_csv(const std::filesystem::path& file, const solver::Optimum& optimum);
+void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
+                       const solver::Optimum& optimum);
 
 }  // namespace microslip::pipelines

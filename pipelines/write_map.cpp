@@ -21,6 +21,9 @@ namespace {
 
 const std::vector<std::string> state_names{"stick", "positive slip", "negative slip", "separated",
                                            "slip in two directions"};
+const std::vector<std::string> start_names{"stick_start_deg", "positive_slip_start_deg",
+                                           "negative_slip_start_deg", "separation_start_deg",
+                                           "slip_start_deg"};
 
 void require_rows(const char* what, const NamedMap& map, Eigen::Index rows, Eigen::Index expected) {
   if (rows == expected) return;
@@ -68,7 +71,12 @@ vtkSmartPointer<vtkPolyData> make_patch(const ReducedModel& model) {
   return patch;
 }
 
+constexpr double degree = std::numbers::pi / 180.0;
+
 void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map) {
+  for (Eigen::Index state = 0; state < map.state_start.cols(); ++state) {
+    add_array(data, start_names.at(static_cast<std::size_t>(state)), map.state_start.col(state) / degree);
+  }
   add_array(data, "dissipated_energy_J_per_m2", map.dissipated_energy);
   add_array(data, "slip_distance_m", map.slip_distance);
   add_array(data, "wear_depth_m", map.wear_depth);
@@ -90,7 +98,7 @@ void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eig
 }
 
 double in_degrees(double phase) {
-  const double degrees = phase * 180.0 / std::numbers::pi;
+  const double degrees = phase / degree;
   const double rounded = std::round(degrees * 1e6) / 1e6;  // 45, not 45.00000000000001
   return std::abs(rounded - degrees) < 1e-9 ? rounded : degrees;
 }
@@ -143,6 +151,8 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
   Hdf5Writer out;
   out.text("program", "microslip");
   out.vector("/frequency_Hz", Eigen::VectorXd::Constant(1, map.frequency_hz), "Hz");
+  out.vector("/amplitude_m", Eigen::VectorXd::Constant(1, map.amplitude), "m");
+  out.vector("/stable", Eigen::VectorXd::Constant(1, static_cast<double>(map.stability)), "1");
   out.vector("/phase_deg", map.points.phase * (180.0 / std::numbers::pi), "deg");
   out.matrix("/points", in_plane(model, point_positions(model)), "m");
   out.vector("/weights", model.weights, "m^2");
@@ -163,6 +173,10 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
     out.matrix("/friction_traction_r_Pa", map.points.friction_traction_r, "Pa");
     out.matrix("/relative_displacement_r_m", map.points.relative_displacement_r, "m");
     out.matrix("/slip_r_m", map.points.slip_r, "m");
+  }
+  out.matrix("/state_start_deg", map.points.state_start / degree, "deg");
+  if (map.vertices.phase.size() > 0) {
+    out.matrix("/vertex_state_start_deg", map.vertices.state_start / degree, "deg");
   }
   out.write(file);
 }

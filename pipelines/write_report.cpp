@@ -89,20 +89,39 @@ std::string curve_row(const Json& curve) {
                      curve.at("points").get<long>());
 }
 
+/// Amplitude, frequency and value of a best peak as cells of a table.
+std::string optimum_cells(const Json& peak) {
+  return fmt::format("{:.6g} | {:.5g} | {:.4f} |\n", peak.at("value").get<double>(),
+                     peak.at("amplitude_m").get<double>(), peak.at("frequency_Hz").get<double>());
+}
+
+std::string optimum_text(const Json& optimum) {
+  const std::string key = optimum.at("parameter").get<std::string>();
+  const bool found = optimum.at("found").get<bool>();
+  std::string text = fmt::format(
+      "\n{}: {:.6g}{}, peak {:.5g} m at {:.4f} Hz; {}.\n\n",
+      found ? "Best " + key : "Best " + key + " not found; lowest peak seen",
+      optimum.at("value").get<double>(), key == "preload" ? " N" : " (SI)",
+      optimum.at("amplitude_m").get<double>(), optimum.at("frequency_Hz").get<double>(),
+      optimum.at("message").get<std::string>());
+  text += fmt::format("| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given | ",
+                      key);
+  text += optimum_cells(optimum);
+  for (const Json& entry : optimum.at("bracket")) {
+    text += fmt::format("| {} × {:g}{} | ", entry.at("parameter").get<std::string>(),
+                        entry.at("factor").get<double>(),
+                        entry.at("found").get<bool>() ? "" : " (lowest seen, at a bound)") +
+            optimum_cells(entry);
+  }
+  return text;
+}
+
 std::string curves_text(const Json& run) {
   std::string text =
       "| preload [N] | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n"
       "|---:|---:|---:|---|---|---|\n";
   for (const Json& curve : run.at("curves")) text += curve_row(curve);
-  if (const Json& optimum = run.at("optimum"); !optimum.is_null()) {
-    const bool found = optimum.at("found").get<bool>();
-    text += fmt::format("\n{}: {:.6g} N, peak {:.5g} m at {:.4f} Hz.{}\n",
-                        found ? "Best preload" : "Best preload not found; lowest peak seen",
-                        optimum.at("preload_N").get<double>(),
-                        optimum.at("amplitude_m").get<double>(),
-                        optimum.at("frequency_Hz").get<double>(),
-                        found ? "" : fmt::format(" {}", optimum.at("message").get<std::string>()));
-  }
+  if (const Json& optimum = run.at("optimum"); !optimum.is_null()) text += optimum_text(optimum);
   return text;
 }
 

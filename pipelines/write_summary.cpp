@@ -61,12 +61,12 @@ Json to_json(const EffectRecord& effect);
 Json to_json(const solver::SolverEvent& event) {
   return {{"frequency_Hz", hertz(event.frequency)}, {"remedy", event.remedy}};
 }
-Json to_json(const OptimumOfFactor& entry) {
-  return {{"parameter", entry.parameter},
-          {"factor", entry.factor},
-          {"preload_N", entry.best.parameter},
-          {"amplitude_m", entry.best.amplitude},
-          {"frequency_Hz", hertz(entry.best.frequency)}};
+Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary) {
+  const double load = summary.request.of_preload() ? peak.parameter : summary.request.load;
+  return {{"preload_N", load * summary.newtons_per_load},
+          {"value", peak.parameter},
+          {"amplitude_m", peak.amplitude},
+          {"frequency_Hz", hertz(peak.frequency)}};
 }
 
 template <typename Item>
@@ -110,25 +110,32 @@ Json to_json(const EffectRecord& effect) {
           {"reason", effect.reason}};
 }
 
-Json to_json(const solver::Optimum& optimum, const std::vector<OptimumOfFactor>& bracket) {
+Json to_json(const OptimumSummary& summary) {
+  const solver::Optimum& optimum = summary.optimum;
   Json trace = Json::array();
   for (const solver::PeakOfParameter& peak : optimum.trace) {
-    trace.push_back({{"preload_N", peak.parameter},
-                     {"amplitude_m", peak.amplitude},
-                     {"frequency_Hz", hertz(peak.frequency)}});
+    trace.push_back(to_json(peak, summary));
   }
-  return {{"preload_N", optimum.best.parameter},
-          {"amplitude_m", optimum.best.amplitude},
-          {"frequency_Hz", hertz(optimum.best.frequency)},
-          {"found", optimum.found},
-          {"message", optimum.message},
-          {"iterations", optimum.iterations},
-          {"contact_evaluations", optimum.contact_evaluations},
-          {"notes", optimum.notes},
-          {"whole_curves", optimum.n_curves},
-          {"seconds", optimum.seconds},
-          {"bracket", to_array(bracket)},
-          {"trace", trace}};
+  Json bracket = Json::array();
+  for (const OptimumOfFactor& entry : summary.bracket) {
+    Json row = to_json(entry.best, summary);
+    row["parameter"] = entry.parameter;
+    row["factor"] = entry.factor;
+    row["found"] = entry.found;
+    bracket.push_back(std::move(row));
+  }
+  Json json = to_json(optimum.best, summary);
+  json["parameter"] = summary.request.key;
+  json["found"] = optimum.found;
+  json["message"] = optimum.message;
+  json["iterations"] = optimum.iterations;
+  json["contact_evaluations"] = optimum.contact_evaluations;
+  json["notes"] = optimum.notes;
+  json["whole_curves"] = optimum.n_curves;
+  json["seconds"] = optimum.seconds;
+  json["bracket"] = std::move(bracket);
+  json["trace"] = std::move(trace);
+  return json;
 }
 
 Json libraries_json(const std::vector<std::pair<std::string, std::string>>& libraries) {
@@ -205,7 +212,7 @@ std::string summary_json(const RunSummary& summary, int indent) {
                   {"mesh", summary.mesh ? to_json(*summary.mesh) : Json(nullptr)},
                   {"modes", to_array(summary.modes)},
                   {"curves", to_array(summary.curves)},
-                  {"optimum", summary.optimum ? to_json(*summary.optimum, summary.optimum_bracket) : Json(nullptr)},
+                  {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
                   {"effects", to_array(summary.effects)},
                   {"error_budget", Json::array()}};
   constexpr char space = ' ';

@@ -60,6 +60,13 @@ struct CurveSummary {
   int search_starts = 0;
 };
 
+struct OptimumSummary {
+  OptimumRequest request;
+  solver::Optimum optimum;
+  std::vector<OptimumOfFactor> bracket;
+  double newtons_per_load = 1.0;  ///< where loads are scales: the force of scale 1 [N]
+};
+
 struct EffectRecord {
   std::string name;
   std::string setting;  ///< auto | on | off
@@ -79,8 +86,7 @@ struct RunSummary {
   std::optional<MeshSummary> mesh;
   std::vector<ModeSummary> modes;
   std::vector<CurveSummary> curves;
-  std::optional<solver::Optimum> optimum;
-  std::vector<OptimumOfFactor> optimum_bracket;
+  std::optional<OptimumSummary> optimum;
   std::vector<EffectRecord> effects;
   std::vector<std::string> warnings;
 };

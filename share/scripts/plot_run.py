@@ -25,6 +25,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.tri import Triangulation
 
 STYLE = {
     "svg.hashsalt": "microslip",
@@ -236,10 +237,15 @@ def peaks_of(run):
 
 def trace_of(run):
     path = os.path.join(run.folder, "peak_against_preload.csv")
+    return trace_in(path, "preload_N")
+
+
+def trace_in(path, name):
+    """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
     table = read_table(path) if os.path.exists(path) else {}
     if not table:
         return np.empty((0, 3))
-    return np.column_stack([table["preload_N"], table["frequency_Hz"], table["amplitude_m"]])
+    return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
 
 
 def draw_peaks(column, run, family, trace, sign):
@@ -265,21 +271,28 @@ def draw_limits(column, run, limits, named):
             axes.axhline(value, color=FREE if name == "free" else STUCK, linewidth=0.9, zorder=1,
                          linestyle="-" if name == "free" else (0, (6, 2)))
             if named:
-                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"), va="center",
-                              xytext=(4, 0), textcoords="offset points", fontsize=8)
+                above = is_upper(value, name, limits, axes is column[0])
+                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"),
+                              va="bottom" if above else "top", xytext=(4, -1 if above else 1),
+                              textcoords="offset points", fontsize=8)
+
+
+def is_upper(value, name, limits, amplitudes):
+    """Whether this limit's label goes above its line: the lines may lie close together."""
+    others = [pair[1 if amplitudes else 0] for other, pair in limits.items() if other != name]
+    return not others or limits[name][1 if amplitudes else 0] >= max(others)
 
 
 def mark_optimum(column, run, optimum):
-    best = (optimum["preload_N"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
+    best = (optimum["value"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
     for axes, value in ((column[0], best[1]), (column[1], best[2])):
         axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
                      linewidth=0.6, zorder=5)
         axes.axvline(best[0], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
     unit = "× " if run.scaled else ""
-    column[0].annotate(
-        f"best preload {unit}{best[0]:.4g}{'' if run.scaled else ' N'}:\n"
-        f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", (best[0], best[1]), color=ACCENT,
-        xytext=(0.97, 0.95), textcoords="axes fraction", ha="right", va="top", fontsize=8)
+    column[0].set_title(f"best preload {unit}{best[0]:.4g}{'' if run.scaled else ' N'}: "
+                        f"{best[1]:.4g} {run.unit} at {best[2]:.4g} Hz", loc="right", color=ACCENT,
+                        fontsize=8)
 
 
 def plot_peaks(run, folder):
@@ -301,12 +314,48 @@ def plot_peaks(run, folder):
         draw_limits(column, run, limits, named=i == len(sides) - 1)
         name = "preload scale [–]" if run.scaled else "preload [N]" if side > 0 else "gap: −preload [N]"
         column[1].set_xlabel(name)
-    if optimum and optimum.get("found", True) and sides[-1] > 0:
+    if optimum and optimum["found"] and optimum["parameter"] == "preload" and sides[-1] > 0:
         mark_optimum(grid[:, -1], run, optimum)
     grid[0, 0].set_ylabel(f"peak amplitude [{run.unit}]")
     grid[1, 0].set_ylabel("peak frequency [Hz]")
     figure.suptitle(run.summary.get("title", ""), x=0.01, ha="left", fontsize=9)
     save(figure, folder, "peak_against_preload")
+
+
+def plot_parameter(run, folder):
+    """Peak against a number of the scene that is not the preload."""
+    trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
+    if len(trace) < 2:
+        return
+    optimum = run.summary["optimum"]
+    figure, column = plt.subplots(2, 1, figsize=(6.4, 4.8), layout="constrained", sharex=True,
+                                  height_ratios=[1.5, 1])
+    for axes, values in zip(column, (trace[:, 2] / run.size, trace[:, 1])):
+        axes.plot(trace[:, 0], values, color="0.35", linewidth=1.1, marker=".", markersize=4)
+        axes.grid(True, which="major", color="0.92", linewidth=0.6)
+        axes.set_axisbelow(True)
+    if trace[0, 0] > 0 and trace[-1, 0] > 5 * trace[0, 0]:
+        log_scale(column[0].xaxis)
+    log_scale(column[0].yaxis)
+    if optimum["found"]:
+        best = (optimum["value"], optimum["amplitude_m"] / run.size, optimum["frequency_Hz"])
+        for axes, value in zip(column, best[1:]):
+            axes.scatter(best[0], value, marker="*", s=90, color=ACCENT, edgecolor="white",
+                         linewidth=0.6, zorder=5)
+        column[0].set_title(f"best {best[0]:.4g}: {best[1]:.4g} {run.unit} at {best[2]:.4g} Hz",
+                            loc="right", fontsize=8, color=ACCENT)
+    column[1].set_xlabel(f"{optimum['parameter']} [SI], preload {optimum['preload_N']:.4g} N")
+    column[0].set_ylabel(f"peak amplitude [{run.unit}]")
+    column[1].set_ylabel("peak frequency [Hz]")
+    figure.suptitle(run.summary.get("title", ""), x=0.01, ha="left", fontsize=9)
+    save(figure, folder, "peak_against_parameter")
+
+
+def triangles_of(cells):
+    """Corner numbers of triangles; quadrilaterals are cut in two."""
+    if cells.shape[1] == 3:
+        return cells
+    return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
 
 
 class ContactMap:
@@ -316,6 +365,7 @@ class ContactMap:
         import h5py
         with h5py.File(path, "r") as file:
             self.frequency = file["frequency_Hz"][0]
+            self.amplitude, self.stable = file["amplitude_m"][0], int(file["stable"][0])
             self.phase = file["phase_deg"][:]
             self.state = file["state"][:]
             self.weights = file["weights"][:]
@@ -324,12 +374,16 @@ class ContactMap:
             self.cells = vertices[cells] if len(cells) else None
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
+            name = "vertex_state_start_deg"
+            self.starts = file[name][:] if name in file and len(cells) else None
+            self.triangles = triangles_of(cells) if len(cells) else None
         corners = vertices if self.cells is not None else self.points
         self.names = "p [mm]", "r [mm]"
         if np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):  # a long patch lies on its side
             corners, self.points = corners[:, ::-1], self.points[:, ::-1]
             self.cells = None if self.cells is None else self.cells[:, :, ::-1]
             self.names = self.names[::-1]
+        self.corners = corners
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def shares(self, phase):
@@ -338,6 +392,20 @@ class ContactMap:
         state = self.state[:, phase]
         return (weights[state == 0].sum(), weights[np.isin(state, (1, 2, 4))].sum(),
                 weights[state == 3].sum())
+
+    def draw_boundaries(self, axes, phase):
+        """Where a state begins at this phase [deg]: level lines of the transition angles, interpolated between
+        vertices. A triangle counts where the angle exists at its corners and does not leap around the period."""
+        if self.starts is None:
+            return
+        for angles in self.starts.T:
+            ahead = (angles - phase + 180.0) % 360.0 - 180.0
+            at_corners = ahead[self.triangles]
+            smooth = np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
+            if not smooth.any() or not (np.nanmin(at_corners[smooth]) < 0 < np.nanmax(at_corners[smooth])):
+                continue
+            mesh = Triangulation(*self.corners.T, self.triangles[smooth])
+            axes.tricontour(mesh, np.nan_to_num(ahead), levels=[0.0], colors="black", linewidths=0.7)
 
     def draw(self, axes, colours=None, values=None, cmap=None):
         """Cells in given colours, or coloured by values; lone points where there are no cells."""
@@ -376,6 +444,7 @@ def draw_states(axes, contact, angle):
     colour_of = {value: colour for value, _, colour in STATES}
     phase = int(np.argmin(np.abs((contact.phase - angle + 180) % 360 - 180)))
     contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
+    contact.draw_boundaries(axes, contact.phase[phase])
     stick, slip, apart = contact.shares(phase)
     axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
                    f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8)
@@ -384,7 +453,10 @@ def draw_states(axes, contact, angle):
 def draw_sum(figure, axes, contact, values, name):
     """A sum over the period on the patch, from zero."""
     drawn = contact.draw(axes, values=values, cmap="cividis")
-    drawn.set_clim(0.0, values.max() if values.max() > 0 else 1.0)
+    if not values.max() > 0:  # a scale of nothing would invent one
+        axes.set_title(f"{name}: 0", loc="left", fontsize=8)
+        return
+    drawn.set_clim(0.0, values.max())
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)
     axes.set_title(name, loc="left", fontsize=8)
@@ -441,7 +513,10 @@ def plot_map(path, folder, title):
         row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
         figure = plot_row(contact) if row else plot_patch(contact)
         state_legend(figure, contact)
-    figure.suptitle(f"{title}, {contact.frequency:.6g} Hz", x=0.01, ha="left", fontsize=9)
+    unit, size = length_unit(contact.amplitude)
+    stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
+    figure.suptitle(f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}", x=0.01,
+                    ha="left", fontsize=9)
     save(figure, folder, "map_" + name)
 
 
@@ -491,7 +566,7 @@ def main():
     run = Run(sys.argv[1])
     folder = os.path.join(sys.argv[1], "plots")
     os.makedirs(folder, exist_ok=True)
-    tasks = [lambda: plot_peaks(run, folder), lambda: plot_curves(run, folder),
+    tasks = [lambda: plot_peaks(run, folder), lambda: plot_parameter(run, folder), lambda: plot_curves(run, folder),
              *map_tasks(run, folder)]
     return 0 if run_shared(tasks) else 1
 

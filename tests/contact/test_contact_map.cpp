@@ -1,4 +1,5 @@
 #include "contact/contact_map.hpp"
+#include "contact/point_motions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,31 @@ TEST(ContactMap, PointsAreInTheStatesTheirMotionAsksFor) {
   EXPECT_TRUE((map.state.row(1).array() == 2).any());
   EXPECT_FALSE((map.state.row(1).array() == 3).any());
   EXPECT_TRUE((map.state.row(2).array() == 3).any());
+}
+
+// Under constant load stick starts where the motion turns back; a state that never occurs has no start.
+TEST(ContactMap, TransitionAnglesAreWhereStatesBegin) {
+  const Scene s = three_points();
+  const ContactMap map = contact_map(s.points, s.shapes, s.q, 1, 0.0);
+  const double u_s = s.shapes.u.row(1).dot(s.q.sine(1));
+  const double u_c = s.shapes.u.row(1).dot(s.q.cosine(1));
+  const double at = map.state_start(1, 0);
+  EXPECT_NEAR(u_s * std::cos(at) - u_c * std::sin(at), 0.0, 1e-14 * std::hypot(u_s, u_c));
+  EXPECT_NEAR(std::remainder(map.state_start(1, 2) - map.state_start(1, 1) - pi, 2.0 * pi), 0.0, 1e-14);
+  EXPECT_TRUE(std::isnan(map.state_start(1, 3)));
+  EXPECT_TRUE(map.state_start.row(0).array().isNaN().all());  // sticks all the time
+  constexpr double step = 1e-6;
+  for (const Eigen::Index state : {0, 1, 2, 3}) {
+    const double start = map.state_start(2, state);
+    if (std::isnan(start)) continue;
+    const auto motions = point_motions(s.shapes, s.q);
+    const FrictionCycle cycle = friction_cycle(s.points[2], motions[2]);
+    const auto state_at = [&](double phase) {
+      return static_cast<Eigen::Index>(at_phase(cycle, s.points[2], motions[2], phase).state);
+    };
+    EXPECT_EQ(state_at(start + step), state);
+    EXPECT_NE(state_at(start - step), state);
+  }
 }
 
 // Constant load: distance 4 (a − q/k_u), energy q times that, depth K n₀ times that.

@@ -136,13 +136,17 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
   map.dissipated_energy = Eigen::VectorXd::LinSpaced(n, 0.0, 2.0);
   map.slip_distance = Eigen::VectorXd::LinSpaced(n, 0.0, 4e-6);
   map.wear_depth = Eigen::VectorXd::LinSpaced(n, 0.0, 1e-12);
+  map.state_start.resize(n, 5);
+  map.state_start << Eigen::VectorXd::LinSpaced(n, 0.5, 1.0), Eigen::VectorXd::LinSpaced(n, 1.0, 2.0),
+      Eigen::VectorXd::LinSpaced(n, 4.0, 5.0), Eigen::VectorXd::LinSpaced(n, 3.0, 3.5),
+      Eigen::VectorXd::Zero(n);
   map.slip_duration = Eigen::VectorXd::LinSpaced(n, 0.0, 0.7);
   map.separation_duration = Eigen::VectorXd::LinSpaced(n, 0.3, 0.0);
   return map;
 }
 
 inline NamedMap named_map(const ReducedModel& m, const std::string& name, int n_phases = 8) {
-  return {name, 301.25, map_at(m.points, n_phases),
+  return {name, 301.25, 2e-4, solver::Stability::stable, map_at(m.points, n_phases),
           m.cells.rows() > 0 ? map_at(m.vertices, n_phases) : contact::ContactMap{}};
 }
 

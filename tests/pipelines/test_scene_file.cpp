@@ -469,6 +469,48 @@ TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
                    {"preload_moment", "one of the two"});
 }
 
+TEST(SceneFile, AnyNumberCanBeSearched) {
+  const std::vector<std::string> search{"response.optimum=contact.normal_stiffness",
+                                        "response.optimum_range=[\"1 GPa/m\", 1e12]",
+                                        "response.preload=[100, \"free\"]"};
+  const SceneDescription scene = parse(blade_text, search);
+  ASSERT_TRUE(scene.response->optimum.has_value());
+  EXPECT_EQ(scene.response->optimum->range, (std::array<double, 2>{1e9, 1e12}));
+  EXPECT_EQ(scene.response->optimum->load, 100.0);
+  const SceneDescription changed = with_value(scene, "contact.normal_stiffness", 2.5e10);
+  EXPECT_EQ(changed.contact->normal_stiffness, 2.5e10);
+  EXPECT_FALSE(changed.response->optimum.has_value());
+  EXPECT_EQ(changed.contact->tangential_stiffness, scene.contact->tangential_stiffness);
+  const SceneDescription force = parse(
+      blade_text, {"response.optimum=excitation.forces[0].amplitude",
+                   "response.optimum_range=[\"1 mN\", \"2 N\"]", "response.optimum_at=\"1 kN\""});
+  EXPECT_EQ(force.response->optimum->range, (std::array<double, 2>{1e-3, 2.0}));
+  EXPECT_EQ(force.response->optimum->load, 1000.0);
+  EXPECT_EQ(with_value(force, force.response->optimum->key, 0.25).forces[0].amplitude, 0.25);
+}
+
+TEST(BadScene, SearchesOfNoNumber) {
+  const auto bad = [](const std::string& key, const std::string& range,
+                      const std::vector<std::string>& words) {
+    expect_complaint(complaint(blade_text, {"response.optimum=" + key, "response.optimum_range=" + range,
+                                            "response.optimum_at=100"}),
+                     words);
+  };
+  bad("contact.frction_coefficient", "[0.1, 1]", {"contact.frction", "friction_coefficient"});
+  bad("response.frequency", "[1, 2]", {"outside [response]"});
+  bad("modes.count", "[5, 10]", {"whole number"});
+  bad("contact.friction_coefficient", "[-1, 1]", {"optimum_range", "-1 is no value"});
+  bad("contact.friction_coefficient", "[\"1 mm\", 1]", {"optimum_range", "mm"});
+  bad("contact.normal_stiffness", "[2e10, 1e10]", {"low < high"});
+  bad("excitation.forces[7].amplitude", "[1, 2]", {"forces has no entry 7"});
+  bad("preload", "[1, 2]", {"optimum_at", "no meaning"});
+  expect_complaint(complaint(blade_text, {"response.optimum=material.density"}), {"optimum_range"});
+  expect_complaint(complaint(blade_text, {"response.optimum=material.density",
+                                          "response.optimum_range=[1, 2]",
+                                          "response.preload=[1, 2]"}),
+                   {"optimum_at", "2 positive preloads"});
+}
+
 TEST(BadScene, KeysThatSayNothingAreRefused) {
   expect_complaint(complaint(blade_text, {"response.optimum_range=[1, 2]"}), {"optimum"});
   expect_complaint(

@@ -133,8 +133,8 @@ TEST(WriteCsv, OptimumIsMarkedInItsTrace) {
   optimum.trace = {{10.0, 100.0, 3.0}, {20.0, 110.0, 1.0}, {30.0, 120.0, 2.0}};
   optimum.best = optimum.trace[1];
   optimum.found = true;
-  write_optimum_csv(folder.path() / "optimum.csv", optimum);
-  const auto rows = rows_of(std::ifstream(folder.path() / "optimum.csv"));
+  write_optimum_csv(folder.path(), {"preload", std::nullopt, 0.0}, optimum);
+  const auto rows = rows_of(std::ifstream(folder.path() / "peak_against_preload.csv"));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[1].back(), "");
   EXPECT_EQ(rows[2].back(), "optimum");

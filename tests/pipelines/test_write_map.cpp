@@ -22,6 +22,11 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
   EXPECT_EQ(values(data, "dissipated_energy_J_per_m2"), map.dissipated_energy);
   EXPECT_EQ(values(data, "slip_distance_m"), map.slip_distance);
   EXPECT_EQ(values(data, "wear_depth_m"), map.wear_depth);
+  const char* starts[] = {"stick_start_deg", "positive_slip_start_deg", "negative_slip_start_deg",
+                          "separation_start_deg", "slip_start_deg"};
+  for (Eigen::Index state = 0; state < 5; ++state) {
+    EXPECT_TRUE(values(data, starts[state]).isApprox(map.state_start.col(state) * (180.0 / M_PI), 1e-15));
+  }
   EXPECT_EQ(values(data, "slip_duration"), map.slip_duration);
   EXPECT_EQ(values(data, "separation_duration"), map.separation_duration);
 }

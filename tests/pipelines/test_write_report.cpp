@@ -45,8 +45,11 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   optimum.trace = {{100.0, 1900.0, 5e-5}, {200.0, 1950.0, 4e-5}, {400.0, 1990.0, 6e-5}};
   optimum.best = optimum.trace[1];
   optimum.found = true;
-  run.optimum = optimum;
-  write_optimum_csv(folder / "peak_against_preload.csv", optimum);
+  OptimumSummary& found = run.optimum.emplace();
+  found.request.key = "preload";
+  found.optimum = optimum;
+  found.bracket = {{"contact_stiffness", 2.0, optimum.trace[2], true}};
+  write_optimum_csv(folder, found.request, optimum);
   for (const CurveResult& curve : curves) {
     write_curve(folder, curve, synthetic::n_modes);
     run.curves.push_back(summarise(curve));

@@ -27,7 +27,9 @@ RunSummary small_run() {
   solver::Optimum optimum;
   optimum.best = {5e4, 2.0 * std::numbers::pi * 310.0, 3e-5};
   optimum.found = true;
-  run.optimum = optimum;
+  run.optimum.emplace();
+  run.optimum->request.key = "preload";
+  run.optimum->optimum = optimum;
   return run;
 }
 

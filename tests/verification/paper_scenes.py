@@ -226,6 +226,27 @@ class Chains(unittest.TestCase):
         self.assertLess(30, optimum["preload_N"])
         self.assertLess(optimum["preload_N"], 50)
 
+    def test_the_best_friction_coefficient_gives_the_best_friction_force(self):
+        """Under a constant load only μ n counts: μ* 30 N = 0.5 n*; the amplitude agrees to the square of the
+        1e-4 to which the searches place their minima."""
+        folder = run("chain_2dof", "chain_2dof_mu", "response.optimum=contact.points[0].friction_coefficient",
+                     "response.optimum_range=[0.1, 2]", "response.optimum_at=30", "response.preload=[30]")
+        friction, preload = summary_of(folder)["optimum"], self.plain.summary["optimum"]
+        self.assertTrue(friction["found"])
+        self.assertEqual(friction["parameter"], "contact.points[0].friction_coefficient")
+        self.assertEqual(friction["preload_N"], 30)
+        self.assertAlmostEqual(friction["value"] * 30 / (0.5 * preload["preload_N"]), 1, delta=1e-3)
+        self.assertAlmostEqual(friction["amplitude_m"] / preload["amplitude_m"], 1, delta=1e-6)
+        self.assertEqual([entry["parameter"] for entry in friction["bracket"]], ["contact_stiffness"] * 2)
+
+    def test_half_the_friction_coefficient_doubles_the_best_preload(self):
+        optimum = self.plain.summary["optimum"]
+        rows = {(e["parameter"], e["factor"]): e for e in optimum["bracket"] if e["found"]}
+        half = rows["friction_coefficient", 0.5]
+        self.assertAlmostEqual(half["preload_N"] / (2 * optimum["preload_N"]), 1, delta=1e-3)
+        self.assertAlmostEqual(half["amplitude_m"] / optimum["amplitude_m"], 1, delta=1e-6)
+        self.assertLess(rows["contact_stiffness", 2.0]["amplitude_m"], optimum["amplitude_m"])
+
     def test_peaks_are_those_of_time_integration(self):
         """Half peak-to-peak of m2 by fourth-order Runge-Kutta with slider memory, 1000 steps a period, 50
         periods, at 21.7 Hz and 23.0 Hz: an own integration outside of the program; the transient of 50

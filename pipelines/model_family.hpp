@@ -1,0 +1,56 @@
+/// @file
+/// Reduced models of one scene with one number changed: what the search for its best value goes over.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "pipelines/run_results.hpp"
+#include "pipelines/scene_description.hpp"
+#include "pipelines/structure_stage.hpp"
+
+namespace microslip::pipelines {
+
+/// The finite-element half of a scene, kept so that other contact data need no new modes.
+struct SolvedStructure {
+  mesh::Mesh mesh;
+  StructureModes modes;
+};
+
+/// Mesh and modes from the beginning. @param mesh_file  where the mesher writes.
+/// @throws as obtain_mesh(), check_names(), solve_structure().
+[[nodiscard]] SolvedStructure solved_structure(const SceneDescription& scene,
+                                               const std::filesystem::path& mesh_file);
+
+/// The model the response stage solves, effects decided.
+/// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+/// @param warnings   sentences for the log are appended.
+/// @throws SceneError, RefusedError  as reduce_to_contact(), contact_effects().
+[[nodiscard]] ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* structure,
+                                    std::vector<std::string>& warnings);
+
+class ModelFamily {
+ public:
+  /// @param scene      borrowed.
+  /// @param key        the number that changes, path as of --set.
+  /// @param model      of the scene as it is: which directions are simulated stays as decided there.
+  /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+  ModelFamily(const SceneDescription& scene, std::string key, const ReducedModel& model,
+              std::shared_ptr<const SolvedStructure> structure);
+
+  /// The model at a value. Modes are solved anew only where the number changes them.
+  /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at this value.
+  [[nodiscard]] const ReducedModel& at(double value);
+
+ private:
+  const SceneDescription& scene_;
+  std::string key_;
+  bool second_direction_;
+  std::shared_ptr<const SolvedStructure> structure_;
+  std::map<double, ReducedModel> models_;
+};
+
+}  // namespace microslip::pipelines
