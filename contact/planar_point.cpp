@@ -14,6 +14,16 @@ using Eigen::Vector2d;
 Vector2d tangential(const Eigen::Vector3d& motion) { return {motion[0], motion[2]}; }
 Vector2d across(const Vector2d& e) { return {-e[1], e[0]}; }
 
+/// β' of (3), fading out where the motion is too slow to be followed (|x'|² ≪ |x''| reach) and where slip
+/// does not follow it: friction of a falling load may drive the slider against the motion.
+double heading_rate(const PlanarPointInstant& now, const Vector2d& e, double reach) {
+  const double speed = now.velocity.norm();
+  const double square = speed * speed + now.acceleration.norm() * reach;
+  if (square == 0.0 || speed == 0.0) return 0.0;
+  const double along = std::max(0.0, e.dot(now.velocity) / speed);
+  return along * along * across(now.velocity).dot(now.acceleration) / square;
+}
+
 }  // namespace
 
 PlanarPoint::PlanarPoint(const SurfaceLaw& surface, double tangential, double normal,
@@ -42,6 +52,7 @@ PlanarPointInstant instant_of(const PlanarPoint& point, const PlanarPointMotion&
   PlanarPointInstant now;
   now.position = tangential(motion.value).cwiseProduct(point.active);
   now.velocity = rate.cwiseProduct(point.active);
+  now.acceleration = tangential(motion.second).cwiseProduct(point.active);
   const double speed = law.is_rate_dependent() ? rate.norm() : 0.0;
   const double speed_rate = speed > 0.0 ? rate.dot(tangential(motion.second)) / speed : 0.0;
   const double approach = std::max(motion.value[1], least_approach);
@@ -90,8 +101,10 @@ double turn_rate(const PlanarPoint& point, const PlanarPointInstant& now, double
   const Vector2d e = slip_direction(angle);
   const Vector2d turn = across(e);
   const Vector2d dragged = now.velocity - now.radius_rate * point.compliance.cwiseProduct(e);
+  const double across_compliance = turn.dot(point.compliance.cwiseProduct(turn));
   const double radius = std::sqrt(std::hypot(now.radius * now.radius, edge * edge));
-  return turn.dot(dragged) / (radius * turn.dot(point.compliance.cwiseProduct(turn)));
+  const double fed = heading_rate(now, e, radius * point.compliance.maxCoeff());
+  return fed + (turn.dot(dragged) / across_compliance - now.radius * fed) / radius;
 }
 
 }  // namespace microslip::contact

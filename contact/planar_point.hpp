@@ -49,6 +49,7 @@ struct PlanarPointMotion {
 struct PlanarPointInstant {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x in active directions [m]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' [m/s]
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< x'' [m/s²]
   double load = 0.0;    ///< that of smooth surfaces of the same stiffness [Pa]: its sign tells contact
   double normal = 0.0;  ///< n while in contact [Pa]
   double ratio = 1.0;   ///< g
@@ -75,7 +76,13 @@ struct PlanarPointInstant {
 [[nodiscard]] double slip_speed(const PlanarPoint& point, const PlanarPointInstant& now,
                                 double angle);
 
-/// α' of (2) with (r⁴ + edge⁴)^¼ for r [rad/s]; 0 along a line.
+/// α' of (2) [rad/s]; 0 along a line. Where r is small α follows the motion within r C/|x'|, however short
+/// that is. There it is given more time, with the motion's own turning β' fed forward,
+///
+///   α' = β' + (r α'₍₂₎ − r β')/R,     R = (r⁴ + edge⁴)^¼,     β' = x' × x''/|x'|²              (3)
+///
+/// which is (2) for r ≫ edge, follows the motion without delay else, and is regular at r = 0.
+/// @param edge  [Pa], > 0.
 [[nodiscard]] double turn_rate(const PlanarPoint& point, const PlanarPointInstant& now,
                                double angle, double edge);
 

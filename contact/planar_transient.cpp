@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// ε of the header: against K₀ times the motion.
-constexpr double edge = 1e-5;
+/// ε of the header.
+constexpr double edge = 5e-4;
 constexpr double wherever = -std::numeric_limits<double>::infinity();  // the law at the motion itself
 
 /// K₀ times the motion [Pa].

@@ -154,7 +154,7 @@ TEST(PlanarTransient, InCircularMotionTheForceLeadsByAnAngle) {
     const ModalMotion motion{Eigen::Vector3d(a * std::cos(phase), 0.0, a * std::sin(phase)),
                              omega *
                                  Eigen::Vector3d(-a * std::sin(phase), 0.0, a * std::cos(phase))};
-    EXPECT_NEAR(force.internal_rates(motion, memory, unit_scale)[0], omega, 1e-12);
+    EXPECT_NEAR(force.internal_rates(motion, memory, unit_scale)[0], omega, 1e-7);  // (ε/r)⁴ of the turning
     const double radius = std::sqrt(a * a - std::pow(limit / 5.0, 2));
     EXPECT_NEAR(force.slip_power(motion, memory), limit * omega * radius, 1e-14);
   }

@@ -8,11 +8,17 @@
 //             direction, from rest: the same after ten periods to 1e-9, 1e-10 per step
 //   order     fixed steps against a solution with eight times as many: events of order 5 while surfaces are
 //             smooth and the slip does not separate; the return map with rk4 of order 1 at least
+//   balance   random scenes of three modes and two points, smooth, rough or by speed, k_u ≠ k_w, preloads and
+//             gaps, against harmonic balance with 15 harmonics (planar cycles by collocation): the named
+//             tolerance is 0.2 % of the motion, and half of it is what must be met; at least as near as 3
+//             harmonics are. Scenes that are not periodic in 400 periods are left out and counted
 //   spring    stuck rough contact under a constant approach is a linear spring g k: exact to 1e-8
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -21,8 +27,11 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
+#include "contact/planar_cycle.hpp"
 #include "contact/planar_transient.hpp"
+#include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 
@@ -156,6 +165,110 @@ TEST(PlanarTime, EventsAreOfOrderFive) {
 
 TEST(PlanarTime, TheReturnMapIsOfOrderOneAtLeast) {
   EXPECT_GT(order("rk4, return map", orbit({point, 1.2}), solver::TimeMethod::rk4, 256), 0.9);
+}
+
+/// splitmix64 (Steele, Lea & Flood 2014): the same on every machine.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : state_(seed) {}
+  double operator()(double low, double high) {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+SurfaceLaw random_law(Draw& draw, std::uint64_t kind) {
+  const double mu = draw(0.2, 0.8);
+  const contact::PointParameters p{draw(0.3, 2.0), draw(0.3, 2.0), mu, draw(-0.2, 0.6)};
+  const double k_w = p.tangential_stiffness * draw(0.5, 1.5);
+  if (kind == 0) return {p, k_w};
+  if (kind == 1) {
+    return {p, k_w, FrictionLaw::exponential(mu, 0.5 * mu, draw(0.3, 2.0))};
+  }
+  const double height = draw(0.1, 1.0);
+  return {p, k_w, FrictionLaw::constant(mu),
+          kind == 2 ? RoughSurface::cubic(height) : RoughSurface::matching_gaussian(height)};
+}
+
+solver::Scene random_planar_scene(std::uint64_t seed) {
+  Draw draw(seed);
+  const auto any = [&](Eigen::Index, Eigen::Index) { return draw(-1.0, 1.0); };
+  const auto shape = [&] { return Eigen::MatrixXd::NullaryExpr(2, 3, any).eval(); };
+  solver::Scene scene;
+  scene.natural_frequency = Eigen::Vector3d(1.0, draw(1.2, 2.0), draw(2.2, 3.0));
+  scene.damping_ratio = Eigen::Vector3d::Constant(0.03);
+  scene.output = Eigen::Vector3d::Ones();
+  scene.excitation = contact::Harmonics(1, 3);
+  scene.excitation.rows().bottomRows(2) = 0.6 * Eigen::MatrixXd::NullaryExpr(2, 3, any);
+  const Eigen::Vector2d weights(draw(0.5, 1.5), draw(0.5, 1.5));
+  const contact::ModalShapes shapes{shape(), shape(), shape()};
+  std::vector<SurfaceLaw> laws;
+  std::vector<std::shared_ptr<const contact::PointLaw>> cycles;
+  for (int i = 0; i < 2; ++i) {
+    laws.push_back(random_law(draw, seed % 4));
+    cycles.push_back(std::make_shared<contact::PlanarLaw>(laws.back(), 1e-11));
+  }
+  scene.contact = std::make_unique<contact::LawPatchForce>(weights, std::move(cycles), shapes);
+  scene.transient =
+      std::make_unique<contact::PlanarTransient>(weights, std::move(laws), shapes);
+  return scene;
+}
+
+double difference(const solver::ResponsePoint& balance, const solver::ResponsePoint& time) {
+  const Eigen::Index n = balance.q.rows().rows() - 1;
+  return (balance.q.rows().bottomRows(n) - time.q.rows().middleRows(1, n)).norm() /
+         time.q.rows().middleRows(1, 2).norm();
+}
+
+TEST(PlanarTime, AgreesWithHarmonicBalanceOnRandomScenes) {
+  constexpr std::uint64_t n_seeds = 24;
+  int n_left_out = 0;
+  double largest = 0.0;
+  double slip = 0.0;
+  double separated = 0.0;
+  for (std::uint64_t seed = 0; seed < n_seeds; ++seed) {
+    const solver::Scene scene = random_planar_scene(seed);
+    constexpr double omega = 1.05;
+    solver::TimeOptions time_options;
+    time_options.max_periods = 400;
+    time_options.n_harmonics = 15;
+    time_options.step_tolerance = 1e-8;  // far below the named tolerance
+    time_options.periodicity_tolerance = 1e-6;
+    const auto balance = [&](int n_harmonics) {
+      solver::ContinuationOptions options;
+      options.frequency_begin = options.frequency_end = omega;
+      options.n_harmonics = n_harmonics;
+      const auto curve = solver::solve_at_frequency(scene, omega, options);
+      EXPECT_TRUE(curve.complete) << seed << ": " << curve.message;
+      return curve.points.at(0);
+    };
+    const solver::ResponsePoint many = balance(15);
+    const auto time = solver::steady_state_from(scene, omega, many.q, time_options);
+    if (time.period_multiple != 1) {
+      ++n_left_out;
+      continue;
+    }
+    const double here = difference(many, time.response);
+    std::printf("seed %2d: difference %.1e (3 harmonics %.1e); slip %.2f, open %.2f, %ld events\n",
+                static_cast<int>(seed), here, difference(balance(3), time.response),
+                time.response.report.slip_share, time.response.report.separated_share,
+                time.n_events);
+    EXPECT_LT(here, 1e-3) << seed;
+    EXPECT_LT(here, std::max(1e-5, difference(balance(3), time.response))) << seed;
+    largest = std::max(largest, here);
+    slip += time.response.report.slip_share / n_seeds;
+    separated += time.response.report.separated_share / n_seeds;
+  }
+  std::printf("largest difference %.1e; slip %.2f, open %.2f on average; %d left out\n", largest,
+              slip, separated, n_left_out);
+  EXPECT_LE(n_left_out, 3);
+  EXPECT_GT(slip, 0.2);
+  EXPECT_GT(separated, 0.05);
 }
 
 TEST(PlanarTime, StuckRoughContactIsASpring) {
