@@ -131,10 +131,6 @@ void read_preload(SectionReader& s, const std::filesystem::path& folder,
   if (turned && contact.preload_field) {
     s.fail("preload_moment", "a preload_field has its own moments; give one of the two", &moment);
   }
-  if (turned && s.given("roughness")) {
-    s.fail("preload_moment", "rough surfaces under a moment are not available in this version",
-           &moment);
-  }
 }
 
 void read_fit(const SectionReader& s, ContactDescription& contact) {
