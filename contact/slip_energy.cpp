@@ -24,12 +24,19 @@ struct SlipPhase {
   double in_phase;  // k_v v at the extremum
   double rate;      // k_v v̇ there
 
-  // ∫ n L sin x dx from 0 to x
-  [[nodiscard]] double work(double x) const {
-    const double half = std::sin(0.5 * x);
-    const double sine = std::sin(x);
-    return size * (mean * 2.0 * half * half + 0.5 * in_phase * sine * sine -
-                   0.5 * rate * x_minus_sin_cos(x));
+  // ∫ n L sin x dx, x from `last` to `last` + length, about the middle of the phase.
+  [[nodiscard]] double work(double last, double length) const {
+    const double h = 0.5 * length;
+    const double sine = std::sin(last + h);
+    const double cosine = std::cos(last + h);
+    const double swing = in_phase * cosine - rate * sine;  // A
+    const double slope = in_phase * sine + rate * cosine;  // S
+    const double half = std::sin(0.5 * h);
+    const double square = x_minus_sin_cos(h);  // ∫ sin²y
+    const double versed =                      // ∫ (1 − cos y) cos y
+        2.0 * half * half * std::sin(h) - 2.0 * x_minus_sin_cos(0.5 * h);
+    return size * (sine * (2.0 * (mean + swing) * std::sin(h) - swing * versed) -
+                   slope * cosine * square);
   }
 };
 
@@ -57,10 +64,11 @@ SlipEnergy slip_energy(const PointParameters& point, const PointMotion& motion,
     }
     const SlipPhase slip = slip_towards(positive, point, motion, w);
     const double first = phase.to_extremum;
-    const double last = std::max(first - phase.length, 0.0);
-    energy.normal_slip += std::max((slip.work(first) - slip.work(last)) / k_u, 0.0);
+    const double length = std::min(phase.length, first);
+    const double last = first - length;
+    energy.normal_slip += std::max(slip.work(last, length) / k_u, 0.0);
     energy.distance +=
-        2.0 * slip.size * std::sin(0.5 * (first + last)) * std::sin(0.5 * (first - last)) / k_u;
+        2.0 * slip.size * std::sin(last + 0.5 * length) * std::sin(0.5 * length) / k_u;
   }
   return energy;
 }

@@ -86,24 +86,26 @@ int SlepcSession::n_ranks() const {
   return value;
 }
 
-std::string petsc_versions() {
+std::vector<std::pair<std::string, std::string>> library_versions() {
   const auto dotted = [](int a, int b, int c) {
     return std::to_string(a) + '.' + std::to_string(b) + '.' + std::to_string(c);
   };
-  PetscInt major = 0;
-  PetscInt minor = 0;
-  PetscInt patch = 0;
-  check(PetscGetVersionNumber(&major, &minor, &patch, nullptr));
-  std::string text = "PETSc " + dotted(major, minor, patch);
-  check(SlepcGetVersionNumber(&major, &minor, &patch, nullptr));
-  text += ", SLEPc " + dotted(major, minor, patch);
-  text += ", MUMPS " + dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
-                              PETSC_PKG_MUMPS_VERSION_SUBMINOR);
+  const auto of = [&](PetscErrorCode (*get)(PetscInt*, PetscInt*, PetscInt*, PetscInt*)) {
+    PetscInt major = 0;
+    PetscInt minor = 0;
+    PetscInt patch = 0;
+    check(get(&major, &minor, &patch, nullptr));
+    return dotted(major, minor, patch);
+  };
   char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
   int length = 0;
   check(MPI_Get_library_version(mpi, &length));
   const std::string name(mpi, static_cast<std::size_t>(length));
-  return text + ", " + name.substr(0, name.find(','));
+  return {{"PETSc", of(&PetscGetVersionNumber)},
+          {"SLEPc", of(&SlepcGetVersionNumber)},
+          {"MUMPS", dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                           PETSC_PKG_MUMPS_VERSION_SUBMINOR)},
+          {"MPI", name.substr(0, name.find(','))}};
 }
 
 }  // namespace microslip::fem

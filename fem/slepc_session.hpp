@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace microslip::fem {
 
@@ -24,7 +26,7 @@ class SlepcSession {
 /// The BLAS loaded at run time and its threads, e.g. "OpenBLAS 0.3.21, 2 threads" or
 /// "reference BLAS (slow: install libopenblas0-pthread)".
 [[nodiscard]] std::string blas_description();
-/// Versions of PETSc, SLEPc, MUMPS, MPI for summary.json, "name version" each.
-[[nodiscard]] std::string petsc_versions();
+/// Name and version of PETSc, SLEPc, MUMPS and MPI; before a session as well.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace microslip::fem

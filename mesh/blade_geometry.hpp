@@ -7,8 +7,8 @@
 ///
 /// Named surfaces: "root" (the foot, y = 0), "contact" (right side face of the platform).
 /// Named points: "A" on the tip section at mid-chord (suction side, where the response is read),
-/// "B" leading edge and "B'" trailing edge of the tip section, symmetric about the stacking axis
-/// (where forces act). Lengths in m, angles in rad.
+/// "B" leading edge and "B'" trailing edge of the tip section, the ends of its chord and symmetric about
+/// mid-chord (where forces act). Lengths in m, angles in rad.
 #pragma once
 
 namespace microslip::mesh {

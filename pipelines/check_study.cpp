@@ -107,6 +107,7 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
 }  // namespace
 
 int check_study(const SceneDescription& scene, std::ostream& out) {
+  if (scene.response) require_response(scene);
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
     const ReducedModel model = check_modal(*modal, scene, out);
     describe_effects(scene, &model, out);
@@ -122,7 +123,8 @@ int check_study(const SceneDescription& scene, std::ostream& out) {
     forecast(mesh, scene, out);
     describe_effects(scene, nullptr, out);
   }
-  out << "the scene is complete and consistent\n";
+  out << (scene.response ? "the scene is complete and consistent\n"
+                         : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
   return static_cast<int>(ExitCode::complete);
 }
 

@@ -14,6 +14,9 @@
 
 #include <fmt/core.h>
 
+#include "pipelines/interrupt.hpp"
+#include "pipelines/scene_error.hpp"
+
 namespace microslip::pipelines {
 namespace {
 
@@ -53,27 +56,34 @@ int start(const std::vector<std::string>& command, int output, pid_t& child) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+  // A group of its own: it ends with the processes it has started itself.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const int code =
-      ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+      ::posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return code;
 }
 
-/// Reads until the other end is closed. @return false when the limit passed first.
-bool read_until(int reader, Clock::time_point deadline, std::string& text) {
+enum class Reading { ended, late, interrupted };
+
+/// Reads until the other end is closed, the limit has passed or an interrupt is asked for.
+Reading read_until(int reader, Clock::time_point deadline, std::string& text) {
+  constexpr int longest_wait = 50;  // ms: an interrupt ends the child well within a second
   std::array<char, 4096> buffer{};
   while (true) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
+    if (interrupt_requested()) return Reading::interrupted;
+    if (Clock::now() >= deadline) return Reading::late;
     pollfd waiting{reader, POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(left)) <= 0) continue;
+    if (::poll(&waiting, 1, longest_wait) <= 0) continue;
     const ssize_t size = ::read(reader, buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return true;
+    if (size <= 0) return Reading::ended;
     text.append(buffer.data(), static_cast<std::size_t>(size));
   }
 }
@@ -102,9 +112,12 @@ ChildResult run_child(const std::vector<std::string>& command, std::chrono::mill
   }
   pipe.close_writer();
   std::string output;
-  if (!read_until(pipe.reader(), deadline, output)) {
-    ::kill(child, SIGKILL);
+  if (const Reading outcome = read_until(pipe.reader(), deadline, output); outcome != Reading::ended) {
+    ::kill(-child, SIGKILL);
     wait_for(child);
+    if (outcome == Reading::interrupted) {
+      throw InterruptedError("interrupted while " + command.front() + " was running");
+    }
     return {false, fmt::format("{} took longer than {} s", command.front(),
                                static_cast<double>(limit.count()) / 1e3)};
   }

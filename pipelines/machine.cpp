@@ -13,8 +13,11 @@
 #include <string_view>
 
 #include <spdlog/version.h>
+#include <toml++/toml.h>
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
+
+#include "fem/slepc_session.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -82,7 +85,7 @@ Machine describe_machine() {
 }
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
-  return {
+  std::vector<std::pair<std::string, std::string>> versions{
       {"Eigen", version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"HDF5", version(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
       {"VTK", version(VTK_MAJOR_VERSION, VTK_MINOR_VERSION, VTK_BUILD_VERSION)},
@@ -90,7 +93,10 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
       {"nlohmann-json", version(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                 NLOHMANN_JSON_VERSION_PATCH)},
       {"spdlog", version(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+      {"toml++", version(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
   };
+  for (auto& library : fem::library_versions()) versions.push_back(std::move(library));
+  return versions;
 }
 
 MemoryGauge::MemoryGauge() : children_before_(largest_child()) {

@@ -18,7 +18,7 @@ struct Machine {
 
 [[nodiscard]] Machine describe_machine();
 
-/// Name and version of the libraries this room is built with.
+/// Name and version of the libraries the program is built with.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> library_versions();
 
 /// Largest resident memory from its construction on: of this process, or of a child that ended

@@ -136,6 +136,13 @@ solver::Scene limit_scene(ReducedModel model) {
   return solver_scene(model, 1.0);
 }
 
+void require_response(const SceneDescription& scene) {
+  if (!scene.response) {
+    throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
+  }
+  if (!scene.without_contact.empty()) throw SceneError(scene.without_contact);
+}
+
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;

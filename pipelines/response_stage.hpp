@@ -40,6 +40,9 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
+/// @throws SceneError  no [response], or one that speaks of a contact the scene does not have.
+void require_response(const SceneDescription& scene);
+
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
 void require_held(const ReducedModel& model, const SceneDescription& scene);
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -12,6 +13,7 @@
 #include <numbers>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@
 #include "pipelines/interrupt.hpp"
 #include "pipelines/output_file.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
 #include "pipelines/write_csv.hpp"
 #include "pipelines/model_file.hpp"
 #include "pipelines/write_map.hpp"
@@ -47,10 +50,29 @@ int lock_folder(const std::filesystem::path& folder) {
   return descriptor;
 }
 
-/// Files of an earlier run would stand beside the new ones and be taken for theirs.
+/// What a run writes and the next one removes: it would stand beside new files and be taken for theirs.
+constexpr std::array result_names{"curves",    "maps",    "motion",    "plots",
+                                  "modes.csv", "modes.vtu", "model.h5", "report.md",
+                                  "summary.json", "peak_against_preload.csv",
+                                  "peak_against_parameter.csv"};
+
+/// Whatever bears the name of a result is an earlier run's, or not ours to remove: a run begins with its
+/// scene and its log.
+void require_own(const std::filesystem::path& folder) {
+  const auto holds = [&](const char* name) { return std::filesystem::exists(folder / name); };
+  if (holds("scene.toml") && holds("log.txt")) return;
+  std::vector<const char*> names(result_names.begin(), result_names.end());
+  names.push_back("scene.toml");
+  for (const char* name : names) {
+    if (!holds(name)) continue;
+    throw SceneError(fmt::format("-o {}: holds \"{}\", which no run has written and a run would replace; "
+                                 "choose another folder",
+                                 folder.string(), name));
+  }
+}
+
 void clear_results(const std::filesystem::path& folder) {
-  for (const char* name : {"curves", "maps", "motion", "plots", "summary.json", "modes.csv",
-                           "modes.vtu", "model.h5", "report.md", "peak_against_preload.csv"}) {
+  for (const char* name : result_names) {
     std::error_code ignored;  // what cannot be removed cannot be written either: said there
     std::filesystem::remove_all(folder / name, ignored);
   }
@@ -73,6 +95,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   if (!writes_) return;
   make_folder(folder_);
   require_writable(folder_);
+  require_own(folder_);
   lock_ = lock_folder(folder_);
   clear_results(folder_);
   progress_.keep_in(folder_);
@@ -193,6 +216,19 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
+/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told.
+void RunRecord::warn_of_precision(const CurveSummary& curve) {
+  constexpr double certified = 1e-10;
+  const double worst = std::max({curve.largest_residual, curve.largest_energy_imbalance,
+                                 curve.largest_dissipation_mismatch});
+  if (worst <= certified) return;
+  progress_.warning(fmt::format(
+      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
+      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",
+      curve.name, curve.largest_residual, curve.largest_energy_imbalance,
+      curve.largest_dissipation_mismatch));
+}
+
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
@@ -206,6 +242,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                                     to_hz * peak->frequency)
                       : std::string()));
   CurveSummary summary = summarise(result);
+  warn_of_precision(summary);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;

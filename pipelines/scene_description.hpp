@@ -155,6 +155,8 @@ struct SceneDescription {
   double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
+  /// Why `run` refuses: [response] speaks of a contact the scene does not have. Empty: it does not.
+  std::string without_contact;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
 };

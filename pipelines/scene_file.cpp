@@ -366,12 +366,11 @@ std::vector<std::pair<std::string, std::string>> read_effects(const SectionReade
 }
 
 /// Without contact there is no preload to set, and none to choose.
-void refuse_contact_keys(const SectionReader& response) {
+std::string contact_keys_without_contact(const SectionReader& response) {
   for (const char* key : {"preload", "optimum", "maps"}) {
-    if (response.given(key)) {
-      response.fail(key, "the scene has no [contact]", response.node(key));
-    }
+    if (response.given(key)) return response.place(key) + ": the scene has no [contact]";
   }
+  return {};
 }
 
 void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
@@ -393,7 +392,7 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
     scene.response = read_response(response, kind);
-    if (!scene.contact) refuse_contact_keys(response);
+    if (!scene.contact) scene.without_contact = contact_keys_without_contact(response);
   }
 }
 
@@ -426,7 +425,7 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
       : kind == "chain" ? read_chain(sections, coordinate)
                         : read_block(sections, output, scene.laws, scene.wear_coefficient);
   if (model.points.empty() && reading.given.contains("response")) {
-    refuse_contact_keys(section("response"));
+    scene.without_contact = contact_keys_without_contact(section("response"));
   }
   scene.modes.residual = model.residual;
   scene.model = model;

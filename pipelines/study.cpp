@@ -48,18 +48,12 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   return model;
 }
 
-void require_response(const SceneDescription& scene) {
-  if (!scene.response) {
-    throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
-  }
-}
-
 }  // namespace
 
 int run_study(const SceneDescription& scene, const RunOptions& options) {
+  require_response(scene);
   RunRecord record(scene, options);
   return record.run([&] {
-    require_response(scene);
     const StructurePointer structure = solve(scene, record);
     const ReducedModel model = reduce(scene, structure, record);
     require_held(model, scene);
@@ -90,9 +84,11 @@ int modes_study(const SceneDescription& scene, const RunOptions& options) {
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {
   const mesh::Mesh mesh = obtain_mesh(scene, options.output);
   check_names(mesh, scene);
-  std::cout << describe_mesh(mesh, scene.material.density) << '\n';
+  if (options.verbosity != Verbosity::quiet) {
+    std::cout << describe_mesh(mesh, scene.material.density) << '\n';
+  }
   for (const std::string& warning : mesh::shape_warnings(mesh)) std::cerr << "warning: " << warning << '\n';
-  std::cout << "written: " << options.output.string() << '\n';
+  if (options.verbosity != Verbosity::quiet) std::cout << "written: " << options.output.string() << '\n';
   return static_cast<int>(ExitCode::complete);
 }
 

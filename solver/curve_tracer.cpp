@@ -77,6 +77,8 @@ Scaling CurveTracer::scaling_at(const NewtonResult& at) {
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   ResponsePoint point = certified_point(balance_, at, at.point.parameter, stability_at(at));
   point.mark = mark;
+  // At a fold a multiplier is 1: on which side it falls is rounding.
+  if (mark == PointMark::fold) point.stability = Stability::not_assessed;
   return point;
 }
 

@@ -144,7 +144,9 @@ double HarmonicBalance::force_scale(double frequency) const {
 
 double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency) const {
   const Harmonics q = harmonics(x);
-  double sum = (q.rows() * stiffness_.asDiagonal()).norm() + (q.rows() * stuck_stiffness_).norm();
+  // A stiff contact holds its points still: motions of the modes cancel there, their rounding does not.
+  double sum = (q.rows() * stiffness_.asDiagonal()).norm() +
+               (q.rows().cwiseAbs() * stuck_stiffness_.cwiseAbs()).norm();
   for (int k = 1; k <= n_harmonics_; ++k) {
     sum += (k * frequency) * (k * frequency) * std::hypot(q.sine(k).norm(), q.cosine(k).norm());
   }

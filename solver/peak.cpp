@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -70,6 +71,8 @@ std::string sentence(const char* text, double value) {
   return stream.str();
 }
 
+constexpr double as_good = 1.01;  // times the minimum
+
 /// How well the minimum is determined: the interval about it that is as good to 1 %, and other minima as
 /// good to 2 %. `trace` is sorted by parameter.
 std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best) {
@@ -81,9 +84,9 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
   const auto centre = std::find_if(trace.begin(), trace.end(), [&](const PeakOfParameter& one) {
     return one.parameter == best.parameter;
   });
-  const auto right = std::find_if(centre, trace.end(), level(1.01));
+  const auto right = std::find_if(centre, trace.end(), level(as_good));
   const auto left =
-      std::find_if(std::make_reverse_iterator(centre), trace.rend(), level(1.01)).base();
+      std::find_if(std::make_reverse_iterator(centre), trace.rend(), level(as_good)).base();
   std::ostringstream text;
   text.precision(6);
   text << "as good to 1 % from " << left->parameter << " to " << std::prev(right)->parameter;
@@ -205,7 +208,37 @@ class Search {
     return true;
   }
 
+  /// Solves for where the peak is 1 % above the minimum, from the last value known to be lower towards
+  /// the first known to be higher; nothing to do where no value on that side is higher.
+  void search_edge(double direction) {
+    constexpr double enough = 2e-3;  // of the scale: an interval is told, not a number
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    const double limit = as_good * result_.best.amplitude;
+    const double best = position(result_.best.parameter);
+    double inside = best;
+    double outside = direction * std::numeric_limits<double>::infinity();
+    for (const PeakOfParameter& peak : peaks) {
+      const double at = position(peak.parameter);
+      if ((at - best) * direction <= 0.0 || peak.amplitude <= limit) continue;
+      if ((outside - at) * direction > 0.0) outside = at;
+    }
+    if (!std::isfinite(outside)) return;
+    for (const PeakOfParameter& peak : peaks) {
+      const double at = position(peak.parameter);
+      if ((at - inside) * direction > 0.0 && (outside - at) * direction > 0.0) inside = at;
+    }
+    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
+    const double tolerance = enough * (logarithmic ? 1.0 : options_.upper - options_.lower);
+    while (std::abs(outside - inside) > tolerance) {
+      const double middle = 0.5 * (inside + outside);
+      (peaks_.highest(parameter(middle)).amplitude <= limit ? inside : outside) = middle;
+    }
+  }
+
   Optimum finished() {
+    if (result_.found) {
+      for (const double direction : {-1.0, 1.0}) search_edge(direction);
+    }
     const PeakTrace trace = peaks_.result();
     result_.trace = trace.peaks;
     result_.notes.insert(result_.notes.begin(), trace.notes.begin(), trace.notes.end());

@@ -12,6 +12,9 @@ namespace microslip::solver {
 namespace {
 
 constexpr int homotopy_steps = 2000;
+// Where rounding errors are larger than this share of the forces, no digits are left that could be called
+// a solution: the iteration is to fail there.
+constexpr double coarsest = 1e-8;
 
 struct Guess {
   const char* name;
@@ -76,6 +79,7 @@ Scaling natural_scaling(const HarmonicBalance& balance, const Eigen::VectorXd& x
   scaling.rounding = std::numeric_limits<double>::epsilon() * balance.largest_terms(x, frequency) /
                      scaling.residual;
   if (!std::isfinite(scaling.rounding)) scaling.rounding = 0.0;
+  scaling.rounding = std::min(scaling.rounding, coarsest);
   return scaling;
 }
 

@@ -495,7 +495,10 @@ def plot_row(contact):
     states.set_xticks(np.arange(0, 361, 90))
     states.set_xlabel("phase [°]")
     states.set_ylabel("contact point")
-    states.yaxis.set_major_locator(MaxNLocator(integer=True))
+    if n <= 10:
+        states.set_yticks(np.arange(1, n + 1))
+    else:
+        states.yaxis.set_major_locator(MaxNLocator(integer=True))
     energy.barh(np.arange(1, n + 1), contact.energy, color="0.4", height=0.6)
     energy.set_xlabel("dissipated energy\n[J/m² per period]")
     return figure

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace microslip::contact {
 namespace {
@@ -50,6 +51,20 @@ TEST(SlipEnergy, IsTheIntegralOfLoadTimesSlipRate) {
   // Simpson with 400 steps of at most 1/100: h⁴/2880 times fourth derivatives of order ten.
   EXPECT_NEAR(slip_energy(point, m, w, phases).normal_slip, work, 1e-10);
   EXPECT_GT(work, 0.1);
+}
+
+// A point that hardly ever slips does so in the last 1/μ of its contact, far from the extremum of its
+// slip function. Its work is that of the force over the cycle (theory section 7), which is known to
+// ε (k_u a + μ (|n₀| + B)).
+TEST(SlipEnergy, SlipJustBeforeLiftOffKeepsItsDigits) {
+  for (const double mu : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+    const PointParameters point{1.0, 1.0, mu, 0.4};
+    const PointMotion m{.u_sin = 1.0, .u_cos = 0.3, .v_sin = -0.5, .v_cos = 1.0};
+    const FrictionCycle cycle = friction_cycle(point, m);
+    const double work = std::numbers::pi * (m.u_sin * cycle.friction.cos - m.u_cos * cycle.friction.sin);
+    EXPECT_GT(work, 0.1);
+    EXPECT_NEAR(cycle.dissipated_energy, work, 1e-14 * mu * work) << mu;
+  }
 }
 
 }  // namespace

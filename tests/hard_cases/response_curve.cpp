@@ -228,5 +228,35 @@ TEST(ResponseCurveHard, AStuckPeakMayBeTheHigherOne) {
   expect_proven(solver::trace_response(scene, options), "stuck above free");
 }
 
+TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
+  // Row 13. Three modes meet in one point that a contact of 1e4 … 1e7 times their stiffness holds: its
+  // motion is the small difference of theirs, known to their rounding only.
+  const auto trace = [](double ratio) {
+    solver::Scene scene;
+    scene.natural_frequency = Eigen::Vector3d(1.0, 1.4, 1.7);
+    scene.damping_ratio = Eigen::Vector3d(0.02, 0.004, 0.001);
+    scene.excitation = contact::Harmonics(1, 3);
+    scene.excitation.rows().row(1) << -1.2, 0.9, 0.5;
+    scene.excitation.rows().row(2) << 0.3, -0.4, 0.6;
+    scene.output = Eigen::Vector3d(1.0, -0.5, 0.3);
+    const contact::ContactPatch patch(Eigen::VectorXd::Ones(1), {{ratio, 0.6 * ratio, 0.5, 6.0}});
+    const contact::ModalShapes shapes{Eigen::RowVector3d(0.31, 0.40, -0.05),
+                                      Eigen::RowVector3d(-0.59, -1.16, 0.48), {}};
+    scene.contact = std::make_unique<contact::PatchForce>(patch, shapes);
+    return solver::trace_response(scene, range(0.4, 3.0));
+  };
+  const ResponseCurve stiff = trace(1e4);
+  ASSERT_TRUE(stiff.complete) << stiff.diagnosis;
+  const double peak = marked(stiff, PointMark::peak).at(0).frequency;
+  for (const double ratio : {1e5, 1e6, 1e7}) {
+    const ResponseCurve curve = trace(ratio);
+    ASSERT_TRUE(curve.complete) << ratio << ": " << curve.diagnosis;
+    EXPECT_LT(curve.iterations, 2 * stiff.iterations) << ratio;
+    EXPECT_LT(curve.contact_evaluations, 2 * stiff.contact_evaluations) << ratio;
+    // What the contact gives way is of order 1e-4.
+    EXPECT_NEAR(marked(curve, PointMark::peak).at(0).frequency, peak, 1e-3) << ratio;
+  }
+}
+
 }  // namespace
 }  // namespace microslip

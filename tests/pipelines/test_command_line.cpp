@@ -328,6 +328,27 @@ TEST_F(Program, ABadSceneLeavesNoRunFolder) {
   EXPECT_FALSE(exists("runs"));
 }
 
+TEST_F(Program, RemovesNothingThatNoRunHasWritten) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml -q -o .", 1, {"-o .", "scene.toml", "choose another folder"});
+  EXPECT_EQ(content_of(path("scene.toml")), scene_text);
+  std::filesystem::create_directories(path("results/plots"));
+  write(path("results/plots/mine.svg"), "mine");
+  expect("run scene.toml -q -o results", 1, {"results", "plots", "choose another folder"});
+  EXPECT_EQ(content_of(path("results/plots/mine.svg")), "mine");
+  EXPECT_FALSE(exists("results/scene.toml"));
+}
+
+TEST_F(Program, ARunReplacesAnEarlierOneWhole) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml -q -o out", 0, {});
+  for (const char* stale : {"out/curves/old.csv", "out/peak_against_parameter.csv"}) write(path(stale), "old");
+  expect("run scene.toml -q -o out", 0, {});
+  EXPECT_FALSE(exists("out/curves/old.csv"));
+  EXPECT_FALSE(exists("out/peak_against_parameter.csv"));
+  EXPECT_TRUE(exists("out/summary.json"));
+}
+
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
