@@ -197,6 +197,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   if (scene.response->method == ResponseDescription::Method::time) {
     problem.transient = transient_force(model, std::get<double>(request.preload));
     result.curve = integrate_curve(problem, *scene.response, observe);
+    result.integrated = true;
     return result;
   }
   result.curve = options.frequency_begin == options.frequency_end

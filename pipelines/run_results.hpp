@@ -80,6 +80,7 @@ struct CurveResult {
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
+  bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 
 /// The best preload when one uncertain number of the contact is multiplied.
