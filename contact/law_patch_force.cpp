@@ -1,6 +1,7 @@
 #include "contact/law_patch_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -118,9 +119,16 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
   std::vector<Eigen::MatrixXd> by_frequency = force;
   JacobianSum jacobian(shape_, n_rows);
   PointTraction traction;
+  double defect = 0.0;
   for (Eigen::Index i = 0; i < weights_.size(); ++i) {
     const auto point = static_cast<std::size_t>(i);
+    traction.defect = 0.0;  // a law that is exact does not mention it
     laws_[point]->traction(motions[point], frequency, traction);
+    if (traction.defect > 0.0) {
+      double shape = 0.0;
+      for (const Eigen::MatrixXd* phi : shape_) shape += phi->row(i).squaredNorm();
+      defect += weights_[i] * traction.defect * std::sqrt(shape);
+    }
     traction.force.rows()(0, 1) -= laws_[point]->load_at_rest();
     for (Eigen::Index s = 0; s < n_signals; ++s) {
       const auto signal = static_cast<std::size_t>(s);
@@ -134,7 +142,7 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
       jacobian.add(i, weights_[i], traction.jacobian);
     }
   }
-  ForceAndJacobian result{Harmonics(q.n_harmonics(), n_modes()), {}, {}};
+  ForceAndJacobian result{Harmonics(q.n_harmonics(), n_modes()), {}, {}, defect};
   Harmonics derivative(q.n_harmonics(), n_modes());
   for (std::size_t s = 0; s < shape_.size(); ++s) {
     result.force.rows() += force[s].transpose() * *shape_[s];

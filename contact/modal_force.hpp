@@ -20,6 +20,9 @@ struct ForceAndJacobian {
   Harmonics force;                       ///< G [N/√kg]
   Eigen::MatrixXd jacobian;              ///< ∂G/∂q [1/s²], n × n
   Eigen::VectorXd frequency_derivative;  ///< ∂G/∂ω at fixed q, n; zero unless rate-dependent
+  /// Largest ‖δG‖ by which G may be off because a law did not meet its own tolerance [N/√kg]. Whoever
+  /// judges a residual adds it.
+  double defect = 0.0;
 };
 
 /// What one solution did over its period: judged once per accepted point, not per iterate.

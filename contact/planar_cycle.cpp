@@ -23,6 +23,59 @@ CycleRegime regime_of_contact(const Intervals& intervals) {
                                                                   : CycleRegime::separation;
 }
 
+/// A point in units of force near its own forces, a power of two away from those of the caller: nothing
+/// under- or overflows on the way, and results are the same to the last bit in any such unit. Rough
+/// surfaces, which have a length of their own, are left as they are.
+struct ScaledPoint {
+  ScaledPoint(const SurfaceLaw& surface, const Harmonics& x, double omega)
+      : law(surface), motion(x), frequency(omega) {
+    if (!surface.is_smooth()) return;
+    const int exponent = exponent_of(surface, x);
+    if (exponent == 0) return;
+    const double factor = std::ldexp(1.0, -exponent);
+    unit = std::ldexp(1.0, exponent);
+    law = surface.in_units(factor);
+    motion.rows() *= factor;
+    frequency *= unit;  // speeds stay what they are
+  }
+
+  /// Of two of the largest force.
+  static int exponent_of(const SurfaceLaw& surface, const Harmonics& x) {
+    const Eigen::Index moving = x.rows().rows() - 1;
+    const auto amplitude = [&](Eigen::Index i) {
+      return x.rows().col(i).tail(moving).cwiseAbs().maxCoeff();
+    };
+    const PointParameters& point = surface.point();
+    const double load = std::max(std::abs(point.preload),
+                                 point.normal_stiffness * x.rows().col(1).cwiseAbs().maxCoeff());
+    const double force =
+        std::max({surface.first_stiffness() * amplitude(0),
+                  surface.second_stiffness() * amplitude(2), point.friction_coefficient * load});
+    constexpr int largest = 1000;  // both the factor and its inverse are normal numbers
+    if (!(force > 0.0) || !std::isfinite(force)) return 0;
+    return std::clamp(std::ilogb(force), -largest, largest);
+  }
+
+  double unit = 1.0;  ///< in those of the caller, lengths and forces alike
+  SurfaceLaw law;
+  Harmonics motion;
+  double frequency;
+};
+
+/// Back to the units of the caller.
+void count_in(double unit, PointHistory& history) {
+  history.force.rows() *= unit;
+  history.defect *= unit;
+  history.slip_distance *= unit;
+  history.dissipated_energy = history.dissipated_energy * unit * unit;
+  history.normal_slip = history.normal_slip * unit * unit;
+  for (PointInstant& instant : history.instants) {
+    instant.motion *= unit;
+    instant.traction *= unit;
+    instant.slider *= unit;
+  }
+}
+
 /// Whether the point would slide if nothing held it: μ = 0 with stiffness and tangential motion.
 bool slides_freely(const PlanarMotion& motion) {
   const SurfaceLaw& law = motion.law();
@@ -63,6 +116,12 @@ SteadyOrbit cycle_of(const PlanarMotion& motion, const Intervals& intervals,
   return steady;
 }
 
+/// In units of force; 0 where the search met its tolerance or has nothing left to do.
+double defect_of(const PlanarMotion& motion, const SteadyOrbit& steady, double tolerance) {
+  const bool met = steady.closes || steady.defect <= tolerance;
+  return met ? 0.0 : steady.defect * motion.force_scale();
+}
+
 void check_motion(const Harmonics& motion) {
   if (motion.n_signals() == n_point_signals && motion.n_harmonics() >= 1) return;
   throw std::invalid_argument("PlanarLaw: a motion of " + std::to_string(motion.n_signals()) +
@@ -99,14 +158,17 @@ PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance)
 
 void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
   check_motion(motion);
-  const PlanarMotion planar(law_, motion, frequency);
+  const ScaledPoint point(law_, motion, frequency);
+  const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
   const OrbitOptions options{tolerance_, static_cast<double>(H)};
   const SteadyOrbit steady = cycle_of(planar, intervals, options);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
+  result.defect = defect_of(planar, steady, tolerance_) * point.unit;
   result.force = planar_force(planar, intervals, steady.orbit, H);
+  result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
   result.frequency_derivative.setZero(m);
   const Eigen::MatrixXd load = load_derivative(planar, intervals);
@@ -120,20 +182,22 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   for (Eigen::Index i = 0; i < load.rows(); ++i) {
     result.jacobian.row(3 * i) = friction.first.row(i).head(m);
     result.jacobian.row(3 * i + 2) = friction.second.row(i).head(m);
-    result.frequency_derivative[3 * i] = friction.first(i, m);
-    result.frequency_derivative[3 * i + 2] = friction.second(i, m);
+    result.frequency_derivative[3 * i] = friction.first(i, m) * point.unit * point.unit;
+    result.frequency_derivative[3 * i + 2] = friction.second(i, m) * point.unit * point.unit;
   }
 }
 
 PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
                                 const Eigen::VectorXd& phases, int n_harmonics) const {
   check_motion(motion);
-  const PlanarMotion planar(law_, motion, frequency);
+  const ScaledPoint point(law_, motion, frequency);
+  const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const double highest = std::max(n_harmonics, motion.n_harmonics());
   const SteadyOrbit steady = cycle_of(planar, intervals, {tolerance_, highest});
   PointHistory result;
   result.regime = steady.regime;
+  result.defect = defect_of(planar, steady, tolerance_);
   result.segments = planar_segments(steady.orbit);
   result.force = planar_force(planar, intervals, steady.orbit, n_harmonics);
   if (planar.has_friction()) {
@@ -148,6 +212,7 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   for (const double phase : phases) {
     result.instants.push_back(planar_instant(planar, steady.orbit, phase));
   }
+  count_in(point.unit, result);
   return result;
 }
 
@@ -158,8 +223,9 @@ Eigen::Vector3d PlanarLaw::stuck_stiffness() const {
     return {rubs ? law_.first_stiffness() : 0.0, law_.point().normal_stiffness,
             rubs ? law_.second_stiffness() : 0.0};
   }
-  const double ratio = rest.friction_coefficient > 0.0 ? rest.stiffness_ratio : 0.0;
-  return {ratio * law_.first_stiffness(), rest.load_by_approach, ratio * law_.second_stiffness()};
+  const double rubs = rest.friction_coefficient > 0.0 ? 1.0 : 0.0;
+  return {rubs * rest.stiffness_ratio * law_.first_stiffness(), rest.load_by_approach,
+          rubs * rest.second_stiffness_ratio * law_.second_stiffness()};
 }
 
 }  // namespace microslip::contact

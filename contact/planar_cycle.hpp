@@ -2,7 +2,7 @@
 /// The planar law: elastic Coulomb friction in two tangential directions under varying load, with
 /// separation, any number of harmonics, different stiffness along p and r, and a round cone.
 ///
-///   n = N(v),   f = g K₀ (x − s),   |f| ≤ μ n,   s' = λ f, λ ≥ 0,   x = (u, w), K₀ = diag(k_u, k_w)  (1)
+///   n = N(v),   f = diag(k_u g_p, k_w g_r) (x − s),   |f| ≤ μ n,   s' = λ f, λ ≥ 0,   x = (u, w)      (1)
 ///
 /// The period is cut at touch-down, lift-off and kinks of the surface law; within, events are located and
 /// slip is integrated by collocation of order nine (planar_slip.hpp, planar_orbit.hpp); the slider is
@@ -12,8 +12,7 @@
 /// A point that never slips nor separates keeps the slider it was left with: virgin, s = 0, and pushed by
 /// one period after another, beginning at θ = 0, until nothing moves it.
 ///
-/// The factor g of the stiffness is that along p for both directions; a surface law whose factors differ
-/// (bodies in series that are not equally stiff along p and r) is simulated with g_p.
+/// Where the search for the periodic slider ends before the tolerance, the result says so by its defect.
 ///
 /// A direction without stiffness carries no friction. μ = 0 slips without force.
 ///

@@ -80,7 +80,7 @@ PointInstant planar_instant(const PlanarMotion& motion, const PlanarOrbit& orbit
     return result;
   }
   const Eigen::Vector2d slider = slider_at(motion, piece, turn);
-  Eigen::Vector2d force = motion.stiffness().cwiseProduct(now.position - slider);
+  Eigen::Vector2d force = now.force(slider);
   const double size = force.norm();
   if (size > now.radius) force *= now.radius / size;
   force *= now.surface.stiffness_ratio * motion.force_scale();

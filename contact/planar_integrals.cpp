@@ -34,11 +34,10 @@ Eigen::RowVector3d traction(const Vector2d& friction) { return {friction[0], 0.0
 
 void add_stick(const PlanarMotion& motion, const PlanarPiece& piece, int n_harmonics,
                FourierSum& sum) {
-  const Vector2d k = motion.force_scale() * motion.stiffness();
   visit_nodes(motion, piece.begin, piece.end, n_harmonics,
               [&](const PlanarInstant& now, double weight) {
                 const Vector2d force =
-                    now.surface.stiffness_ratio * k.cwiseProduct(now.position - piece.slider);
+                    motion.force_scale() * now.surface.stiffness_ratio * now.force(piece.slider);
                 sum.add(now.phase, weight, traction(force));
               });
 }
@@ -97,7 +96,7 @@ PlanarWork planar_work(const PlanarMotion& motion, const PlanarOrbit& orbit) {
     for (const SlipStep& step : piece.steps) {
       for (std::size_t i = 0; i < n_stages; ++i) {
         const SurfaceState& surface = step.instant[i].surface;
-        const double rate = step.rate(static_cast<int>(i), motion.compliance());
+        const double rate = step.rate(static_cast<int>(i));
         const double distance = step.length * rule.weight[i] * rate * motion.length_scale();
         work.slip_distance += distance;
         work.normal_slip += surface.load * distance;

@@ -75,7 +75,6 @@ void PlanarMotion::set_scales() {
   length_scale_ = force_scale_ / largest;
   active_ = (k.array() > 0.0).cast<double>();
   stiffness_ = (k.array() > 0.0).select(k / largest, 1.0);
-  compliance_ = stiffness_.cwiseInverse();
 }
 
 PlanarInstant PlanarMotion::at(double phase) const {
@@ -96,6 +95,10 @@ PlanarInstant PlanarMotion::at(double phase) const {
   }
   now.surface = law_.at(harmonics_.mean()[1] + x.value[1], frequency_ * now.speed);
   const SurfaceState& y = now.surface;
+  now.stiffness = stiffness_;
+  now.stiffness[1] *= y.ratio_of_stiffness;
+  now.stiffness_by_approach[1] = stiffness_[1] * y.ratio_of_stiffness_by_approach;
+  now.stiffness_rate[1] = now.stiffness_by_approach[1] * now.approach_rate;
   if (force_scale_ == 0.0 || y.load <= 0.0 || y.stiffness_ratio <= 0.0) return now;
   const double mu = y.friction_coefficient;
   const double ratio = y.load_per_ratio;
@@ -113,10 +116,14 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   const PlanarInstant beside = at(phase + nudge);
   now.radius_rate = beside.radius_rate;
   now.radius_by_approach = beside.radius_by_approach;
+  now.stiffness_rate = beside.stiffness_rate;
+  now.stiffness_by_approach = beside.stiffness_by_approach;
   now.radius_by_rate = beside.radius_by_rate;
   now.heading = beside.heading;
   now.surface.load_by_approach = beside.surface.load_by_approach;
   now.surface.stiffness_ratio_by_approach = beside.surface.stiffness_ratio_by_approach;
+  now.surface.second_stiffness_ratio_by_approach =
+      beside.surface.second_stiffness_ratio_by_approach;
   now.surface.friction_coefficient_by_rate = beside.surface.friction_coefficient_by_rate;
   return now;
 }
@@ -131,7 +138,14 @@ double PlanarMotion::approach_rate(double phase) const {
 
 Eigen::Vector2d PlanarMotion::virgin_slider() const {
   const Eigen::Vector2d mean(harmonics_.mean()[0], harmonics_.mean()[2]);
-  return -mean.cwiseProduct(active_) / length_scale_;
+  // Farther away only the direction counts, and squares would overflow.
+  constexpr double farthest = 1e120;
+  Eigen::Vector2d slider = -mean.cwiseProduct(active_) / length_scale_;
+  const double size = slider.cwiseAbs().maxCoeff();
+  if (size > farthest) {
+    slider = -mean.cwiseProduct(active_) / mean.cwiseAbs().maxCoeff() * farthest;
+  }
+  return slider;
 }
 
 }  // namespace microslip::contact

@@ -2,12 +2,13 @@
 /// What a planar slider sees: the motion of one contact point at any phase, and the disc that drags the
 /// slider along, free of units.
 ///
-///   x(θ) = (u, w) without means,   n = N(v),   |f| ≤ μ n,   f = g K₀ (x − s)                  (1)
-///   |K₀ (x − s)| ≤ r(θ),   r = μ n / g,   K₀ = diag(k_u, k_w)                                 (2)
+///   x(θ) = (u, w) without means,   n = N(v),   |f| ≤ μ n,   f = g K (x − s)                   (1)
+///   |K (x − s)| ≤ r(θ),   r = μ n / g,   K = diag(k_u, k_w h)                                 (2)
 ///
-/// (2) holds for every surface law: stiffness that depends on the load enters through r alone. Lengths
-/// are counted in L₀ = F₀/k₀ and r in F₀, the force scale of the cycle, so that K₀ and the numbers in
-/// (2) are of order one.
+/// (2) holds for every surface law: g = g_p, stiffness that depends on the load, enters through r alone,
+/// and h = g_r/g_p is 1 except where bodies of unequal compliance stand in series with rough surfaces.
+/// Lengths are counted in L₀ = F₀/k₀ and r in F₀, the force scale of the cycle, so that K and the numbers
+/// in (2) are of order one.
 ///
 /// A direction without stiffness carries no friction: its motion is taken away and its force is zero.
 ///
@@ -24,16 +25,37 @@ namespace microslip::contact {
 /// One phase. Rates are with respect to θ.
 struct PlanarInstant {
   double phase = 0.0;
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x / L₀
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' / L₀
-  double approach_rate = 0.0;                          ///< v' [m]
-  SurfaceState surface;                                ///< in units of the law
-  double radius = 0.0;                                 ///< r / F₀
-  double radius_rate = 0.0;                            ///< r' / F₀
-  double radius_by_approach = 0.0;                     ///< ∂r/∂v / F₀ [1/m]
-  double radius_by_rate = 0.0;                         ///< ∂r/∂σ / F₀ [s/m]
-  double speed = 0.0;                                  ///< hypot(u', w') [m]
-  Eigen::Vector2d heading = Eigen::Vector2d::Zero();   ///< (u', w') / speed; 0 at rest
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();   ///< x / L₀
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();   ///< x' / L₀
+  Eigen::Vector2d stiffness = Eigen::Vector2d::Ones();  ///< K L₀/F₀, diagonal, both > 0
+  Eigen::Vector2d stiffness_rate = Eigen::Vector2d::Zero();
+  Eigen::Vector2d stiffness_by_approach = Eigen::Vector2d::Zero();  ///< [1/m]
+  double approach_rate = 0.0;                                       ///< v' [m]
+  SurfaceState surface;                                             ///< in units of the law
+  double radius = 0.0;                                              ///< r / F₀
+  double radius_rate = 0.0;                                         ///< r' / F₀
+  double radius_by_approach = 0.0;                                  ///< ∂r/∂v / F₀ [1/m]
+  double radius_by_rate = 0.0;                                      ///< ∂r/∂σ / F₀ [s/m]
+  double speed = 0.0;                                               ///< hypot(u', w') [m]
+  Eigen::Vector2d heading = Eigen::Vector2d::Zero();                ///< (u', w') / speed; 0 at rest
+
+  /// K (x − s) / F₀: the force of a slider, but for g.
+  [[nodiscard]] Eigen::Vector2d force(const Eigen::Vector2d& slider) const {
+    return stiffness.cwiseProduct(position - slider);
+  }
+  /// Its rate while the slider rests.
+  [[nodiscard]] Eigen::Vector2d force_rate(const Eigen::Vector2d& slider) const {
+    return stiffness.cwiseProduct(velocity) + stiffness_rate.cwiseProduct(position - slider);
+  }
+  /// Half-axes r/K of the ellipse of the slider, / L₀.
+  [[nodiscard]] Eigen::Vector2d reach() const { return radius * stiffness.cwiseInverse(); }
+  [[nodiscard]] Eigen::Vector2d reach_rate() const {
+    return (radius_rate - radius * stiffness_rate.array() / stiffness.array()) / stiffness.array();
+  }
+  /// The slider at the edge of its ellipse from which the force acts along a direction.
+  [[nodiscard]] Eigen::Vector2d edge(const Eigen::Vector2d& direction) const {
+    return position - reach().cwiseProduct(direction);
+  }
 };
 
 class PlanarMotion {
@@ -53,9 +75,8 @@ class PlanarMotion {
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
   [[nodiscard]] double force_scale() const { return force_scale_; }    ///< F₀ [Pa]
   [[nodiscard]] double length_scale() const { return length_scale_; }  ///< L₀ [m]
-  /// K₀ L₀/F₀, diagonal, both > 0.
+  /// K₀ L₀/F₀, diagonal, both > 0: of full contact, a measure of lengths as forces.
   [[nodiscard]] const Eigen::Vector2d& stiffness() const { return stiffness_; }
-  [[nodiscard]] const Eigen::Vector2d& compliance() const { return compliance_; }
   /// Which directions carry friction: 1 or 0 along p, r.
   [[nodiscard]] const Eigen::Vector2d& active() const { return active_; }
   /// Virgin slider, s = 0: −(u₀, w₀)/L₀ beside the moving part of the motion.
@@ -74,7 +95,6 @@ class PlanarMotion {
   double force_scale_ = 0.0;
   double length_scale_ = 1.0;
   Eigen::Vector2d stiffness_ = Eigen::Vector2d::Ones();
-  Eigen::Vector2d compliance_ = Eigen::Vector2d::Ones();
   Eigen::Vector2d active_ = Eigen::Vector2d::Ones();
 };
 

@@ -10,20 +10,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// What |K₀ (x − s)| may exceed r by and still count as stuck: rounding of numbers of order one.
+/// What |K (x − s)| may exceed r by and still count as stuck: rounding of numbers of order one.
 constexpr double stick_slack = 4e-15;
 /// Shortest advance of a walk that would otherwise not move: what it skips is below rounding.
 constexpr double shortest_step = 1e-11;
 
-/// Guard of a stuck point, |F| − r with F = K₀ (x − s), and its rate.
+/// Guard of a stuck point, |F| − r with F = K (x − s), and its rate.
 struct Guard {
   double value = 0.0;
   double rate = 0.0;
 };
 
-Guard stick_guard(const PlanarInstant& now, const Vector2d& slider, const Vector2d& stiffness) {
-  const Vector2d force = stiffness.cwiseProduct(now.position - slider);
-  const Vector2d force_rate = stiffness.cwiseProduct(now.velocity);
+Guard stick_guard(const PlanarInstant& now, const Vector2d& slider) {
+  const Vector2d force = now.force(slider);
+  const Vector2d force_rate = now.force_rate(slider);
   const double size = force.norm();
   const double growth = size > stick_slack ? force.dot(force_rate) / size : force_rate.norm();
   return {size - now.radius, growth - now.radius_rate};
@@ -77,8 +77,6 @@ class Walk {
   [[nodiscard]] const Vector2d& slider() const { return slider_; }
 
  private:
-  [[nodiscard]] const Vector2d& stiffness() const { return motion_.stiffness(); }
-
   void open_piece(ContactState state, PlanarEntry entry, const PlanarInstant& now) {
     PlanarPiece piece;
     piece.state = state;
@@ -100,29 +98,29 @@ class Walk {
     if (interval_->touches_down || (!first && now.radius <= stick_slack)) {
       slider_ = now.position;
       entry_ = PlanarEntry::touch_down;
-      const Vector2d pull = stiffness().cwiseProduct(now.velocity);
+      const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
       slipping_ = pull.norm() > now.radius_rate;
-      if (slipping_) heading_ = returned_force(pull, stiffness(), now.radius_rate);
+      if (slipping_) heading_ = returned_force(pull, now.stiffness, now.radius_rate);
       return;
     }
     if (first) return_slider(now);
     if (slipping_) {
-      const Vector2d force = stiffness().cwiseProduct(now.position - slider_);
+      const Vector2d force = now.force(slider_);
       const double size = force.norm();
-      slipping_ = size <= 0.0 || slip_rate(now, force / size, motion_.compliance()) > 0.0;
+      slipping_ = size <= 0.0 || slip_rate(now, force / size) > 0.0;
     }
   }
 
   /// The slider a period begins with may lie outside its ellipse: virgin, or proposed by Newton.
   void return_slider(const PlanarInstant& now) {
-    const Vector2d trial = stiffness().cwiseProduct(now.position - slider_);
+    const Vector2d trial = now.force(slider_);
     const double excess = trial.norm() - now.radius;
     constexpr double on_edge = 1e-12;  // closer than this it is taken to rest on the edge
     slipping_ = excess > -on_edge;
     if (excess <= stick_slack) return;
     const Vector2d before = slider_;
-    const Vector2d force = returned_force(trial, stiffness(), now.radius);
-    slider_ = now.position - motion_.compliance().cwiseProduct(force);
+    const Vector2d force = returned_force(trial, now.stiffness, now.radius);
+    slider_ = now.position - force.cwiseQuotient(now.stiffness);
     open_piece(ContactState::slip, PlanarEntry::returned, now);
     orbit_.pieces.back().before = before;
   }
@@ -151,9 +149,7 @@ class Walk {
   }
 
   [[nodiscard]] double force_growth(const PlanarInstant& now) const {
-    return stiffness()
-        .cwiseProduct(now.position - slider_)
-        .dot(stiffness().cwiseProduct(now.velocity));
+    return now.force(slider_).dot(now.force_rate(slider_));
   }
 
   /// First phase at which the guard of stick is broken, or beyond the cell. Where the force passes
@@ -173,9 +169,7 @@ class Walk {
 
   /// The same where the force has no minimum inside.
   [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high) const {
-    const auto guard = [this](const PlanarInstant& now) {
-      return stick_guard(now, slider_, stiffness());
-    };
+    const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
     const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
     const Guard before = guard(low);
     const Guard after = guard(high);
@@ -216,7 +210,9 @@ class Walk {
     step.slider = slider_;
     step.length = length;
     const bool last = time_ + length >= interval_->end;
-    return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step);
+    const std::vector<SlipStep>& done = orbit_.pieces.back().steps;
+    const SlipStep* before = done.empty() ? nullptr : &done.back();
+    return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step, before);
   }
 
   /// The longest step from here within the tolerance.
@@ -240,8 +236,7 @@ class Walk {
   /// Whether no two neighbouring stages differ by more than 60 degrees: else slip may have ended and
   /// begun again between them.
   [[nodiscard]] bool turns_slowly(const SlipStep& step) const {
-    const Vector2d begin = motion_.compliance().cwiseInverse().cwiseProduct(
-        motion_.at(step.begin).position - step.slider);
+    const Vector2d begin = motion_.at(step.begin).force(step.slider);
     constexpr double has_direction = 1e-11;  // below it rounding turns the force
     const bool touches = time_ == interval_->begin && begin.norm() <= has_direction;
     const Vector2d along = touches ? heading_ : begin;
@@ -257,9 +252,9 @@ class Walk {
 
   [[nodiscard]] double rate_at(const SlipStep& step, double x) const {
     const PlanarInstant now = motion_.at(step.begin + x * step.length);
-    const Vector2d force = stiffness().cwiseProduct(now.position - step.slider_at(x));
+    const Vector2d force = now.force(step.slider_at(x));
     const double size = force.norm();
-    return size > 0.0 ? slip_rate(now, force / size, motion_.compliance()) : 0.0;
+    return size > 0.0 ? slip_rate(now, force / size) : 0.0;
   }
 
   /// Fraction of the step at which the slip rate first falls to 0; above 1 if it does not.
@@ -269,7 +264,7 @@ class Walk {
     double rate_low = 1.0;
     std::array<double, n_stages> rate;
     for (int i = 0; i < n_stages; ++i) {
-      rate[static_cast<std::size_t>(i)] = step.rate(i, motion_.compliance());
+      rate[static_cast<std::size_t>(i)] = step.rate(i);
     }
     const auto rate_of = [&](double x) { return rate_at(step, x); };
     for (std::size_t i = 0; i < n_stages; ++i) {
@@ -312,7 +307,7 @@ class Walk {
     double rate_before = 0.0;
     for (int i = 0; i < 8; ++i) {
       if (length <= shortest_step || !solve(step, length)) break;
-      const double rate = step.rate(n_stages - 1, motion_.compliance());
+      const double rate = step.rate(n_stages - 1);
       // The slider misses its end by the square of this, far below rounding.
       if (std::abs(rate) <= 1e-12) break;
       const double secant = i == 0 ? slope : (rate - rate_before) / (length - before);
@@ -330,9 +325,8 @@ class Walk {
   void creep() {
     time_ = std::min(time_ + shortest_step, interval_->end);
     const PlanarInstant now = motion_.at(time_);
-    const Vector2d trial = stiffness().cwiseProduct(now.position - slider_);
-    slider_ = now.position -
-              motion_.compliance().cwiseProduct(returned_force(trial, stiffness(), now.radius));
+    const Vector2d force = returned_force(now.force(slider_), now.stiffness, now.radius);
+    slider_ = now.position - force.cwiseQuotient(now.stiffness);
     slipping_ = false;
   }
 

@@ -1,9 +1,9 @@
 /// @file
 /// One period of a planar slider from event to event (theory section 9).
 ///
-///   stick      s constant until |K₀ (x − s)| = r
+///   stick      s constant until |K (x − s)| = r
 ///   slip       by collocation (planar_slip.hpp) until the slip rate ρ falls to 0
-///   separated  no force; s = x where contact begins, slipping at once if |K₀ x'| > r'
+///   separated  no force; s = x where contact begins, slipping at once if |K x'| > r'
 ///
 /// The end of stick is bracketed on samples and on the maximum between two of them, and found to
 /// rounding. The end of slip is solved for as the length of a last step. Steps are chosen so that the

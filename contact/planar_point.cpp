@@ -91,8 +91,9 @@ Vector2d slip_direction(double angle) { return {std::cos(angle), std::sin(angle)
 double slip_speed(const PlanarPoint& point, const PlanarPointInstant& now, double angle) {
   PlanarInstant instant;
   instant.velocity = now.velocity;
+  instant.stiffness = point.stiffness;
   instant.radius_rate = now.radius_rate;
-  return slip_rate(instant, slip_direction(angle), point.compliance);
+  return slip_rate(instant, slip_direction(angle));
 }
 
 double turn_rate(const PlanarPoint& point, const PlanarPointInstant& now, double angle,

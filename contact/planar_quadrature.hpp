@@ -3,6 +3,7 @@
 /// and the curvature of the surface law ask for.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -37,17 +38,20 @@ void visit_panel(const PlanarMotion& motion, double begin, double end, int depth
   const double half = 0.5 * (end - begin);
   double load = 0.0;
   double ratio = 0.0;
+  double second = 0.0;
   double size = 0.0;
   for (std::size_t i = 0; i < instant.size(); ++i) {
     instant[i] = motion.at(0.5 * (begin + end) + half * rule.node[i]);
     load += rule.top[i] * instant[i].surface.load;
     ratio += rule.top[i] * instant[i].surface.stiffness_ratio;
+    second += rule.top[i] * instant[i].surface.second_stiffness_ratio;
     size = std::max(size, instant[i].surface.load);
   }
   // The rule is exact to degree 15: what is left out is about the square of the term of degree 7.
   constexpr double resolved = 1e-7;
   const bool rough = !motion.law().is_smooth();
-  if (rough && depth > 0 && (std::abs(load) > resolved * size || std::abs(ratio) > resolved)) {
+  const double largest = std::max(std::abs(ratio), std::abs(second));
+  if (rough && depth > 0 && (std::abs(load) > resolved * size || largest > resolved)) {
     visit_panel(motion, begin, begin + half, depth - 1, visit);
     visit_panel(motion, begin + half, end, depth - 1, visit);
     return;

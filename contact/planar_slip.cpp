@@ -98,33 +98,79 @@ RadauNodes make_nodes() {
 
 Eigen::Vector2d across(const Eigen::Vector2d& e) { return {-e[1], e[0]}; }
 
+/// (I + λK)⁻¹ f* with |f| = r to a tolerance.
+Eigen::Vector2d returned(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
+                         double radius, double tolerance) {
+  const double size = trial.norm();
+  if (size <= radius) return trial;
+  if (radius <= 0.0) return Eigen::Vector2d::Zero();
+  if (stiffness[0] == stiffness[1]) return trial * (radius / size);
+  // 1/|f| is nearly linear and concave in λ: Newton's method on it rises to the root without
+  // overshooting from λ = 0.
+  double lambda = 0.0;
+  Eigen::Vector2d force = trial;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector2d divisor = (1.0 + lambda * stiffness.array()).matrix();
+    force = trial.cwiseQuotient(divisor);
+    const double f = force.norm();
+    const double slope =
+        force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
+    const double change = (f - radius) / radius * f * f / slope;
+    lambda += change;
+    if (std::abs(f - radius) <= tolerance * radius) break;
+  }
+  return force * (radius / force.norm());
+}
+
+/// Good enough to begin Newton's method with.
+Eigen::Vector2d rough_return(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
+                             double radius) {
+  return returned(trial, stiffness, radius, 1e-3);
+}
+
 /// Stages from successive returns, direction by direction. Where a return finds stick the direction is
 /// kept: slip is continued backwards, and its negative rate tells the walk where it ended.
-void guess(const PlanarMotion& motion, SlipStep& step) {
-  const Eigen::Vector2d& k = motion.stiffness();
+void guess(SlipStep& step) {
   Eigen::Vector2d slider = step.slider;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
   for (int i = 0; i < n_stages; ++i) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d trial = k.cwiseProduct(now.position - slider);
+    const Eigen::Vector2d trial = now.force(slider);
     const double size = trial.norm();
     if ((size > now.radius || i == 0) && size > 0.0) {
-      last = now.radius > 0.0 ? returned_force(trial, k, now.radius) : trial;
+      last = now.radius > 0.0 ? rough_return(trial, now.stiffness, now.radius) : trial;
       last.normalize();
     } else if (i == 0) {
       last = Eigen::Vector2d::UnitX();
     }
     step.direction.col(i) = last;
-    slider = now.position - now.radius * motion.compliance().cwiseProduct(last);
+    slider = now.edge(last);
   }
 }
 
-void set_stages(const PlanarMotion& motion, SlipStep& step) {
-  const RadauNodes& rule = radau_nodes();
+/// Stages from the polynomial of the step before, continued. Where it runs away from the first return
+/// there is no guess.
+bool guess_from(const SlipStep& before, SlipStep& step) {
+  constexpr double farthest = 4.0;  // steps grow by no more; beyond, the polynomial is noise
+  if (before.begin + before.length != step.begin || step.length > farthest * before.length) {
+    return false;
+  }
+  Eigen::Vector2d last = before.direction.col(n_stages - 1);
   for (int i = 0; i < n_stages; ++i) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(i)];
-    step.stage.col(i) =
-        now.position - now.radius * motion.compliance().cwiseProduct(step.direction.col(i));
+    const double x = (now.phase - before.begin) / before.length;
+    Eigen::Vector2d force = now.force(before.slider_at(x));
+    force.normalize();
+    if (!(force.dot(last) > 0.8)) return false;
+    step.direction.col(i) = last = force;
+  }
+  return true;
+}
+
+void set_stages(SlipStep& step) {
+  const RadauNodes& rule = radau_nodes();
+  for (int i = 0; i < n_stages; ++i) {
+    step.stage.col(i) = step.instant[static_cast<std::size_t>(i)].edge(step.direction.col(i));
   }
   for (int i = 0; i < n_stages; ++i) {
     // Row sums of D vanish: differences from the first point keep small steps accurate.
@@ -136,13 +182,12 @@ void set_stages(const PlanarMotion& motion, SlipStep& step) {
   }
 }
 
-void set_factor(const PlanarMotion& motion, SlipStep& step) {
+void set_factor(SlipStep& step) {
   const RadauNodes& rule = radau_nodes();
   Eigen::Matrix<double, n_stages, n_stages> A;
   for (int j = 0; j < n_stages; ++j) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(j)];
-    const Eigen::Vector2d turn =
-        -now.radius * motion.compliance().cwiseProduct(across(step.direction.col(j)));
+    const Eigen::Vector2d turn = -now.reach().cwiseProduct(across(step.direction.col(j)));
     for (int i = 0; i < n_stages; ++i) {
       A(i, j) = rule.derivative(i, j + 1) * across(step.direction.col(i)).dot(turn);
     }
@@ -155,7 +200,7 @@ void set_factor(const PlanarMotion& motion, SlipStep& step) {
 
 /// One Newton step; returns the largest change of an angle, less what rounding of positions of order one
 /// does to it where both the ellipse and the way are small.
-double improve(const PlanarMotion& motion, SlipStep& step) {
+double improve(SlipStep& step) {
   Stages residual;
   for (int i = 0; i < n_stages; ++i) {
     residual[i] = across(step.direction.col(i)).dot(step.travel.col(i));
@@ -172,8 +217,22 @@ double improve(const PlanarMotion& motion, SlipStep& step) {
     const Eigen::Vector2d e = step.direction.col(i);
     step.direction.col(i) = std::cos(turn) * e + std::sin(turn) * across(e);
   }
-  set_stages(motion, step);
+  set_stages(step);
   return largest;
+}
+
+/// Newton's method on (2) from the directions of the step.
+bool iterate(SlipStep& step) {
+  constexpr double small_turn = 1e-9;  // the step after it, quadratic, is below rounding
+  constexpr int most_iterations = 12;
+  set_stages(step);
+  for (int i = 0; i < most_iterations; ++i) {
+    set_factor(step);
+    const double largest = improve(step);
+    if (largest >= 1e6) return false;
+    if (largest < small_turn) return true;
+  }
+  return false;
 }
 
 /// Of the slider and, where the stiffness varies with the load, of the limit of friction.
@@ -199,32 +258,13 @@ const RadauNodes& radau_nodes() {
 
 Eigen::Vector2d returned_force(const Eigen::Vector2d& trial, const Eigen::Vector2d& stiffness,
                                double radius) {
-  const double size = trial.norm();
-  if (size <= radius) return trial;
-  if (radius <= 0.0) return Eigen::Vector2d::Zero();
-  if (stiffness[0] == stiffness[1]) return trial * (radius / size);
-  // 1/|f| is nearly linear and concave in λ: Newton's method on it rises to the root without
-  // overshooting from λ = 0.
-  double lambda = 0.0;
-  Eigen::Vector2d force = trial;
-  for (int i = 0; i < 60; ++i) {
-    const Eigen::Vector2d divisor = (1.0 + lambda * stiffness.array()).matrix();
-    force = trial.cwiseQuotient(divisor);
-    const double f = force.norm();
-    const double slope =
-        force.cwiseProduct(force).cwiseProduct(stiffness).cwiseQuotient(divisor).sum();
-    const double change = (f - radius) / radius * f * f / slope;
-    lambda += change;
-    if (std::abs(f - radius) <= 4e-16 * radius) break;
-  }
-  return force * (radius / force.norm());
+  return returned(trial, stiffness, radius, 4e-16);
 }
 
-double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction,
-                 const Eigen::Vector2d& compliance) {
+double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d normal = across(direction);
-  const Eigen::Vector2d d = now.velocity - now.radius_rate * compliance.cwiseProduct(direction);
-  const Eigen::Vector2d Cn = compliance.cwiseProduct(normal);
+  const Eigen::Vector2d d = now.velocity - now.reach_rate().cwiseProduct(direction);
+  const Eigen::Vector2d Cn = normal.cwiseQuotient(now.stiffness);
   return direction.dot(d) - direction.dot(Cn) / normal.dot(Cn) * normal.dot(d);
 }
 
@@ -244,27 +284,22 @@ Eigen::Vector2d SlipStep::slider_at(double x) const {
   return sum / total;
 }
 
-bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step) {
+bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
+                const SlipStep* before) {
   const RadauNodes& rule = radau_nodes();
   for (std::size_t i = 0; i < n_stages; ++i) {
     const double nudge = i + 1 == n_stages ? end_nudge : 0.0;
     step.instant[i] = motion.at(step.begin + rule.node[i] * step.length, nudge);
   }
-  guess(motion, step);
-  set_stages(motion, step);
-  constexpr double small_turn = 1e-9;  // the step after it, quadratic, is below rounding
-  constexpr int most_iterations = 12;
-  bool converged = false;
-  for (int i = 0; i < most_iterations && !converged; ++i) {
-    set_factor(motion, step);
-    const double largest = improve(motion, step);
-    if (largest >= 1e6) break;
-    converged = largest < small_turn;
+  bool converged = before != nullptr && guess_from(*before, step) && iterate(step);
+  if (!converged) {
+    guess(step);
+    converged = iterate(step);
   }
   if (!converged) {
-    guess(motion, step);
-    set_stages(motion, step);
-    set_factor(motion, step);
+    guess(step);
+    set_stages(step);
+    set_factor(step);
   }
   step.top_term = top_term(motion, step);
   return converged;

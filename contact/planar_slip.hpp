@@ -3,20 +3,20 @@
 ///
 /// While the point slips the slider lies on the edge of its ellipse and moves along the friction force:
 ///
-///   s = x − r C e(α),   s' ∥ e(α),   e = (cos α, sin α),   C = K₀⁻¹                          (1)
+///   s = x − r C e(α),   s' ∥ e(α),   e = (cos α, sin α),   C = K⁻¹                          (1)
 ///
 /// A polynomial of degree five through s(t₀) satisfies (1) at the five nodes c_i of Radau:
 ///
 ///   e_⊥(α_i) · Σ_j D_ij s_j = 0,   s_j = x_j − r_j C e(α_j),   j = 0 … 5                     (2)
 ///
 /// with the angles α_i as unknowns. (2) needs no derivative of r and stays regular where r = 0, at
-/// touch-down and lift-off; with a single stage it is the implicit return f = (I + λK₀)⁻¹ f* of theory
+/// touch-down and lift-off; with a single stage it is the implicit return f = (I + λK)⁻¹ f* of theory
 /// section 9. Order nine at the end of a step and for integrals over it; the stiff limit (large
 /// amplitude, small r) is damped, since the last node is the end of the step.
 ///
 /// The slip rate ρ = e·s' follows from x', r' and α alone, by eliminating α' from (1):
 ///
-///   d = x' − r' C e,   ρ = e·d − (e·C e_⊥ / e_⊥·C e_⊥) e_⊥·d                                (3)
+///   d = x' − (r C)' e,   ρ = e·d − (e·C e_⊥ / e_⊥·C e_⊥) e_⊥·d                                (3)
 ///
 /// Source: theory section 9 (equations); E. Hairer, G. Wanner, Solving Ordinary Differential Equations
 /// II, sections IV.5 and VII.4 (Radau IIA for index 2).
@@ -44,14 +44,13 @@ struct RadauNodes {
 };
 [[nodiscard]] const RadauNodes& radau_nodes();
 
-/// The ellipse |K₀ (x − s)| ≤ r of one instant: returns K₀ (x − s) for the slider after the return from
-/// the trial force, (I + λK₀)⁻¹ f* with the smallest λ ≥ 0 that obeys it.
+/// The ellipse |K (x − s)| ≤ r of one instant: returns K (x − s) for the slider after the return from
+/// the trial force, (I + λK)⁻¹ f* with the smallest λ ≥ 0 that obeys it.
 [[nodiscard]] Eigen::Vector2d returned_force(const Eigen::Vector2d& trial,
                                              const Eigen::Vector2d& stiffness, double radius);
 
 /// (3), in units of L₀.
-[[nodiscard]] double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction,
-                               const Eigen::Vector2d& compliance);
+[[nodiscard]] double slip_rate(const PlanarInstant& now, const Eigen::Vector2d& direction);
 
 /// One step; plain data, complete after solve_slip().
 struct SlipStep {
@@ -68,16 +67,18 @@ struct SlipStep {
   [[nodiscard]] Eigen::Vector2d end_slider() const { return stage.col(n_stages - 1); }
   [[nodiscard]] double end() const { return begin + length; }
   /// ρ at a node.
-  [[nodiscard]] double rate(int i, const Eigen::Vector2d& compliance) const {
-    return slip_rate(instant[static_cast<std::size_t>(i)], direction.col(i), compliance);
+  [[nodiscard]] double rate(int i) const {
+    return slip_rate(instant[static_cast<std::size_t>(i)], direction.col(i));
   }
   /// The polynomial at begin + x · length, x in [0, 1].
   [[nodiscard]] Eigen::Vector2d slider_at(double x) const;
 };
 
-/// Solves (2) by Newton's method, started from successive returns.
+/// Solves (2) by Newton's method, started from the step before, or else from successive returns.
 /// @param end_nudge  side of a kink for the derivatives of the law at the end of the step, ≤ 0.
+/// @param before     step that ended where this one begins, if there is one: saves iterations.
 /// @return whether it converged; if not, `step` holds the successive returns, a solution of first order.
-[[nodiscard]] bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step);
+[[nodiscard]] bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
+                              const SlipStep* before = nullptr);
 
 }  // namespace microslip::contact

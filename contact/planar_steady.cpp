@@ -12,10 +12,9 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Newton's method helps after this many periods, and only a march that shrinks its moves by less than
-/// this factor: a slider pushed into full stick comes to rest faster, and where it does is history.
+/// Newton's method helps after this many periods: most sliders pushed into full stick have come to rest
+/// by then, and where they do is history.
 constexpr int patience = 2;
-constexpr double fast = 0.05;
 /// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
 constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
@@ -41,6 +40,35 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
+/// Phases at which slip ends, once for every window of the period that pushes the slider.
+std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
+  std::vector<double> found;
+  const std::vector<PlanarPiece>& pieces = orbit.pieces;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const PlanarPiece& next = pieces[i + 1 < pieces.size() ? i + 1 : 0];
+    const bool ends = pieces[i].state == ContactState::slip && next.state != ContactState::slip;
+    if (ends) found.push_back(pieces[i].end);
+  }
+  return found;
+}
+
+/// Smallest Newton step and smallest move of a period so far. Far from the cycle the first may grow while
+/// the second shrinks; where one direction contracts fast and another slowly it is the other way round.
+class Progress {
+ public:
+  /// Whether one of them has fallen, Newton steps by little at least where they creep; keeps the smaller.
+  bool add(double newton, double move) {
+    const bool falls = newton < 0.98 * newton_ || move < 0.9 * move_;
+    newton_ = std::min(newton_, newton);
+    move_ = std::min(move_, move);
+    return falls;
+  }
+
+ private:
+  double newton_ = INFINITY;
+  double move_ = INFINITY;
+};
+
 /// Newton's method on the period map, with the march as its safeguard.
 class FixedPoint {
  public:
@@ -61,31 +89,36 @@ class FixedPoint {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
     Vector2d fallback = slider;
-    double smallest = INFINITY;
-    double last_size = 0.0;
+    Progress progress;
+    int failures = 0;
     bool tried = false;
     for (int period = 0;; ++period) {
       if (period > 0 && !helped_) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
+      steady.closes = true;
       if (!steady.orbit.slips) break;
+      if (period + 1 == patience && rest_in_corner(steady)) break;
       const Vector2d moved = steady.orbit.end - slider;
       const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved);
-      if (size <= rounding || steady.defect <= 0.1 * options_.tolerance) break;
+      steady.closes = size <= rounding;
+      if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
-      if (tried && !(steady.defect < 0.9 * smallest)) {
+      const bool improved = progress.add(steady.defect, size);
+      failures += tried && !improved ? 1 : 0;
+      // No progress this close: it is the steps of the walk that differ from period to period.
+      if (failures >= 3 && steady.defect <= 1e4 * options_.tolerance) break;
+      if (tried && !improved) {
         slider = fallback;
         tried = false;
-        smallest = INFINITY;
+        progress = {};
         continue;
       }
-      smallest = steady.defect;
       fallback = steady.orbit.end;
-      const bool slow = period + 1 >= patience && size > fast * last_size;
-      last_size = size;
-      tried = slow && newton.allFinite() && steady.defect < 4.0;  // no slider is farther
+      tried =
+          period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;  // none is farther
       slider = tried ? Vector2d(slider + newton) : fallback;
       helped_ = helped_ || tried;
     }
@@ -100,10 +133,30 @@ class FixedPoint {
       if (period > 0) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
+      steady.closes = steady.defect <= rounding;
       if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
+      if (period + 1 >= patience && rest_in_corner(steady)) break;
       slider = steady.orbit.end;
     }
     return steady;
+  }
+
+  /// Whether the two windows that push in the last period leave the slider in their corner. If so the
+  /// orbit is that of the slider at rest there.
+  bool rest_in_corner(SteadyOrbit& steady) const {
+    const std::vector<double> ends = ends_of_slip(steady.orbit);
+    if (ends.size() != 2) return false;
+    const std::optional<SliderCorner> corner =
+        meeting_corner(motion_, {ends[0], ends[1]}, steady.orbit.end);
+    if (!corner.has_value()) return false;
+    PlanarOrbit rest = walk_orbit(motion_, intervals_, corner->slider, options_);
+    if (rest.slips) return false;
+    steady.orbit = std::move(rest);
+    steady.corner = corner;
+    steady.history.clear();
+    steady.defect = 0.0;
+    steady.closes = true;
+    return true;
   }
 
   const PlanarMotion& motion_;
@@ -135,8 +188,12 @@ SteadyDerivative steady_derivative(const PlanarMotion& motion, const SteadyOrbit
   OrbitVariation variation(motion, OrbitVariation::Columns::all);
   const Eigen::Index n = variation.n_parameters();
   if (steady.regime == CycleRegime::full_stick) {
-    variation.set_virgin_slider();
-    for (const PlanarOrbit& before : steady.history) variation.carry(before);
+    if (steady.corner.has_value()) {
+      variation.set_corner_slider(*steady.corner);
+    } else {
+      variation.set_virgin_slider();
+      for (const PlanarOrbit& before : steady.history) variation.carry(before);
+    }
   }
   variation.carry_and_integrate(steady.orbit);
   SteadyDerivative result;

@@ -5,16 +5,19 @@
 /// non-expansive; from the virgin slider it is iterated, and helped by Newton's method on Φ(s) = s with
 /// its derivative M once two periods have passed:
 ///
-///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while these steps shrink, else s ← Φ(s)             (1)
+///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while these steps or the moves Φ(s) − s shrink, else s ← Φ(s)  (1)
 ///
 /// The size of the step in (1) estimates the distance from the fixed point; it judges and ends the
-/// iteration (the defect Φ(s) − s may grow where one direction contracts fast, another slowly). A
-/// point that ends up stuck throughout is marched without help, since what it reaches is history: the
-/// virgin slider pushed into the ellipses of all phases (theory sections 4.2, 9).
+/// iteration. What a point that ends up stuck throughout reaches is history: the virgin slider pushed into
+/// the ellipses of all phases (theory sections 4.2, 9). It is marched without help, except where two
+/// windows push it in turn: then it goes to their corner at once (planar_corner.hpp).
 ///
 /// Source: theory section 9.
 #pragma once
 
+#include <optional>
+
+#include "contact/planar_corner.hpp"
 #include "contact/planar_orbit.hpp"
 #include "contact/planar_variation.hpp"
 
@@ -24,8 +27,12 @@ struct SteadyOrbit {
   CycleRegime regime = CycleRegime::separated;
   PlanarOrbit orbit;
   std::vector<PlanarOrbit>
-      history;          ///< full stick: periods before the last, from the virgin slider
-  double defect = 0.0;  ///< estimated distance from the fixed point, in f / F₀
+      history;  ///< full stick: periods before the last, from the virgin slider; none at a corner
+  std::optional<SliderCorner> corner;  ///< full stick: the corner the slider was pushed into
+  double defect = 0.0;                 ///< estimated distance from the fixed point, in f / F₀
+  /// Whether the period ends where it began to the last bits: nothing is left to iterate, however ill
+  /// the fixed point is determined.
+  bool closes = true;
 };
 
 [[nodiscard]] SteadyOrbit steady_orbit(const PlanarMotion& motion,

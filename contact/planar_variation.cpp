@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
 #include "contact/planar_quadrature.hpp"
 
 namespace microslip::contact {
@@ -20,6 +22,8 @@ OrbitVariation::OrbitVariation(const PlanarMotion& motion, Columns columns)
       n_parameters_(columns == Columns::all ? 3 * (2 * motion.n_harmonics() + 1) + 1 : 0) {
   position_.setZero(2, n_parameters_);
   radius_.setZero(n_parameters_);
+  stiffness_.setZero(n_parameters_);
+  reach_.setZero(2, n_parameters_);
   ratio_.setZero(n_parameters_);
   force_now_.setZero(2, n_columns());
   stage_.setZero(2 * n_stages, n_parameters_);
@@ -39,6 +43,23 @@ void OrbitVariation::set_virgin_slider() {
   if (n_parameters_ == 0) return;
   slider_(0, 0) = -motion_.active()[0] / motion_.length_scale();
   slider_(1, 2) = -motion_.active()[1] / motion_.length_scale();
+}
+
+void OrbitVariation::set_corner_slider(const SliderCorner& corner) {
+  slider_.setZero(2, n_columns());
+  if (n_parameters_ == 0) return;
+  Eigen::Matrix2d gradient;
+  Eigen::Matrix2Xd excess(2, n_parameters_);
+  for (Index i = 0; i < 2; ++i) {
+    const CornerSide& side = corner.side[static_cast<std::size_t>(i)];
+    const PlanarInstant now = motion_.at(side.phase);
+    set_parameters(now);
+    gradient.row(i) = side.gradient.transpose();
+    // δ|K (x − s)| = e·(K δx + δK (x − s)), and K e = −∇G.
+    const double second = side.force[1] / side.force.norm() * side.force[1] / now.stiffness[1];
+    excess.row(i) = -side.gradient.transpose() * position_ + second * stiffness_ - radius_;
+  }
+  slider_.leftCols(n_parameters_) = -gradient.fullPivLu().solve(excess);
 }
 
 void OrbitVariation::carry(const PlanarOrbit& orbit) {
@@ -83,9 +104,12 @@ void OrbitVariation::set_parameters(const PlanarInstant& now) {
     radius_[3 * k] = now.radius_by_rate * omega * now.heading[0] * basis_rate_[k];
     radius_[3 * k + 1] = now.radius_by_approach * basis_[k];
     radius_[3 * k + 2] = now.radius_by_rate * omega * now.heading[1] * basis_rate_[k];
+    stiffness_[3 * k + 1] = now.stiffness_by_approach[1] * basis_[k];
     ratio_[3 * k + 1] = now.surface.stiffness_ratio_by_approach * basis_[k];
   }
   radius_[n_parameters_ - 1] = now.radius_by_rate * now.speed;
+  reach_ = now.stiffness.cwiseInverse() * radius_;
+  reach_.row(1) -= (now.reach()[1] / now.stiffness[1]) * stiffness_;
 }
 
 void OrbitVariation::touch_down(const PlanarPiece& piece) {
@@ -97,9 +121,8 @@ void OrbitVariation::touch_down(const PlanarPiece& piece) {
   Vector2d moved = now.velocity;
   if (piece.state == ContactState::slip) {
     // x' − ρe = r' C e, with e from the regular solution at r = 0.
-    const Vector2d& k = motion_.stiffness();
-    moved = motion_.compliance().cwiseProduct(
-        returned_force(k.cwiseProduct(now.velocity), k, now.radius_rate));
+    const Vector2d& k = now.stiffness;
+    moved = returned_force(k.cwiseProduct(now.velocity), k, now.radius_rate).cwiseQuotient(k);
   }
   for (Index j = 0; j < basis_.size(); ++j) {
     slider_.col(3 * j + 1) -= moved * (basis_[j] / now.approach_rate);
@@ -108,32 +131,30 @@ void OrbitVariation::touch_down(const PlanarPiece& piece) {
 
 void OrbitVariation::begin_slip(const PlanarPiece& piece) {
   const PlanarInstant& now = piece.at_begin;
-  const Vector2d& C = motion_.compliance();
-  const Vector2d force = motion_.stiffness().cwiseProduct(now.position - piece.slider);
+  const Vector2d force = now.force(piece.slider);
   const double size = force.norm();
   if (size <= 0.0) return;
   const Vector2d e = force / size;
   const Vector2d normal = across(e);
-  const Vector2d turn = -now.radius * C.cwiseProduct(normal);
+  const Vector2d turn = -now.reach().cwiseProduct(normal);
   const double distance =
       piece.entry == PlanarEntry::returned ? e.dot(piece.slider - piece.before) : 0.0;
   const double divisor = distance - normal.dot(turn);
   if (!(divisor > 0.0)) return;
   set_parameters(now);
   slider_ = -slider_;
-  slider_.leftCols(n_parameters_) += position_ - C.cwiseProduct(e) * radius_;
+  slider_.leftCols(n_parameters_) += position_ - e.asDiagonal() * reach_;
   const Eigen::RowVectorXd angle = (normal.transpose() * slider_) / divisor;
   slider_ = turn * angle;
-  slider_.leftCols(n_parameters_) += position_ - C.cwiseProduct(e) * radius_;
+  slider_.leftCols(n_parameters_) += position_ - e.asDiagonal() * reach_;
 }
 
 void OrbitVariation::step(const SlipStep& slip) {
   const RadauNodes& rule = radau_nodes();
-  const Vector2d& C = motion_.compliance();
   for (int j = 0; j < n_stages; ++j) {
     if (n_parameters_ == 0) break;
     set_parameters(slip.instant[static_cast<std::size_t>(j)]);
-    stage_.middleRows<2>(2 * j) = position_ - C.cwiseProduct(slip.direction.col(j)) * radius_;
+    stage_.middleRows<2>(2 * j) = position_ - Vector2d(slip.direction.col(j)).asDiagonal() * reach_;
     stage_radius_.row(j) = radius_;
     stage_ratio_.row(j) = ratio_;
   }
@@ -156,7 +177,7 @@ void OrbitVariation::step(const SlipStep& slip) {
   }
   const int last = n_stages - 1;
   const Vector2d e = slip.direction.col(last);
-  slider_.noalias() = (-slip.instant[last].radius * C.cwiseProduct(across(e))) * turn_.row(last);
+  slider_.noalias() = -slip.instant[last].reach().cwiseProduct(across(e)) * turn_.row(last);
   slider_.leftCols(n_parameters_) += stage_.bottomRows<2>();
 }
 
@@ -170,15 +191,15 @@ void OrbitVariation::integrate_slip(const PlanarInstant& now, const Vector2d& di
 }
 
 void OrbitVariation::integrate_stick(const PlanarPiece& piece) {
-  const Vector2d& k = motion_.stiffness();
   const auto add = [&](const PlanarInstant& now, double weight) {
     set_parameters(now);
     const double ratio = now.surface.stiffness_ratio;
-    const Vector2d force = k.cwiseProduct(now.position - piece.slider);
-    const Vector2d stiffness = ratio * k;
+    const Vector2d force = now.force(piece.slider);
+    const Vector2d stiffness = ratio * now.stiffness;
     force_now_.noalias() = (-stiffness).asDiagonal() * slider_;
     force_now_.leftCols(n_parameters_).noalias() += stiffness.asDiagonal() * position_;
     force_now_.leftCols(n_parameters_).noalias() += force * ratio_;
+    force_now_.row(1).leftCols(n_parameters_) += (ratio * force[1] / now.stiffness[1]) * stiffness_;
     add_force(weight);
   };
   visit_nodes(motion_, piece.begin, piece.end, motion_.n_harmonics(), add);

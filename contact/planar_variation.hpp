@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/planar_corner.hpp"
 #include "contact/planar_orbit.hpp"
 
 namespace microslip::contact {
@@ -35,6 +36,8 @@ class OrbitVariation {
   void set_free_slider();
   /// Begins with the virgin slider, s = 0, and no freedom.
   void set_virgin_slider();
+  /// Begins at rest in a corner, which moves with the motion: ∇G_i · δs = −δG_i.
+  void set_corner_slider(const SliderCorner& corner);
   /// Carries δs over one period.
   void carry(const PlanarOrbit& orbit);
   /// The same, and integrates δf: force_p(), force_r().
@@ -63,9 +66,11 @@ class OrbitVariation {
   bool integrates_ = false;
   Eigen::VectorXd basis_;
   Eigen::VectorXd basis_rate_;
-  Eigen::Matrix2Xd position_;  // δx / L₀, 2 × n_parameters
-  Eigen::RowVectorXd radius_;  // δr / F₀
-  Eigen::RowVectorXd ratio_;   // δg
+  Eigen::Matrix2Xd position_;     // δx / L₀, 2 × n_parameters
+  Eigen::RowVectorXd radius_;     // δr / F₀
+  Eigen::RowVectorXd stiffness_;  // δK along r; that along p is constant
+  Eigen::Matrix2Xd reach_;        // δ(r/K) / L₀
+  Eigen::RowVectorXd ratio_;      // δg
   Eigen::Matrix2Xd slider_;
   Eigen::Matrix2Xd force_now_;  // δf / F₀
   Eigen::Matrix<double, 2 * n_stages, Eigen::Dynamic> stage_;

@@ -29,6 +29,9 @@ struct PointTraction {
   Eigen::MatrixXd jacobian;              ///< ∂force/∂motion [N/m³], m × m
   Eigen::VectorXd frequency_derivative;  ///< ∂force/∂ω at fixed motion [Pa·s], m; 0 unless rate-dependent
   CycleRegime regime = CycleRegime::separated;
+  /// What the force may be off by because the search for the steady cycle ended before its tolerance, in
+  /// any coefficient [Pa]; 0 where the law met it.
+  double defect = 0.0;
 };
 
 /// One point at one instant, both tangential directions.
@@ -48,6 +51,7 @@ struct PointHistory {
   double slip_distance = 0.0;          ///< ∮ |ds| in contact [m per period]
   double normal_slip = 0.0;            ///< ∮ n |ds| [Pa·m]: Archard depth is K times this
   std::vector<PointInstant> instants;  ///< at the phases asked for
+  double defect = 0.0;                 ///< as of PointTraction [Pa]
 };
 
 class PointLaw {

@@ -70,6 +70,17 @@ SurfaceLaw::SurfaceLaw(const PointParameters& point, double second_stiffness,
   start_at_rest(point.preload);
 }
 
+SurfaceLaw SurfaceLaw::in_units(double factor) const {
+  if (!is_smooth()) {
+    throw std::invalid_argument("SurfaceLaw: rough surfaces cannot be counted in other units");
+  }
+  if (!(std::isfinite(factor) && factor > 0.0)) refuse("factor", factor, "finite and above 0");
+  SurfaceLaw law = *this;
+  law.point_.preload *= factor;
+  law.load_at_rest_ *= factor;
+  return law;
+}
+
 void SurfaceLaw::start_at_rest(double pressure) {
   const double compression = pressure / local_stiffness_;
   rest_ = pressure > 0.0 ? roughness_->approach(compression) + compliance_ratio_ * compression
@@ -119,6 +130,17 @@ void SurfaceLaw::add_rough_state(double approach, SurfaceState& state) const {
   state.second_stiffness_ratio_by_approach = r.ratio_by_u * du;
   state.second_load_per_ratio = local_stiffness_ * r.reach;
   state.second_load_per_ratio_by_approach = local_stiffness_ * r.reach_by_u * du;
+  add_ratio_of_stiffness(s.share, s.share_by_approach * du, state);
+}
+
+void SurfaceLaw::add_ratio_of_stiffness(double share, double share_by_approach,
+                                        SurfaceState& state) const {
+  if (first_ratio_ == second_ratio_) return;
+  const double whole = (1.0 + second_ratio_) / (1.0 + first_ratio_);
+  const double part = 1.0 + second_ratio_ * share;
+  state.ratio_of_stiffness = whole * (1.0 + first_ratio_ * share) / part;
+  state.ratio_of_stiffness_by_approach =
+      whole * (first_ratio_ - second_ratio_) / (part * part) * share_by_approach;
 }
 
 SurfaceState SurfaceLaw::at(double approach, double rate) const {

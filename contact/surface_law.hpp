@@ -48,6 +48,9 @@ struct SurfaceState {
   double load_per_ratio_by_approach = 0.0;  ///< [N/m³]
   double second_load_per_ratio = 0.0;
   double second_load_per_ratio_by_approach = 0.0;
+  /// g_r/g_p [-], finite where both vanish, and its derivative [1/m].
+  double ratio_of_stiffness = 1.0;
+  double ratio_of_stiffness_by_approach = 0.0;
 };
 
 /// Compliance of the bodies in series with the surfaces, per area: displacement by pressure. May be
@@ -78,6 +81,12 @@ class SurfaceLaw {
              const std::optional<RoughSurface>& roughness = std::nullopt,
              const SeriesCompliance& series = {});
 
+  /// Smooth surfaces alone: the law of the same point with loads and lengths counted in a smaller unit,
+  /// preload × factor; what depends on the speed is left to the caller.
+  /// @param factor  finite, > 0.
+  /// @throws std::invalid_argument  rough surfaces: they have a length of their own.
+  [[nodiscard]] SurfaceLaw in_units(double factor) const;
+
   /// Derivatives are exact; at a kink they are those of the open side.
   /// @param approach  v, mean included [m].   @param rate  σ [m/s], ≥ 0.
   [[nodiscard]] SurfaceState at(double approach, double rate) const;
@@ -104,6 +113,8 @@ class SurfaceLaw {
   /// u of (2) at v + v_rest [m].
   [[nodiscard]] double surface_approach(double closure) const;
   void add_rough_state(double approach, SurfaceState& state) const;
+  /// g_r/g_p of (3) for the share h* and dh*/dv.
+  void add_ratio_of_stiffness(double share, double share_by_approach, SurfaceState& state) const;
 
   PointParameters point_;    // in full contact, series included
   double second_stiffness_;  // likewise

@@ -142,6 +142,7 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
   const auto renumbered = [&](Eigen::Index node) { return number[static_cast<std::size_t>(node)]; };
   Eigen::Index n_used = 0;
   for (const Eigen::Index n : number) n_used += n >= 0 ? 1 : 0;
+  n_loose_nodes_ = nodes.rows() - n_used;
   nodes_.resize(n_used, 3);
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     if (renumbered(i) >= 0) nodes_.row(renumbered(i)) = nodes.row(i);

@@ -30,13 +30,15 @@ class Mesh {
   /// @param surfaces   faces per name as found in the file, any orientation; they are matched to
   ///                   the volume elements and turned outward.
   /// @param node_sets  named points, edges or sets of nodes.
-  /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate or
-  ///         loose nodes, a surface that is not on the boundary.
+  /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
+  ///         loose parts, a surface that is not on the boundary.
   Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
        std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets);
 
   [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }
   [[nodiscard]] Eigen::Index n_elements() const;
+  /// Nodes that were given but belong to no volume element (centres of arcs and the like): left out.
+  [[nodiscard]] Eigen::Index n_loose_nodes() const { return n_loose_nodes_; }
   [[nodiscard]] const Eigen::MatrixX3d& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<ElementBlock>& elements() const { return elements_; }
   /// @throws MeshError  no such surface; the message lists the names there are.
@@ -54,6 +56,7 @@ class Mesh {
   std::vector<ElementBlock> elements_;
   std::map<std::string, Surface> surfaces_;
   NodeSets node_sets_;
+  Eigen::Index n_loose_nodes_ = 0;
   double volume_ = 0.0;
   Eigen::Vector3d lower_;
   Eigen::Vector3d upper_;

@@ -203,6 +203,7 @@ void check_elements(const Eigen::MatrixX3d& nodes, const std::vector<ElementBloc
   std::vector<std::int64_t> inverted;
   double worst = std::numeric_limits<double>::infinity();
   Eigen::Index n_elements = 0;
+  Eigen::Index n_negative = 0;  // everywhere
   for (const ElementBlock& block : elements) {
     n_elements += block.connectivity.rows();
     for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
@@ -210,6 +211,7 @@ void check_elements(const Eigen::MatrixX3d& nodes, const std::vector<ElementBloc
       const JacobianRange range = jacobian_range(block.type, own);
       if (range.least > flat * std::pow(size_of(own), 3)) continue;
       inverted.push_back(block.tags[static_cast<std::size_t>(e)]);
+      if (range.largest <= 0.0) ++n_negative;
       if (range.largest > 0.0) worst = std::min(worst, range.least / range.largest);
     }
   }
@@ -219,8 +221,10 @@ void check_elements(const Eigen::MatrixX3d& nodes, const std::vector<ElementBloc
   text << "bad-mesh: " << inverted.size() << " of " << n_elements
        << " elements are inverted or flat (Jacobian not positive everywhere): elements "
        << some(inverted);
-  if (all) {
+  if (all && n_negative == n_elements) {
     text << "; all of them: the nodes are listed left-handed";
+  } else if (all) {
+    text << "; all of them in part: are the mid-edge nodes in the order of gmsh?";
   } else if (worst < std::numeric_limits<double>::infinity()) {
     text << "; worst ratio of smallest to largest Jacobian " << worst
          << "; mesh with smaller elements, or optimise the curved elements";

@@ -16,6 +16,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double flatness_limit = 0.01;          // of the diameter: beyond, a planar patch misleads
+constexpr double flatness_told = 1e-3;  // of the diameter: gaps between real faces are micrometres
 constexpr double angle_limit_rad = 5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
 
 /// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
@@ -207,6 +208,12 @@ void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
     warnings.push_back(fmt::format(
         "contact surface \"{}\": facet normals turn by up to {:.1f} degrees; one plane is used",
         contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
+  }
+  if (plane.flatness > flatness_told * plane.diameter) {
+    warnings.push_back(fmt::format(
+        "contact surface \"{}\": nodes are up to {:.3g} m off the mean plane ({:.2g} % of its size); the "
+        "patch is simulated as plane, with the preload as given",
+        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
   }
   if (model.fit_error.size() > 0 && model.fit_error.maxCoeff() > 0.05) {
     Eigen::Index mode = 0;

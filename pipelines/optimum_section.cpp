@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,26 +90,30 @@ std::array<double, 2> range_in(const SectionReader& s, const std::string& unit, 
   return range;
 }
 
+/// Different positive preloads, or scales, of the curves.
+std::set<double> positive_preloads(const ResponseDescription& response) {
+  std::set<double> positive;
+  for (const double scale : response.preload.empty() ? response.preload_scale : std::vector<double>()) {
+    if (scale > 0.0) positive.insert(scale);
+  }
+  for (const PreloadEntry& entry : response.preload) {
+    const auto* load = std::get_if<double>(&entry);
+    if (load != nullptr && *load > 0.0) positive.insert(*load);
+  }
+  return positive;
+}
+
 /// The preload another key is searched under: as given, or the only positive one of the curves.
 double load_of(const SectionReader& s, const ResponseDescription& response) {
   if (s.given("optimum_at")) return s.number_in(*s.node("optimum_at"), "optimum_at");
-  std::vector<double> positive;
-  if (response.preload.empty()) {
-    positive = response.preload_scale;
-  } else {
-    for (const PreloadEntry& entry : response.preload) {
-      if (const auto* load = std::get_if<double>(&entry); load != nullptr && *load > 0.0) {
-        positive.push_back(*load);
-      }
-    }
-  }
+  const std::set<double> positive = positive_preloads(response);
   if (positive.size() != 1) {
     s.fail("optimum_at",
            fmt::format("is missing: the scene has {} positive preloads; under which is \"{}\" searched?",
                        positive.size(), s.text("optimum")),
            s.node("optimum"));
   }
-  return positive.front();
+  return *positive.begin();
 }
 
 void refuse_alone(const SectionReader& s) {
@@ -131,6 +136,9 @@ std::optional<OptimumRequest> read_optimum(const SectionReader& s,
   if (request.key == "response.preload" || request.key == "preload_scale") request.key = "preload";
   if (request.of_preload()) {
     if (s.given("optimum_range")) request.range = range_in(s, "N", true);
+    if (!request.range && positive_preloads(response).size() < 2) {
+      s.fail("optimum", "needs optimum_range = [low, high], or two positive preloads", s.node("optimum"));
+    }
     if (s.given("optimum_at")) {
       s.fail("optimum_at", "has no meaning with optimum = \"preload\"", s.node("optimum_at"));
     }

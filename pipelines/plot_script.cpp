@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "pipelines/child_process.hpp"
+#include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -39,6 +40,8 @@ std::string run_plot_script(const std::string& name, const std::vector<std::stri
     command.insert(command.end(), arguments.begin(), arguments.end());
     const ChildResult result = run_child(command, limit);
     return result.succeeded ? "" : "plots were not made: " + result.message;
+  } catch (const InterruptedError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     return std::string("plots were not made: ") + error.what();
   }

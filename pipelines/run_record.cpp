@@ -97,9 +97,17 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   require_writable(folder_);
   require_own(folder_);
   lock_ = lock_folder(folder_);
+  scene_toml_ = scene.complete_toml;
+  // An earlier run's results stay until this scene has proved itself.
+  if (!std::filesystem::exists(folder_ / "summary.json")) begin();
+}
+
+void RunRecord::begin() {
+  if (begun_ || !writes_) return;
+  begun_ = true;
   clear_results(folder_);
   progress_.keep_in(folder_);
-  write_whole(folder_ / "scene.toml", scene.complete_toml);
+  write_whole(folder_ / "scene.toml", scene_toml_);
 }
 
 std::filesystem::path RunRecord::mesh_file() const {
@@ -152,6 +160,7 @@ void RunRecord::stage(const std::string& name) {
 }
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
+  begin();
   progress_.info(describe_mesh(mesh, density));
   for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
@@ -197,6 +206,7 @@ void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
 }
 
 void RunRecord::keep_model(const ReducedModel& model) {
+  begin();
   const std::lock_guard lock(mutex_);
   Eigen::VectorXd residual(0);
   if (!summary_.modes.empty() && summary_.modes.front().residual) {
@@ -310,7 +320,7 @@ void RunRecord::keep_summary() {
 void RunRecord::write_summary_file() {
   summary_.stages = progress_.stages();
   summary_.warnings = progress_.warnings();
-  if (writes_) write_summary(folder_ / "summary.json", summary_);
+  if (writes_ && begun_) write_summary(folder_ / "summary.json", summary_);
 }
 
 void RunRecord::fail(ExitCode code, const std::string& message) {

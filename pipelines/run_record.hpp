@@ -21,8 +21,9 @@ namespace microslip::pipelines {
 
 class RunRecord {
  public:
-  /// Creates the run folder, its lock and log, and writes scene.toml. On MPI ranks above 0 nothing is
-  /// written by any member.
+  /// Creates the run folder, its lock and log, and writes scene.toml. Results of an earlier run in the
+  /// folder stay until mesh or model of this one are there: bad input does not cost them. On MPI ranks
+  /// above 0 nothing is written by any member.
   /// @throws ExhaustedError  the folder cannot be written, or another run holds it.
   RunRecord(const SceneDescription& scene, const RunOptions& options);
   ~RunRecord();
@@ -73,7 +74,12 @@ class RunRecord {
   void fail(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;
 
+  /// Takes the folder over from an earlier run.
+  void begin();
+
   std::filesystem::path folder_;
+  std::string scene_toml_;
+  bool begun_ = false;
   int rank_;
   bool writes_;  ///< false on MPI ranks above 0
   Progress progress_;

@@ -43,6 +43,9 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
       lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
   const auto sets = mesh.node_set_names();
   if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
+  if (mesh.n_loose_nodes() > 0) {
+    text += fmt::format("\n{} nodes belong to no volume element and are left out", mesh.n_loose_nodes());
+  }
   return text;
 }
 

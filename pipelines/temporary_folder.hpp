@@ -14,10 +14,11 @@ namespace microslip::pipelines {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "microslip-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw ExhaustedError("no temporary folder can be made in " +
-                           std::filesystem::temp_directory_path().string());
+    std::error_code none;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(none);
+    std::string pattern = (parent / "microslip-XXXXXX").string();
+    if (none || ::mkdtemp(pattern.data()) == nullptr) {
+      throw ExhaustedError("no temporary folder can be made: TMPDIR or /tmp is missing or not writable");
     }
     path_ = pattern;
   }

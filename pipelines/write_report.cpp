@@ -181,7 +181,7 @@ std::vector<std::string> write_report(const std::filesystem::path& folder) {
 
 void rebuild_report(const std::filesystem::path& folder) {
   const std::vector<std::string> warnings = write_report(folder);
-  if (!warnings.empty()) throw std::runtime_error(warnings.front());
+  if (!warnings.empty()) throw SceneError(folder.string() + ": " + warnings.front());
 }
 
 }  // namespace microslip::pipelines

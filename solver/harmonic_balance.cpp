@@ -89,6 +89,7 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
     result.residual = result.contact_force - excitation_;
     result.jacobian = std::move(contact.jacobian);
     result.parameter_derivative = std::move(contact.frequency_derivative);
+    result.defect = contact.defect;
   } else {
     result.contact_force = Eigen::VectorXd::Zero(size());
     result.residual = -excitation_;
@@ -105,6 +106,7 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
   BalanceEvaluation result;
   const contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency);
   result.contact_force = contact.force.vector();
+  result.defect = share * contact.defect;
   Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
   add_stiffness(stiffness, 1.0, linear);
   const Eigen::VectorXd linear_force = linear * x;

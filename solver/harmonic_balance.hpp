@@ -21,6 +21,7 @@ struct BalanceEvaluation {
   Eigen::MatrixXd jacobian;              ///< ∂R/∂x [1/s²], n × n
   Eigen::VectorXd parameter_derivative;  ///< ∂R/∂ω at fixed x, or by a homotopy's parameter, n
   Eigen::VectorXd contact_force;         ///< G [N/√kg], n
+  double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
 };
 
 class HarmonicBalance {

@@ -52,7 +52,8 @@ class Iteration {
     NewtonResult result;
     result.point = std::move(point);
     result.evaluation = system_(result.point.x, result.point.parameter);
-    const double size = result.evaluation.residual.norm();
+    // A residual that is not known cannot be small.
+    const double size = result.evaluation.residual.norm() + result.evaluation.defect;
     result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite()
                           ? size / scaling_.residual
                           : std::numeric_limits<double>::infinity();

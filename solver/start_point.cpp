@@ -14,7 +14,7 @@ namespace {
 constexpr int homotopy_steps = 2000;
 // Where rounding errors are larger than this share of the forces, no digits are left that could be called
 // a solution: the iteration is to fail there.
-constexpr double coarsest = 1e-8;
+constexpr double coarsest = 1e-7;
 
 struct Guess {
   const char* name;

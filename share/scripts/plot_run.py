@@ -62,7 +62,16 @@ def read_table(path):
         rows = list(csv.DictReader(file))
     names = rows[0].keys() if rows else []
     return {name: [row[name] for row in rows] if name == "mark"
-            else np.array([float(row[name]) for row in rows]) for name in names}
+            else np.array([number_in(row[name], path, line, name) for line, row in enumerate(rows, 2)])
+            for name in names}
+
+
+def number_in(text, path, line, name):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        place = os.path.join(*path.split(os.sep)[-2:])
+        raise SystemExit(f"{place}:{line}: {name}: {text!r} is no number: the file is damaged") from None
 
 
 def save(figure, folder, name):
@@ -89,8 +98,10 @@ def length_unit(largest):
 
 def log_scale(axis):
     """Logarithmic, with plain numbers at 1, 2, 5 where there is room and at powers of ten else."""
-    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
     low, high = axis.get_data_interval()
+    if not high > 0:
+        return  # nothing moves: a logarithm has nothing to show
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
     few = low > 0 and math.log10(high / low) < 2.2
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
@@ -117,6 +128,8 @@ class Run:
         self.curves = []
         for curve in self.summary["curves"]:
             path = os.path.join(folder, "curves", curve["name"] + ".csv")
+            if curve["points"] > 0 and not os.path.exists(path):
+                raise SystemExit(f"curves/{curve['name']}.csv is missing")
             table = read_table(path) if os.path.exists(path) else {}
             if table:
                 self.curves.append((curve, table))
@@ -178,7 +191,7 @@ def draw_curve(axes, run, curve, table):
     frequency = table["frequency_Hz"]
     amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
     for unstable, part in branches(table):
-        axes.plot(frequency[part], amplitude[part], color=colour, zorder=2 if limit else 3,
+        axes.plot(frequency[part], amplitude[part], color=colour, zorder=3.5 if limit else 3,
                   linewidth=1.0 if limit else 1.4, linestyle=(0, (2.5, 1.6)) if unstable else "-")
     marks = np.array(table["mark"])
     for mark, style in (("peak", {"marker": "o", "s": 14}),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -108,6 +109,39 @@ Harmonics random_motion() {
 
 // Two sums of n terms in different order.
 double rounding(Eigen::Index n) { return 4e-15 * static_cast<double>(n); }
+
+// The closed form, said to be off by 0.25 Pa.
+class Vague final : public PointLaw {
+ public:
+  explicit Vague(const PointParameters& point) : exact_(point) {}
+
+  void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
+    exact_.traction(motion, frequency, result);
+    result.defect = 0.25;
+  }
+  [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
+                                     const Eigen::VectorXd& phases, int n) const override {
+    return exact_.history(motion, frequency, phases, n);
+  }
+  [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override {
+    return exact_.stuck_stiffness();
+  }
+  [[nodiscard]] double load_at_rest() const override { return exact_.load_at_rest(); }
+
+ private:
+  ClosedForm exact_;
+};
+
+// ‖w (Φ_uᵀ δf_p + Φ_vᵀ δn)‖ for δf of at most 0.25: only the points that say so count.
+TEST(LawPatchForce, CarriesTheDefectOfItsPoints) {
+  Patch p = random_patch(5, 1.0);
+  const Harmonics q = random_motion();
+  EXPECT_EQ(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, 0.0);
+  p.laws[1] = std::make_shared<Vague>(p.points[1]);
+  const double expected =
+      0.25 * p.weights[1] * std::sqrt(p.shapes.u.row(1).squaredNorm() + p.shapes.v.row(1).squaredNorm());
+  EXPECT_NEAR(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, expected, 1e-15);
+}
 
 // 32 points make a block: one block, broken and whole ones.
 TEST(LawPatchForce, GivesWhatTheClosedFormPatchGives) {

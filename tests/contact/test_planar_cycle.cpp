@@ -185,6 +185,67 @@ TEST(PlanarLaw, ALooserToleranceIsMet) {
   }
 }
 
+// Motion and preload times a power of two: forces follow, derivatives stay, to the last bit.
+TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
+  Eigen::VectorXd phases(2);
+  phases << 0.3, 4.0;
+  for (const double preload : {0.9, 5.0, 60.0}) {
+    const PointParameters point{2.0, 1.5, 0.6, preload};
+    PointTraction plain;
+    PlanarLaw(SurfaceLaw(point, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight)
+        .traction(lissajous(), 1.0, plain);
+    for (const int exponent : {-990, -500, -1, 3, 400, 900}) {
+      const double unit = std::ldexp(1.0, exponent);
+      PointParameters scaled = point;
+      scaled.preload *= unit;
+      Harmonics motion = lissajous();
+      motion.rows() *= unit;
+      const PlanarLaw law(SurfaceLaw(scaled, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight);
+      PointTraction traction;
+      law.traction(motion, 1.0 / unit, traction);
+      EXPECT_EQ(traction.force.vector() / unit, plain.force.vector()) << exponent;
+      EXPECT_EQ(traction.jacobian, plain.jacobian) << exponent;
+      if (std::abs(exponent) <= 500) {  // the square of the unit is a normal number
+        EXPECT_EQ(traction.frequency_derivative / unit / unit, plain.frequency_derivative);
+      }
+      const PointHistory history = law.history(motion, 1.0 / unit, phases, 2);
+      EXPECT_EQ(history.force.vector() / unit, plain.force.vector());
+      EXPECT_EQ(history.instants[0].motion / unit, lissajous().at(0.3));
+    }
+  }
+}
+
+// The smallest doubles, and lengths of kilometres; stiffness as of metals.
+TEST(PlanarLaw, NoAmplitudeIsTooSmallOrTooLarge) {
+  for (const double size : {5e-324, 1e-310, 1e-300, 1e-200, 1e-15, 1e3}) {
+    for (const double preload : {0.0, 1e-280, 1e6}) {
+      Harmonics motion = lissajous();
+      motion.rows() *= size;
+      const PlanarLaw law(SurfaceLaw({2e12, 1.5e12, 0.6, preload}, 0.7e12), tight);
+      PointTraction traction;
+      law.traction(motion, 1.0, traction);
+      EXPECT_TRUE(traction.force.vector().allFinite()) << size;
+      EXPECT_TRUE(traction.jacobian.allFinite()) << size;
+      if (size * 1e300 < preload) continue;  // no double is as small beside such a load
+      EXPECT_GT(traction.force.rows().col(0).cwiseAbs().maxCoeff(), 0.0) << size << ", " << preload;
+      EXPECT_GT(traction.force.rows().col(2).cwiseAbs().maxCoeff(), 0.0) << size << ", " << preload;
+    }
+  }
+}
+
+// A mean beyond all measure only says from where the slider is dragged.
+TEST(PlanarLaw, AMeanBeyondAllMeasureIsDragged) {
+  Harmonics motion = lissajous();
+  motion.rows().bottomRows(4).col(1).setZero();
+  motion.rows().bottomRows(4) *= 0.01;
+  motion.rows().row(0) << 3e200, 0.0, -4e200;
+  PointTraction traction;
+  PlanarLaw(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 2.0), tight).traction(motion, 1.0, traction);
+  EXPECT_EQ(traction.regime, CycleRegime::full_stick);
+  EXPECT_NEAR(traction.force.mean()[0], 0.6 * 0.54, 0.05);
+  EXPECT_NEAR(traction.force.mean()[2], -0.8 * 0.54, 0.05);
+}
+
 TEST(PlanarLaw, RefusesWhatItCannotMeet) {
   const SurfaceLaw surface({2.0, 1.5, 0.6, 0.9}, 0.7);
   EXPECT_THROW(PlanarLaw(surface, 0.0), std::invalid_argument);

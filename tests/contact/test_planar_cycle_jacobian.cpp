@@ -107,6 +107,22 @@ TEST(PlanarLawJacobian, OfRoughSurfacesMeetsDifferences) {
   }
 }
 
+// Bodies in series, unequal along p and r: the ratio of the stiffnesses depends on v.
+TEST(PlanarLawJacobian, OfBodiesOfUnequalStiffnessMeetsDifferences) {
+  const SeriesCompliance series{0.3, 0.2, 2.0};
+  for (const RoughSurface& rough :
+       {RoughSurface::cubic(0.8), RoughSurface::matching_gaussian(0.8)}) {
+    for (const double preload : {-0.1, 0.3, 2.0, 12.0}) {
+      const PlanarLaw law(SurfaceLaw({2.0, 1.5, 0.6, preload}, 1.3,
+                                     FrictionLaw::hyperbolic(0.7, 0.4), rough, series),
+                          tight);
+      PointTraction traction;
+      law.traction(lissajous(), 1.0, traction);
+      EXPECT_LT(jacobian_error(law, lissajous(), traction), 5e-6) << "preload " << preload;
+    }
+  }
+}
+
 Harmonics stuck_motion() {
   Harmonics motion(1, 3);
   motion.rows() << 0.02, 0.0, -0.01,  //

@@ -96,5 +96,88 @@ TEST(PlanarLawReference, WorkOfTheForceIsDissipatedBySlip) {
   }
 }
 
+/// Cubic heights of scale R with bodies of compliance c_u, c_w in series along p and r, and a coefficient
+/// that falls with the speed, all from their formulas (theory sections 10, 11).
+struct RoughPoint {
+  double height = 0.8;
+  double first_compliance = 0.0;
+  double second_compliance = 0.0;
+  double slow = 0.6;
+  double fast = 0.6;
+};
+
+test::SurfaceMoment moment_of(const PointParameters& point, double second_stiffness,
+                              const RoughPoint& rough, long double approach, long double speed) {
+  const long double R = rough.height;
+  // At rest F_N = n₀: x³ − x⁴/2 = n₀/(k_v R), or beyond the heights x − ½; a gap otherwise.
+  const long double at_rest = point.preload / (point.normal_stiffness * R);
+  long double rest = at_rest;
+  if (at_rest >= 0.5L) rest = at_rest + 0.5L;
+  if (at_rest > 0.0L && at_rest < 0.5L) {
+    long double low = 0.0L;
+    long double high = 1.0L;
+    for (int i = 0; i < 80; ++i) {
+      const long double x = 0.5L * (low + high);
+      (x * x * x * (1.0L - 0.5L * x) < at_rest ? low : high) = x;
+    }
+    rest = low;
+  }
+  const long double x = rest + approach / R;
+  if (x <= 0.0L) return {x, 0.0L, {0.0L, 0.0L}};
+  const long double share = x < 1.0L ? x * x * (3.0L - 2.0L * x) : 1.0L;
+  const long double load =
+      point.normal_stiffness * R * (x < 1.0L ? x * x * x * (1.0L - 0.5L * x) : x - 0.5L);
+  const long double mu = rough.fast + (rough.slow - rough.fast) * std::exp(-0.7L * speed);
+  const auto stiffness = [share](double k, double c) { return 1.0L / (1.0L / (k * share) + c); };
+  return {x,
+          mu * load,
+          {stiffness(point.tangential_stiffness, rough.first_compliance),
+           stiffness(second_stiffness, rough.second_compliance)}};
+}
+
+// Bodies that are not equally stiff along p and r make the ratio of the two stiffnesses vary with
+// the load; the law must not take one for both.
+TEST(PlanarLawReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
+  std::mt19937_64 random(20260104);
+  std::normal_distribution<double> g;
+  int sure = 0;
+  int separation = 0;
+  double largest_sure = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    PlanarCase c = random_case(random, i);
+    const RoughPoint rough{0.5 + std::abs(g(random)),
+                           std::exp(g(random)) / c.point.tangential_stiffness,
+                           i % 5 == 0 ? 0.0 : 4.0 * std::exp(g(random)) / c.second_stiffness, 0.8,
+                           i % 2 == 0 ? 0.8 : 0.4};
+    const SurfaceLaw surface(
+        c.point, c.second_stiffness, FrictionLaw::exponential(rough.slow, rough.fast, 0.7),
+        RoughSurface::cubic(rough.height), {rough.first_compliance, 0.0, rough.second_compliance});
+    c.surface = [&](long double approach, long double speed) {
+      return moment_of(c.point, c.second_stiffness, rough, approach, speed);
+    };
+    c.point.friction_coefficient = rough.slow;
+    const double scale = test::planar_scale(c);
+    PointTraction traction;
+    PlanarLaw(surface, 1e-10).traction(c.motion, 1.0, traction);
+    const test::PlanarReference reference = test::planar_reference(c, 512);
+    double error = 0.0;
+    for (std::size_t row = 0; row < reference.first.size(); ++row) {
+      const auto& force = traction.force.rows().row(static_cast<Eigen::Index>(row));
+      error = std::max({error, std::abs(static_cast<double>(reference.first[row]) - force[0]),
+                        std::abs(static_cast<double>(reference.second[row]) - force[2])});
+    }
+    const auto doubt = static_cast<double>(reference.doubt);
+    // As above: events between the steps of the march leave the square of a step.
+    EXPECT_LE(error, 3.0 * doubt + 3e-6 * scale) << "case " << i;
+    separation += traction.regime == CycleRegime::separation;
+    if (doubt > 2e-6 * scale) continue;
+    ++sure;
+    largest_sure = std::max(largest_sure, error / scale);
+  }
+  EXPECT_GT(sure, 25);
+  EXPECT_GT(separation, 10);
+  EXPECT_LT(largest_sure, 9e-6);
+}
+
 }  // namespace
 }  // namespace microslip::contact

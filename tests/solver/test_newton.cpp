@@ -44,6 +44,21 @@ TEST(Newton, NonFiniteForcesEndTheIteration) {
   EXPECT_FALSE(solve_newton(system, at(0.7, 0.0), Scaling{}, {}).converged);
 }
 
+// x = 1 is the root to the last bit, but the force is known to 1e-6 only.
+TEST(Newton, AResidualThatIsNotKnownIsNotSmall) {
+  const auto system = [](double defect) {
+    return [defect](const Eigen::VectorXd& x, double) {
+      BalanceEvaluation e = scalar(x[0] - 1.0, 1.0, 0.0);
+      e.defect = defect;
+      return e;
+    };
+  };
+  EXPECT_TRUE(solve_newton(system(0.0), at(0.0, 0.0), Scaling{}, {}).converged);
+  const NewtonResult vague = solve_newton(system(1e-6), at(0.0, 0.0), Scaling{}, {});
+  EXPECT_FALSE(vague.converged);
+  EXPECT_NEAR(vague.residual, 1e-6, 1e-12);
+}
+
 /// The circle x² + p² = 1: four quarter turns with two folds.
 TEST(BranchWalker, GoesRoundACircle) {
   const ParametricSystem circle = [](const Eigen::VectorXd& x, double p) {

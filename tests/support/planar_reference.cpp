@@ -16,6 +16,8 @@ constexpr Real pi = std::numbers::pi_v<long double>;
 struct Now {
   Pair x{};
   Real gap_load = 0.0L;
+  Real limit = 0.0L;
+  Pair k{};
 };
 
 class March {
@@ -46,6 +48,7 @@ class March {
   [[nodiscard]] Now at(Real phase) const {
     const auto& rows = case_.motion.rows();
     Pair x{rows(0, 0), rows(0, 2)};
+    Pair rate{};
     Real v = rows(0, 1);
     for (int h = 1; h <= case_.motion.n_harmonics(); ++h) {
       const Real s = std::sin(h * phase);
@@ -53,8 +56,15 @@ class March {
       x[0] += rows(2 * h - 1, 0) * s + rows(2 * h, 0) * c;
       v += rows(2 * h - 1, 1) * s + rows(2 * h, 1) * c;
       x[1] += rows(2 * h - 1, 2) * s + rows(2 * h, 2) * c;
+      rate[0] += h * (rows(2 * h - 1, 0) * c - rows(2 * h, 0) * s);
+      rate[1] += h * (rows(2 * h - 1, 2) * c - rows(2 * h, 2) * s);
     }
-    return {x, case_.point.preload + case_.point.normal_stiffness * v};
+    if (case_.surface) {
+      const SurfaceMoment y = case_.surface(v, std::hypot(rate[0], rate[1]));
+      return {x, y.gap_load, y.limit, y.stiffness};
+    }
+    const Real load = case_.point.preload + case_.point.normal_stiffness * v;
+    return {x, load, case_.point.friction_coefficient * std::max(load, 0.0L), k_};
   }
 
   /// Ends of the intervals of contact and separation, from a fixed fine grid.
@@ -112,11 +122,12 @@ class March {
 
   void step(Real phase, Real weight, Pair& s) {
     const Now now = at(phase);
-    Pair f{k_[0] * (now.x[0] - s[0]), k_[1] * (now.x[1] - s[1])};
-    const Real limit = case_.point.friction_coefficient * std::max(now.gap_load, 0.0L);
+    Pair f{now.k[0] * (now.x[0] - s[0]), now.k[1] * (now.x[1] - s[1])};
     const Pair before = s;
-    f = returned(f, limit);
-    for (std::size_t i = 0; i < 2; ++i) s[i] = k_[i] > 0.0L ? now.x[i] - f[i] / k_[i] : now.x[i];
+    f = returned(f, now);
+    for (std::size_t i = 0; i < 2; ++i) {
+      s[i] = now.k[i] > 0.0L ? now.x[i] - f[i] / now.k[i] : now.x[i];
+    }
     sum_.dissipated_energy += f[0] * (s[0] - before[0]) + f[1] * (s[1] - before[1]);
     for (int row = 0; row < static_cast<int>(sum_.first.size()); ++row) {
       const int h = (row + 1) / 2;
@@ -129,11 +140,12 @@ class March {
     }
   }
 
-  [[nodiscard]] Pair returned(const Pair& trial, Real limit) const {
+  [[nodiscard]] static Pair returned(const Pair& trial, const Now& now) {
+    const Real limit = now.limit;
     if (std::hypot(trial[0], trial[1]) <= limit) return trial;
     if (limit <= 0.0L) return {};
     // |f|² is convex and falls with λ: Newton's method rises to the root from λ = 0.
-    const Real k = std::max(k_[0], k_[1]);
+    const Real k = std::max(now.k[0], now.k[1]);
     Real lambda = 0.0L;
     Pair f = trial;
     for (int i = 0; i < 100; ++i) {
@@ -141,10 +153,10 @@ class March {
       if (excess <= 1e-18L * limit * limit) break;
       Real slope = 0.0L;
       for (std::size_t d = 0; d < 2; ++d) {
-        slope += 2.0L * f[d] * f[d] * (k_[d] / k) / (1.0L + lambda * k_[d] / k);
+        slope += 2.0L * f[d] * f[d] * (now.k[d] / k) / (1.0L + lambda * now.k[d] / k);
       }
       lambda += excess / slope;
-      for (std::size_t d = 0; d < 2; ++d) f[d] = trial[d] / (1.0L + lambda * k_[d] / k);
+      for (std::size_t d = 0; d < 2; ++d) f[d] = trial[d] / (1.0L + lambda * now.k[d] / k);
     }
     return f;
   }

@@ -2,9 +2,12 @@
 /// The planar friction cycle of one point by another road than the law: fixed steps in extended
 /// precision, one implicit return f = (I + λK)⁻¹ f* per step with λ by bisection, trapezoidal Fourier sums,
 /// and Richardson's extrapolation over three step sizes. Steps begin where contact does; no other event
-/// is located. Knows only n = max(0, n₀ + k_v v), |f| ≤ μ n, f = K (x − s) and that s moves along f.
+/// is located. Knows only n = max(0, n₀ + k_v v), or a law of its own, |f| ≤ μ n, f = K (x − s) and that s
+/// moves along f.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "contact/contact_patch.hpp"
@@ -12,10 +15,19 @@
 
 namespace microslip::test {
 
+/// What a surface makes of approach and speed at one instant.
+struct SurfaceMoment {
+  long double gap_load = 0.0L;             ///< > 0 in contact
+  long double limit = 0.0L;                ///< μ n
+  std::array<long double, 2> stiffness{};  ///< along p, r
+};
+
 struct PlanarCase {
   contact::PointParameters point;
   double second_stiffness = 0.0;  ///< k_w
   contact::Harmonics motion;      ///< u, v, w
+  /// Of approach and speed hypot(u', w') at ω = 1, in place of `point`; empty for smooth surfaces.
+  std::function<SurfaceMoment(long double, long double)> surface;
 };
 
 struct PlanarReference {

@@ -3,8 +3,9 @@
 // With the same quadrature (four points for K and M of tet10) the matrices agree but for rounding and
 // the precision of the deck, 12 digits of a coordinate; what is left is the seventh digit CalculiX
 // prints: 1e-6. The mass of hex20 is integrated with 27 points there and exactly here, which shows in
-// the sixth digit on distorted elements: 1e-5. How the accurate rule of tet10 differs from four points
-// is in fem/test_element_matrices.cpp.
+// the sixth digit on distorted elements: 1e-5. The blade is the default geometry as it is exported, of curved
+// tet10. Its modes are usually computed with the accurate rule, which is a little stiffer on curved elements:
+// that difference is printed and bounded too; it falls with the elements.
 //
 // CalculiX is run before PETSc is opened: nothing is started as a child once MPI is up.
 #include <cmath>
@@ -14,8 +15,11 @@
 
 #include "fem/modal_analysis.hpp"
 #include "fem/slepc_session.hpp"
+#include "mesh/mesh_reader.hpp"
+#include "mesh/mesher_process.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/calculix.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace microslip {
 namespace {
@@ -28,6 +32,7 @@ struct Case {
   mesh::Mesh mesh;
   double tolerance;
   Eigen::VectorXd calculix;
+  const char* foot = "z0";
 };
 
 // A tapered plate, twisted by 40° from foot to tip and bowed: every edge is curved.
@@ -45,6 +50,12 @@ mesh::Mesh plate(mesh::ElementType type, bool curved) {
   return curved ? test::box_mesh(type, grid) : test::straight_box_mesh(type, grid);
 }
 
+mesh::Mesh blade(double element_size) {
+  const test::TemporaryFolder folder;
+  mesh::mesh_blade({}, element_size, folder.path() / "blade.msh");
+  return mesh::read_gmsh(folder.path() / "blade.msh");
+}
+
 std::vector<Case> cases() {
   using mesh::ElementType;
   std::vector<Case> all;
@@ -52,24 +63,34 @@ std::vector<Case> cases() {
   all.push_back({"tet10 curved", plate(ElementType::tet10, true), 1e-6, {}});
   all.push_back({"hex20 straight", plate(ElementType::hex20, false), 1e-5, {}});
   all.push_back({"hex20 curved", plate(ElementType::hex20, true), 1e-5, {}});
+  all.push_back({"blade, 6 mm", blade(0.006), 1e-5, {}, "root"});
+  all.push_back({"blade, 4 mm", blade(0.004), 1e-5, {}, "root"});
   return all;
+}
+
+double largest_error(const Case& one, fem::Tet10Rule rule) {
+  fem::Structure structure(one.mesh, titanium, {one.foot}, rule);
+  const Eigen::VectorXd frequency = structure.solve_modes({.n_modes = n_modes}).frequency;
+  return (frequency - one.calculix).cwiseQuotient(one.calculix).cwiseAbs().maxCoeff();
 }
 
 TEST(CalculiX, FindsTheSameTenFrequencies) {
   if (!test::has_calculix()) GTEST_SKIP() << "ccx is not on PATH (apt: calculix-ccx)";
   std::vector<Case> all = cases();
   for (Case& one : all) {
-    one.calculix = test::calculix_frequencies(one.mesh, titanium, {"z0"}, n_modes);
+    one.calculix = test::calculix_frequencies(one.mesh, titanium, {one.foot}, n_modes);
   }
   const fem::SlepcSession session;
-  std::printf("%-26s %14s %14s %10s\n", "mesh", "first [rad/s]", "CalculiX", "largest");
+  std::printf("%-20s %16s %22s %22s\n", "mesh", "CalculiX [rad/s]", "same rule, largest", "accurate, largest");
+  double last = 0.0;
   for (const Case& one : all) {
-    fem::Structure structure(one.mesh, titanium, {"z0"}, fem::Tet10Rule::four_point);
-    const Eigen::VectorXd frequency = structure.solve_modes({.n_modes = n_modes}).frequency;
-    const double error = (frequency - one.calculix).cwiseQuotient(one.calculix).cwiseAbs().maxCoeff();
-    std::printf("%-26s %14.6f %14.6f %10.1e\n", one.name, frequency[0], one.calculix[0], error);
-    EXPECT_LT(error, one.tolerance) << one.name;
+    const double same = largest_error(one, fem::Tet10Rule::four_point);
+    const double accurate = largest_error(one, fem::Tet10Rule::accurate);
+    std::printf("%-20s %16.6f %22.1e %22.1e\n", one.name, one.calculix[0], same, accurate);
+    EXPECT_LT(same, one.tolerance) << one.name;
+    last = accurate;
   }
+  EXPECT_LT(last, 5e-4);  // the finest blade: 3.9e-4, against 1.0e-3 at 6 mm
 }
 
 }  // namespace

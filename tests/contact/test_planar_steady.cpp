@@ -1,0 +1,167 @@
+// The periodic slider of a planar point: where a stuck one comes to rest, against its closed form
+// and against the plain march, and how the search ends at the onset of slip.
+#include "contact/planar_steady.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "contact/planar_cycle.hpp"
+#include "support/planar_cases.hpp"
+
+namespace microslip::contact {
+namespace {
+
+constexpr double tight = 1e-11;
+
+/// u = a sin θ under a limit μn₀/k = 1 with a mean w₀ across.
+Harmonics straight_with_mean(double amplitude, double mean) {
+  Harmonics motion(1, 3);
+  motion.rows()(1, 0) = amplitude;
+  motion.rows()(0, 2) = mean;
+  return motion;
+}
+
+PlanarLaw unit_law() { return PlanarLaw(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
+
+// Discs of radius 1 around (±a, 0) meet at (0, ±√(1 − a²)): a mean larger than that is let slip
+// until the spring across carries just this much. With a → 1 a march would need 1/(1 − a) periods
+// and more.
+TEST(PlanarSteady, AStuckPointKeepsAsMuchMeanAsItsCornerAllows) {
+  for (const double gap : {0.2, 1e-2, 1e-4, 1e-6, 1e-9}) {
+    const double a = 1.0 - gap;
+    for (const double mean : {0.9, 3.0, -40.0}) {
+      PointTraction traction;
+      unit_law().traction(straight_with_mean(a, mean), 1.0, traction);
+      const double held = std::copysign(std::sqrt(gap * (2.0 - gap)), mean);
+      EXPECT_EQ(traction.regime, CycleRegime::full_stick);
+      // Rounding of the radius moves the corner by 1e-16/held.
+      const double tolerance = tight + 1e-15 / std::abs(held);
+      EXPECT_NEAR(traction.force.mean()[2], held, tolerance) << "gap " << gap;
+      EXPECT_NEAR(traction.force.rows()(1, 0), a, tolerance);
+      EXPECT_NEAR(traction.force.mean()[0], 0.0, tolerance);
+      // d held / d a = −a / held; the mean itself no longer matters.
+      const double slope = -a / held;
+      EXPECT_NEAR(traction.jacobian(2, 3), slope, 1e-7 * std::abs(slope));
+      EXPECT_NEAR(traction.jacobian(2, 2), 0.0, 1e-12);
+    }
+  }
+}
+
+// Beyond the onset no mean is held.
+TEST(PlanarSteady, ASlippingPointHoldsNoMeanAcrossAStraightMotion) {
+  for (const double excess : {1e-1, 1e-3, 1e-5}) {
+    PointTraction traction;
+    unit_law().traction(straight_with_mean(1.0 + excess, 2.0), 1.0, traction);
+    EXPECT_EQ(traction.regime, CycleRegime::stick_slip);
+    // Slip by `excess` brings the mean down by that share of it a period: rounding of 1e-16 leaves
+    // its inverse.
+    EXPECT_NEAR(traction.force.mean()[2], 0.0, tight + 1e-15 / excess) << "excess " << excess;
+  }
+}
+
+struct March {
+  Eigen::Vector2d slider = Eigen::Vector2d::Zero();
+  bool settled = false;
+};
+
+/// Period by period from the virgin slider, without any help.
+March long_march(const PlanarMotion& motion, const std::vector<PlanarInterval>& intervals,
+                 const OrbitOptions& options, int most_periods) {
+  March march{motion.virgin_slider(), false};
+  for (int period = 0; period < most_periods && !march.settled; ++period) {
+    const PlanarOrbit orbit = walk_orbit(motion, intervals, march.slider, options);
+    const double moved = motion.stiffness().cwiseProduct(orbit.end - march.slider).norm();
+    march.slider = orbit.end;
+    march.settled = !orbit.slips || moved < 1e-15;
+  }
+  return march;
+}
+
+struct Tally {
+  int corners = 0;
+  int settled = 0;
+  int at_rest = 0;
+};
+
+void compare(const test::PlanarCase& c, int i, Tally& tally) {
+  const SurfaceLaw law(c.point, c.second_stiffness);
+  const PlanarMotion motion(law, c.motion, 1.0);
+  const std::vector<PlanarInterval> intervals = planar_intervals(motion);
+  const OrbitOptions options{tight, static_cast<double>(c.motion.n_harmonics())};
+  const SteadyOrbit steady = steady_orbit(motion, intervals, options);
+  if (steady.regime != CycleRegime::full_stick) return;
+  const March march = long_march(motion, intervals, options, 1000);
+  tally.corners += steady.corner.has_value();
+  if (!march.settled) return;
+  ++tally.settled;
+  tally.at_rest += !steady.corner.has_value();
+  const Eigen::Vector2d apart = motion.stiffness().cwiseProduct(steady.orbit.begin - march.slider);
+  // The march sums the errors of its walks.
+  EXPECT_LT(apart.norm(), 100.0 * tight) << "case " << i;
+}
+
+TEST(PlanarSteady, AStuckPointEndsWhereTheMarchEnds) {
+  std::mt19937_64 random(3);
+  Tally tally;
+  for (int i = 0; i < 400; ++i) {
+    compare(test::dragged_planar(random), i, tally);
+    compare(test::creeping_planar(random), i, tally);
+  }
+  EXPECT_GT(tally.corners, 20);
+  EXPECT_GT(tally.at_rest, 200);
+  EXPECT_GT(tally.settled, 400);
+}
+
+TEST(PlanarSteady, TheCornerMovesAsItsDerivativeSays) {
+  std::mt19937_64 random(4);
+  int tested = 0;
+  for (int i = 0; i < 400; ++i) {
+    test::PlanarCase c = test::creeping_planar(random);
+    const SurfaceLaw surface(c.point, c.second_stiffness);
+    const PlanarLaw law(surface, tight);
+    const PlanarMotion motion(surface, c.motion, 1.0);
+    const SteadyOrbit steady = steady_orbit(motion, planar_intervals(motion), {tight, 3.0});
+    if (!steady.corner.has_value()) continue;
+    ++tested;
+    PointTraction traction;
+    law.traction(c.motion, 1.0, traction);
+    const double size = c.motion.rows().cwiseAbs().maxCoeff();
+    const double step = 1e-6 * size;
+    for (Eigen::Index j = 0; j < c.motion.vector().size(); ++j) {
+      PointTraction right;
+      PointTraction left;
+      Harmonics moved = c.motion;
+      moved.vector()[j] += step;
+      law.traction(moved, 1.0, right);
+      moved.vector()[j] -= 2.0 * step;
+      law.traction(moved, 1.0, left);
+      const Eigen::VectorXd expected = (right.force.vector() - left.force.vector()) / (2.0 * step);
+      // The corner has a curvature of its own, large where the two edges meet at a small angle.
+      EXPECT_LT((expected - traction.jacobian.col(j)).norm(), 1e-4 * traction.jacobian.norm())
+          << "case " << i << ", column " << j;
+    }
+  }
+  EXPECT_GT(tested, 10);
+}
+
+// Long random searches: what is not met is said, and hardly anything is not met.
+TEST(PlanarSteady, HardlyAnySearchEndsBeforeItsTolerance) {
+  std::mt19937_64 random(9);
+  int unmet = 0;
+  for (int i = 0; i < 500; ++i) {
+    for (const test::PlanarStratum& stratum : test::planar_strata()) {
+      const test::PlanarCase c = stratum.draw(random);
+      PointTraction traction;
+      PlanarLaw(SurfaceLaw(c.point, c.second_stiffness), tight).traction(c.motion, 1.0, traction);
+      EXPECT_TRUE(traction.force.vector().allFinite() && traction.jacobian.allFinite());
+      EXPECT_TRUE(traction.defect == 0.0 || traction.defect > 0.01 * tight) << stratum.name;
+      unmet += traction.defect > 0.0;
+    }
+  }
+  EXPECT_LE(unmet, 1);
+}
+
+}  // namespace
+}  // namespace microslip::contact
