@@ -80,6 +80,8 @@ void patch_force(benchmark::State& state) {
   count_points(state, static_cast<std::size_t>(state.range(0)));
 }
 BENCHMARK(patch_force)->Arg(30)->Arg(300)->Arg(3000)->Arg(30000);
+// Patches side by side, as curves of a family are: the time per point of two against one is the gain.
+BENCHMARK(patch_force)->Name("patch_force_side_by_side")->Arg(3000)->Threads(1)->Threads(2)->UseRealTime();
 
 void cycles_only(benchmark::State& state) {
   const Setup s = setup(state.range(0));
