@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,18 +33,19 @@ void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index 
           "mode shapes " + std::string(name) + " have a value that is not finite");
 }
 
-// J_i Φ_i of a block of points, harmonic row by harmonic row: n_rows matrices of
+// J_i Φ_i of a block of points, harmonic row by harmonic row of those asked for: n_rows matrices of
 // (n_signals · block) × (n_rows · n_modes), then Φᵀ times these.
 class JacobianSum {
  public:
-  JacobianSum(const std::vector<const Eigen::MatrixXd*>& shapes, Eigen::Index n_rows)
+  JacobianSum(const std::vector<const Eigen::MatrixXd*>& shapes,
+              const std::vector<Eigen::Index>& rows)
       : shapes_(shapes),
-        n_rows_(n_rows),
+        rows_(rows),
+        n_rows_(static_cast<Eigen::Index>(rows.size())),
         n_modes_(shapes.front()->cols()),
         phi_(block_rows(), n_modes_),
-        moved_(static_cast<std::size_t>(n_rows),
-               Eigen::MatrixXd(block_rows(), n_rows * n_modes_)),
-        sum_(Eigen::MatrixXd::Zero(n_rows * n_modes_, n_rows * n_modes_)) {}
+        moved_(rows.size(), Eigen::MatrixXd(block_rows(), n_rows_ * n_modes_)),
+        sum_(Eigen::MatrixXd::Zero(n_rows_ * n_modes_, n_rows_ * n_modes_)) {}
 
   void add(Eigen::Index point, double weight, const Eigen::MatrixXd& jacobian) {
     const Eigen::Index n_signals = signals();
@@ -51,12 +53,14 @@ class JacobianSum {
     for (Eigen::Index s = 0; s < n_signals; ++s) {
       phi_.row(first + s) = shapes_[static_cast<std::size_t>(s)]->row(point);
     }
-    for (Eigen::Index k = 0; k < n_rows_; ++k) {
-      Eigen::MatrixXd& moved = moved_[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      Eigen::MatrixXd& moved = moved_[k];
       for (Eigen::Index l = 0; l < n_rows_; ++l) {
+        const Eigen::Index column = rows_[static_cast<std::size_t>(l)];
         moved.block(first, l * n_modes_, n_signals, n_modes_).noalias() =
             weight *
-            jacobian.block(n_point_signals * k, n_point_signals * l, n_signals, n_signals) *
+            jacobian.block(n_point_signals * rows_[k], n_point_signals * column, n_signals,
+                           n_signals) *
             phi_.middleRows(first, n_signals);
       }
     }
@@ -84,6 +88,7 @@ class JacobianSum {
   }
 
   const std::vector<const Eigen::MatrixXd*>& shapes_;
+  const std::vector<Eigen::Index>& rows_;
   Eigen::Index n_rows_;
   Eigen::Index n_modes_;
   Eigen::Index n_waiting_ = 0;
@@ -111,13 +116,20 @@ LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
 }
 
 ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) const {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(q.rows().rows()));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  return evaluate_rows(q, frequency, all);
+}
+
+ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequency,
+                                              const std::vector<Eigen::Index>& rows) const {
   const std::vector<Harmonics> motions = general_motions(shapes_, q);
   const Eigen::Index n_rows = q.rows().rows();
   const auto n_signals = static_cast<Eigen::Index>(shape_.size());
   // Weighted tractions and their derivatives by ω of all points: n_points × n_rows for each signal.
   std::vector<Eigen::MatrixXd> force(shape_.size(), Eigen::MatrixXd(weights_.size(), n_rows));
   std::vector<Eigen::MatrixXd> by_frequency = force;
-  JacobianSum jacobian(shape_, n_rows);
+  JacobianSum jacobian(shape_, rows);
   PointTraction traction;
   double defect = 0.0;
   for (Eigen::Index i = 0; i < weights_.size(); ++i) {
@@ -138,7 +150,7 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
             weights_[i] * traction.frequency_derivative[n_point_signals * k + s];
       }
     }
-    if (traction.regime != CycleRegime::separated) {
+    if (traction.regime != CycleRegime::separated && !rows.empty()) {
       jacobian.add(i, weights_[i], traction.jacobian);
     }
   }
@@ -149,7 +161,12 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
     derivative.rows() += by_frequency[s].transpose() * *shape_[s];
   }
   result.jacobian = jacobian.take();
-  result.frequency_derivative = derivative.vector();
+  result.frequency_derivative.resize(static_cast<Eigen::Index>(rows.size()) * n_modes());
+  Eigen::Index at = 0;
+  for (const Eigen::Index row : rows) {
+    result.frequency_derivative.segment(at, n_modes()) = derivative.rows().row(row).transpose();
+    at += n_modes();
+  }
   return result;
 }
 

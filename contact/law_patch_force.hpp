@@ -30,6 +30,10 @@ class LawPatchForce final : public ModalForce {
   [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
   /// @throws std::invalid_argument  another number of modes, or no harmonic.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
+  /// Points cost what all harmonics of q do, their sum over the patch what the rows do.
+  /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
+                                               const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

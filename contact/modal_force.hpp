@@ -8,6 +8,9 @@
 ///   (Ω − k²ω² + ikωC_r) A^(k) + G^(k)(B, A) = Q^(k),        Ω B + G_b(B, A) = Q_b.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "contact/harmonics.hpp"
@@ -51,6 +54,27 @@ class ModalForce {
   /// @param q          harmonics of the modal coordinates [m√kg].
   /// @param frequency  ω [rad/s].
   [[nodiscard]] virtual ForceAndJacobian evaluate(const Harmonics& q, double frequency) const = 0;
+  /// The same where only some harmonics are unknowns.
+  /// @param rows  of Harmonics::rows(), ascending, any number; derivatives are by these and of these alone:
+  ///              n = rows · n_modes. `force` has all rows of q.
+  [[nodiscard]] virtual ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
+                                                       const std::vector<Eigen::Index>& rows) const {
+    ForceAndJacobian all = evaluate(q, frequency);
+    const auto n = n_modes();
+    const auto n_rows = static_cast<Eigen::Index>(rows.size());
+    if (n_rows == q.rows().rows()) return all;
+    ForceAndJacobian some{std::move(all.force), Eigen::MatrixXd(n_rows * n, n_rows * n),
+                          Eigen::VectorXd(n_rows * n)};
+    for (Eigen::Index i = 0; i < n_rows; ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)] * n;
+      some.frequency_derivative.segment(i * n, n) = all.frequency_derivative.segment(row, n);
+      for (Eigen::Index j = 0; j < n_rows; ++j) {
+        const Eigen::Index column = rows[static_cast<std::size_t>(j)] * n;
+        some.jacobian.block(i * n, j * n, n, n) = all.jacobian.block(row, column, n, n);
+      }
+    }
+    return some;
+  }
   /// Shares of the states and work of slip for a solution.
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) const = 0;
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.

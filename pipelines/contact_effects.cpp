@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "contact/any_harmonics_force.hpp"
 #include "contact/event_law.hpp"
 #include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
@@ -171,7 +172,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
   for (std::size_t i = 0; i < points.size(); ++i) {
     const contact::PointParameters& point = points[i];
     const auto row = static_cast<Eigen::Index>(i);
-    if (!effects.second_direction && !effects.friction_law && !effects.roughness) {
+    if (effects.simple_laws()) {
       laws.push_back(std::make_shared<contact::EventLaw>(point));
       continue;
     }
@@ -199,6 +200,11 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
         contact::ContactPatch(model.weights, point_parameters(model, load, false)),
         simulated_shapes(model, false));
   }
+  if (model.effects.simple_laws()) {
+    return std::make_unique<contact::AnyHarmonicsForce>(
+        contact::ContactPatch(model.weights, point_parameters(model, load, false)),
+        simulated_shapes(model, false));
+  }
   return std::make_unique<contact::LawPatchForce>(model.weights, point_laws(model, load, false),
                                                   simulated_shapes(model, false));
 }
@@ -206,7 +212,7 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
 std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
   const ContactEffects& effects = model.effects;
-  if (effects.second_direction || effects.friction_law || effects.roughness) {
+  if (!effects.simple_laws()) {
     throw RefusedError(fmt::format(
         "response.method = \"time\" integrates smooth contact with constant friction along p; this scene "
         "has {}",

@@ -1,6 +1,7 @@
 /// @file
 /// Which effects of contact a run simulates, and the contact force that simulates them: the closed form
-/// of one harmonic and one direction where that is all a scene calls for, laws of single points else.
+/// of one harmonic and one direction where that is all a scene, or a motion, calls for, laws of single
+/// points else.
 #pragma once
 
 #include <memory>

@@ -1,9 +1,11 @@
 #include "pipelines/effects.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace microslip::pipelines {
 namespace {
@@ -55,6 +57,24 @@ void add_second_direction(const SceneDescription& scene, const ReducedModel* mod
   effects.push_back({"second_direction", setting, simulated, reason});
 }
 
+std::string harmonics_text(const SceneDescription& scene) {
+  if (!scene.response) return "";
+  const ResponseDescription& response = *scene.response;
+  if (response.method == ResponseDescription::Method::time) {
+    return "a motion integrated in time has all harmonics";
+  }
+  if (response.harmonic_tolerance > 0.0) {
+    return fmt::format(
+        "response.harmonics = \"auto\": those beyond the first while they change the amplitude by more "
+        "than {:.2g} %",
+        100.0 * response.harmonic_tolerance);
+  }
+  if (response.harmonic_orders.empty()) {
+    return fmt::format("response.harmonics = {}", response.harmonics);
+  }
+  return fmt::format("response.harmonics = [{}]", fmt::join(response.harmonic_orders, ", "));
+}
+
 }  // namespace
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
@@ -77,17 +97,40 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"
                        : "the given stiffness is used as it is");
-  add("stability", facts.has_contact, "slow-flow eigenvalues of every point",
+  const bool several = scene.response && scene.response->harmonics > 1;
+  add("stability", facts.has_contact,
+      several ? "Hill's exponents of every point with several harmonics, where they can tell"
+              : "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add_second_direction(scene, model, effects);
-  const int harmonics = scene.response ? scene.response->harmonics : 1;
-  add("higher_harmonics", harmonics > 1, fmt::format("response.harmonics = {}", harmonics),
+  add("higher_harmonics", scene.response && scene.response->harmonics > 1, harmonics_text(scene),
       "response.harmonics = 1");
   add("roughness", scene.laws.roughness.has_value(), "the surfaces are rough",
       "no roughness is given");
   add("rate_dependence", scene.laws.friction.has_value(),
       "the friction coefficient follows the slip speed", "the friction coefficient is constant");
   return effects;
+}
+
+void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
+                    std::vector<EffectRecord>& effects) {
+  if (!scene.response || !(scene.response->harmonic_tolerance > 0.0)) return;
+  std::set<int> orders;
+  std::size_t most = 0;
+  double left_out = 0.0;
+  for (const CurveSummary& curve : curves) {
+    orders.insert(curve.harmonic_orders.begin(), curve.harmonic_orders.end());
+    most = std::max(most, curve.most_harmonics);
+    left_out = std::max(left_out, curve.largest_left_out);
+  }
+  if (orders.empty()) return;
+  for (EffectRecord& effect : effects) {
+    if (effect.name != "higher_harmonics") continue;
+    effect.simulated = *orders.rbegin() > 1;
+    effect.reason = fmt::format(
+        "{}; up to {} at a point, of the orders {}; those left out change it by {:.2g} % at most",
+        harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
+  }
 }
 
 }  // namespace microslip::pipelines

@@ -14,4 +14,8 @@ namespace microslip::pipelines {
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
                                                    const ReducedModel* model);
 
+/// Tells with the results what harmonics = "auto" has chosen; nothing to tell where they were given.
+void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
+                    std::vector<EffectRecord>& effects);
+
 }  // namespace microslip::pipelines

@@ -225,6 +225,8 @@ solver::ContinuationOptions continuation_options(const ResponseDescription& resp
   options.frequency_begin = two_pi * response.frequency_begin_hz;
   options.frequency_end = two_pi * response.frequency_end_hz;
   options.n_harmonics = response.harmonics;
+  options.orders = response.harmonic_orders;
+  options.harmonic_tolerance = response.harmonic_tolerance;
   options.search_starts = response.search_starts;
   return options;
 }

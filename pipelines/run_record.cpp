@@ -205,6 +205,11 @@ void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
   summary_.effects = std::move(effects);
 }
 
+void RunRecord::keep_harmonics(const SceneDescription& scene) {
+  const std::lock_guard lock(mutex_);
+  tell_harmonics(scene, summary_.curves, summary_.effects);
+}
+
 void RunRecord::keep_model(const ReducedModel& model) {
   begin();
   const std::lock_guard lock(mutex_);

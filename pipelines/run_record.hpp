@@ -50,6 +50,8 @@ class RunRecord {
   /// model.h5; a modal scene's modes.csv as well.
   void keep_effects(std::vector<EffectRecord> effects);
   void keep_model(const ReducedModel& model);
+  /// What the curves kept so far say about the harmonics chosen.
+  void keep_harmonics(const SceneDescription& scene);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
   /// A modal scene's scale is told as the total force it means.

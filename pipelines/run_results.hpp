@@ -22,7 +22,7 @@ namespace microslip::pipelines {
 
 /// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
 struct ContactEffects {
-  int n_harmonics = 1;
+  int n_harmonics = 1;  ///< highest that may occur
   bool second_direction = false;
   double motion_ratio = 0.0;  ///< motion along r against that along p in the linear limits [-]
   std::optional<contact::FrictionLaw> friction_law;
@@ -30,10 +30,12 @@ struct ContactEffects {
   /// With rough surfaces: stiffness of the surfaces in full contact, bodies not included [N/m³].
   std::optional<double> local_tangential_stiffness, local_normal_stiffness;
 
-  /// The closed form of one harmonic and one direction does.
-  [[nodiscard]] bool closed_form() const {
-    return n_harmonics == 1 && !second_direction && !friction_law && !roughness;
+  /// One direction, constant friction, smooth surfaces.
+  [[nodiscard]] bool simple_laws() const {
+    return !second_direction && !friction_law && !roughness;
   }
+  /// The closed form of one harmonic and one direction does.
+  [[nodiscard]] bool closed_form() const { return n_harmonics == 1 && simple_laws(); }
 };
 
 /// What the response stage needs, and model.h5 holds. Contact arrays have n_points rows.

@@ -101,6 +101,9 @@ using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 /// A motion integrated in time has all harmonics; at least so many are kept of it.
 inline constexpr int least_harmonics_of_time = 15;
 
+/// Highest harmonic that "auto" may add.
+inline constexpr int most_automatic_harmonics = 31;
+
 /// The one number of a scene whose best value is searched.
 struct OptimumRequest {
   std::string key;  ///< "preload", or the key of another number: "contact.friction_coefficient"
@@ -114,7 +117,9 @@ struct ResponseDescription {
   OutputDescription output;         ///< kinds with a mesh
   double frequency_begin_hz = 0.0;
   double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
-  int harmonics = 1;
+  int harmonics = 1;                  ///< highest; with harmonic_tolerance the highest that may be added
+  std::vector<int> harmonic_orders;   ///< the only ones; empty: 1 … harmonics
+  double harmonic_tolerance = 0.0;    ///< above 0: chosen point by point, see solver::ContinuationOptions
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
   int search_starts = 0;   ///< of a search for detached branches; 0: none
   int n_time_points = 40;  ///< frequencies of method = "time"

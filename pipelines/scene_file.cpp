@@ -251,6 +251,39 @@ void read_maps(const SectionReader& s, ResponseDescription& response) {
   response.map_phases = s.integer("map_phases");
 }
 
+/// Orders of a list; 0, the mean, is always solved for.
+std::vector<int> read_orders(const SectionReader& s, const toml::array& list) {
+  std::vector<int> orders;
+  for (const toml::node& entry : list) {
+    const auto order = entry.is_integer() ? entry.value<int>() : std::nullopt;
+    constexpr int highest = 99;
+    if (!order || *order < 0 || *order > highest) {
+      s.fail("harmonics", fmt::format("expected whole numbers between 0 and {}", highest), &entry);
+    }
+    if (*order > 0) orders.push_back(*order);
+  }
+  if (std::find(orders.begin(), orders.end(), 1) == orders.end()) {
+    s.fail("harmonics", "the list needs 1, the harmonic of the excitation", &list);
+  }
+  return orders;
+}
+
+void read_harmonics(const SectionReader& s, ResponseDescription& response) {
+  const toml::node& node = *s.node("harmonics");
+  const double tolerance = s.number("harmonic_tolerance");
+  if (const toml::array* list = node.as_array()) {
+    response.harmonic_orders = read_orders(s, *list);
+    response.harmonics = *std::ranges::max_element(response.harmonic_orders);
+  } else if (node.value<std::string>() == "auto") {
+    response.harmonics = most_automatic_harmonics;
+    response.harmonic_tolerance = tolerance;
+  } else if (node.is_integer()) {
+    response.harmonics = s.integer("harmonics");
+  } else {
+    s.fail("harmonics", "expected a whole number, a list of them, or \"auto\"", &node);
+  }
+}
+
 void read_method(const SectionReader& s, ResponseDescription& response) {
   constexpr std::array<std::string_view, 2> methods{"harmonic_balance", "time"};
   if (s.word("method", methods) == "time") {
@@ -258,12 +291,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   }
   response.n_time_points = s.integer("points");
   response.search_starts = s.integer("search_starts");
-  const toml::node& harmonics = *s.node("harmonics");
-  if (!harmonics.is_integer()) {
-    s.fail("harmonics", "expected a whole number; \"auto\" is not available in this version",
-           &harmonics);
-  }
-  response.harmonics = s.integer("harmonics");
+  read_harmonics(s, response);
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {

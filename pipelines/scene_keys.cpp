@@ -206,7 +206,11 @@ constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, f
                              "harmonic_balance | time: integrated to the steady state, frequencies swept from → to"};
 constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
                                   "of method = \"time\": number of frequencies; continuation chooses its own"};
-constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false, "highest harmonic"};
+constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false,
+                                "highest harmonic, a list such as [1, 3, 5], or \"auto\": chosen point by point"};
+constexpr KeySpec harmonic_tolerance_key{
+    "harmonic_tolerance", number, "1", "0.001", 1e-9, 0.1, false,
+    "of harmonics = \"auto\": share of the amplitude that the harmonics left out may change"};
 constexpr KeySpec search_key{"search_starts", integer, "", "0", 0, 1000, false,
                              "starts of a search for branches detached from the curve; 0: none"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
@@ -233,6 +237,7 @@ constexpr std::array response_keys{
     method_key,
     time_points_key,
     harmonics_key,
+    harmonic_tolerance_key,
     search_key,
     preload_key,
     optimum_key,
@@ -248,6 +253,7 @@ constexpr std::array chain_response_keys{
     method_key,
     time_points_key,
     harmonics_key,
+    harmonic_tolerance_key,
     search_key,
     preload_key,
     optimum_key,
@@ -258,7 +264,8 @@ constexpr std::array chain_response_keys{
 };
 
 constexpr std::array modal_response_keys{
-    frequency_key, method_key, time_points_key, harmonics_key, search_key,
+    frequency_key, method_key, time_points_key, harmonics_key,
+    harmonic_tolerance_key, search_key,
     KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
     KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
     optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key,

@@ -60,6 +60,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     require_loads(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
+    record.keep_harmonics(scene);
     record.stage("maps");
     draw_maps(model, scene, curves, record);
     if (scene.response->optimum) {

@@ -50,7 +50,7 @@ std::string curve_table(const solver::ResponseCurve& curve) {
   std::string table =
       "frequency_Hz,amplitude_m,amplitude_1_m,mean_m,phase_deg,stable,stick_share,slip_share,"
       "separated_share,three_states_share,residual,energy_imbalance,dissipation_mismatch,mark,"
-      "awake_share,iterations\n";
+      "awake_share,iterations,harmonics\n";
   for (const solver::ResponsePoint& point : curve.points) {
     append_row(table, {point.frequency / two_pi, point.amplitude, point.first_amplitude, point.mean,
                        point.phase * degrees});
@@ -60,7 +60,10 @@ std::string curve_table(const solver::ResponseCurve& curve) {
                        point.residual, point.energy_imbalance, point.dissipation_mismatch});
     table += ",";
     table += mark_name(point.mark);
-    table += fmt::format(",{},{}\n", format_number(point.report.awake_share), point.iterations);
+    const std::size_t harmonics =
+        point.orders.empty() ? static_cast<std::size_t>(point.q.n_harmonics()) : point.orders.size();
+    table += fmt::format(",{},{},{}\n", format_number(point.report.awake_share), point.iterations,
+                         harmonics);
   }
   return table;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,9 @@ struct CurveSummary {
   double largest_energy_imbalance = 0.0;
   double largest_dissipation_mismatch = 0.0;
   double largest_three_states_share = 0.0;
+  std::set<int> harmonic_orders;    ///< that were unknowns at some point, beside the mean
+  std::size_t most_harmonics = 0;   ///< at one point
+  double largest_left_out = 0.0;    ///< of the amplitude, where harmonics are chosen: by those left out
   std::vector<std::string> maps;  ///< stems in maps/
   std::string certificate;        ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;

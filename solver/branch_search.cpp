@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -25,7 +26,7 @@ constexpr std::size_t most_branches = 10;
 class Search {
  public:
   Search(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve)
-      : scene_(scene), options_(options), curve_(curve), balance_(scene, options.n_harmonics) {}
+      : scene_(scene), options_(options), curve_(curve) {}
 
   void run() {
     for (int i = 0; i < n_frequencies; ++i) {
@@ -38,6 +39,13 @@ class Search {
 
  private:
   void search_at(double frequency) {
+    // All harmonics that the branches known have: solutions are compared in the same unknowns.
+    HarmonicSet set = first_harmonics(scene_, options_);
+    for (const ResponsePoint& point : curve_.points) set = set.united(point.orders);
+    for (const DetachedBranch& branch : curve_.detached) {
+      for (const ResponsePoint& point : branch.points) set = set.united(point.orders);
+    }
+    balance_ = std::make_unique<HarmonicBalance>(scene_, std::move(set));
     std::vector<Eigen::VectorXd> known = known_at(frequency);
     for (int i = 0; i < options_.search_starts; ++i) {
       if (curve_.detached.size() >= most_branches) return;
@@ -47,7 +55,7 @@ class Search {
       if (!found) continue;
       NewtonOptions newton;
       newton.tolerance = options_.residual_tolerance;
-      NewtonResult solution = solve_at(balance_, *found, frequency, newton);
+      NewtonResult solution = solve_at(*balance_, *found, frequency, newton);
       count(solution.iterations, solution.evaluations);
       if (!solution.converged || near(solution.point.x, known)) continue;
       const Eigen::VectorXd x = solution.point.x;
@@ -66,7 +74,12 @@ class Search {
     std::vector<Eigen::VectorXd> known;
     const auto add = [&](const ResponseCurve& curve) {
       for (const auto& point : points_at_frequency(scene_, curve, frequency, options_)) {
-        known.push_back(point.q.vector());
+        Eigen::VectorXd x = balance_->unknowns(point.q);
+        if (point.orders != balance_->set().orders()) {
+          NewtonResult solution = solve_at(*balance_, x, frequency, {});
+          if (solution.converged) x = std::move(solution.point.x);
+        }
+        known.push_back(std::move(x));
       }
     };
     add(curve_);
@@ -95,12 +108,12 @@ class Search {
     const int n_bases = 2 + static_cast<int>(known.size());
     const int base = index % n_bases;
     const int round = index / n_bases;
-    Eigen::VectorXd x = base == 0 ? balance_.linear_response(frequency, balance_.stuck_stiffness())
+    Eigen::VectorXd x = base == 0 ? balance_->linear_response(frequency, balance_->stuck_stiffness())
                         : base == 1
-                            ? balance_.linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
+                            ? balance_->linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
                             : known[static_cast<std::size_t>(base - 2)];
     if (!x.allFinite()) x = Eigen::VectorXd::Ones(x.size());
-    Harmonics q = balance_.harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
+    Harmonics q = balance_->harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
     const double turn = 1.0 * round;  // rad: never the same twice
     for (int k = 1; k <= q.n_harmonics(); ++k) {
       const Eigen::RowVectorXd sine = q.sine(k);
@@ -108,7 +121,7 @@ class Search {
       q.rows().row(2 * k - 1) = std::cos(k * turn) * sine - std::sin(k * turn) * cosine;
       q.rows().row(2 * k) = std::sin(k * turn) * sine + std::cos(k * turn) * cosine;
     }
-    return q.vector();
+    return balance_->unknowns(q);
   }
 
   [[nodiscard]] static double factor(const Eigen::VectorXd& x, double size,
@@ -138,12 +151,12 @@ class Search {
     if (known.empty()) return std::nullopt;
     double size = 0.0;
     for (const Eigen::VectorXd& other : known) size = std::max(size, other.norm());
-    if (size == 0.0) size = natural_scaling(balance_, x, frequency).x;
-    const double scale = natural_scaling(balance_, known.front(), frequency).residual;
+    if (size == 0.0) size = natural_scaling(*balance_, x, frequency).x;
+    const double scale = natural_scaling(*balance_, known.front(), frequency).residual;
     for (const Eigen::VectorXd& other : known) {
       if ((x - other).norm() < 1e-2 * size) x *= 1.1;  // m has no value at a known solution
     }
-    BalanceEvaluation at = balance_.evaluate(x, frequency);
+    BalanceEvaluation at = balance_->evaluate(x, frequency);
     count(0, 1);
     for (int i = 0; i < most_iterations; ++i) {
       const double merit = factor(x, size, known) * at.residual.norm();
@@ -157,7 +170,7 @@ class Search {
       double length = 1.0;
       for (int k = 0; k <= most_halvings; ++k, length *= 0.5) {
         const Eigen::VectorXd next = x + length * step;
-        BalanceEvaluation there = balance_.evaluate(next, frequency);
+        BalanceEvaluation there = balance_->evaluate(next, frequency);
         count(0, 1);
         // The last try is taken even if it rises: between regimes no length may do.
         if (factor(next, size, known) * there.residual.norm() < merit || k == most_halvings) {
@@ -174,12 +187,12 @@ class Search {
     const PointObserver none;
     ContinuationOptions backward = options_;
     std::swap(backward.frequency_begin, backward.frequency_end);
-    const ResponseCurve ahead = CurveTracer(scene_, options_, none).follow(start);
+    const ResponseCurve ahead = CurveTracer(scene_, options_, none).follow(start, balance_->set());
     count_work(ahead);
     DetachedBranch branch;
     branch.closed = ahead.diagnosis == "loop";
     if (!branch.closed) {
-      const ResponseCurve back = CurveTracer(scene_, backward, none).follow(std::move(start));
+      const ResponseCurve back = CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
       count_work(back);
       branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
     }
@@ -195,7 +208,7 @@ class Search {
   const Scene& scene_;
   const ContinuationOptions& options_;
   ResponseCurve& curve_;
-  HarmonicBalance balance_;
+  std::unique_ptr<HarmonicBalance> balance_;
 };
 
 }  // namespace

@@ -132,6 +132,38 @@ bool BranchWalker::advance() {
   return turn_at_kink() || leap();
 }
 
+std::optional<BranchWalker::Trial> BranchWalker::carried(const WalkerPoint& from,
+                                                        const UnknownMap& map) const {
+  constexpr double farthest = 0.5;  // of the amplitude: a harmonic that does more belongs elsewhere
+  BranchVector direction{map(from.tangent.x), from.tangent.parameter};
+  const double size = length(direction);
+  direction.x /= size;
+  direction.parameter /= size;
+  const BranchVector start{map(from.solution.point.x), from.solution.point.parameter};
+  NewtonResult solution = solve_newton(system_, start, direction, from.scaling, {});
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  const bool near = length(difference(solution.point, start, from.scaling)) < farthest;
+  if (!solution.converged || !near) return std::nullopt;
+  const Scaling scaling = rule_(solution);
+  const Tangent tangent =
+      branch_tangent(solution.evaluation, rescaled(direction, from.scaling, scaling), scaling);
+  Trial trial;
+  trial.point = {std::move(solution), tangent.direction, scaling};
+  trial.orientation = tangent.orientation;
+  return trial;
+}
+
+bool BranchWalker::change_unknowns(const UnknownMap& map) {
+  std::optional<Trial> before = carried(before_, map);
+  std::optional<Trial> now = before ? carried(now_, map) : std::nullopt;
+  if (!now) return false;
+  before_ = std::move(before->point);
+  now_ = std::move(now->point);
+  orientation_ = now->orientation;
+  return true;
+}
+
 Stall BranchWalker::stall() const {
   constexpr double chattering = 1e-3;  // relative change of the Jacobian over a step of 1e-6
   constexpr double vertical = 0.1;     // share of the parameter in the tangent

@@ -15,6 +15,9 @@ namespace microslip::solver {
 /// Scaling for the next step at an accepted point.
 using ScalingRule = std::function<Scaling(const NewtonResult& at)>;
 
+/// Takes a vector of the old unknowns to the new ones.
+using UnknownMap = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
+
 /// A point of the branch with what the next step and the search for peaks and folds need.
 struct WalkerPoint {
   NewtonResult solution;
@@ -47,6 +50,11 @@ class BranchWalker {
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
   [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
 
+  /// Goes on with other unknowns of the same branch: now() and before() are carried over, corrected
+  /// across the branch. The system and the scaling rule must know the new unknowns already.
+  /// @return false: a correction failed or led far away; nothing is changed.
+  [[nodiscard]] bool change_unknowns(const UnknownMap& map);
+
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
   [[nodiscard]] double step() const { return step_; }
@@ -73,6 +81,7 @@ class BranchWalker {
   void remember(const char* remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
+  [[nodiscard]] std::optional<Trial> carried(const WalkerPoint& from, const UnknownMap& map) const;
 
   ParametricSystem system_;
   ScalingRule rule_;

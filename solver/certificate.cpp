@@ -41,6 +41,7 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   ResponsePoint point;
   point.frequency = frequency;
   point.q = balance.harmonics(solution.point.x);
+  point.orders = balance.set().orders();
   const OutputAmplitude output = output_amplitude(point.q, scene.output);
   point.amplitude = output.half_peak_to_peak;
   point.first_amplitude = output.first_harmonic;

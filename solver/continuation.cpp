@@ -11,6 +11,7 @@
 #include "solver/branch_search.hpp"
 #include "solver/certificate.hpp"
 #include "solver/curve_tracer.hpp"
+#include "solver/harmonic_choice.hpp"
 #include "solver/linear_certificate.hpp"
 #include "solver/linear_force.hpp"
 #include "solver/start_point.hpp"
@@ -87,7 +88,7 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   if (!options.linear_certificate || !scene.contact) return std::nullopt;
   const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
   const LinearCertificate proof =
-      certify_linear(HarmonicBalance(scene, options.n_harmonics), low, high);
+      certify_linear(HarmonicBalance(scene, first_harmonics(scene, options)), low, high);
   if (proof.state == contact::LinearState::unknown) return std::nullopt;
   const bool stuck = proof.state == contact::LinearState::stuck;
   const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
@@ -101,7 +102,38 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   return curve;
 }
 
+/// A solution at a fixed frequency as a point, after more harmonics are added where they are chosen.
+ResponsePoint point_with_harmonics(const Scene& scene, HarmonicSet set, NewtonResult solution,
+                                   const ContinuationOptions& options, ResponseCurve& curve) {
+  double left_out = 0.0;
+  if (options.harmonic_tolerance > 0.0) {
+    const HarmonicChoice choice(scene, options.harmonic_tolerance, options.n_harmonics);
+    SettledSolution settled = settle_harmonics(choice, scene, std::move(set), std::move(solution),
+                                               options.residual_tolerance);
+    curve.iterations += settled.iterations;
+    curve.contact_evaluations += settled.evaluations;
+    const double frequency = settled.solution.point.parameter;
+    if (!settled.settled) curve.log.push_back({frequency, "harmonics-kept"});
+    set = std::move(settled.set);
+    solution = std::move(settled.solution);
+    left_out = settled.left_out;
+  }
+  const HarmonicBalance balance(scene, std::move(set));
+  const double frequency = solution.point.parameter;
+  const auto stability = assess_stability(balance, solution.evaluation.jacobian, frequency);
+  ResponsePoint point = certified_point(balance, solution, frequency, stability);
+  point.harmonics_left_out = left_out;
+  return point;
+}
+
 }  // namespace
+
+HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
+  if (options.harmonic_tolerance > 0.0) {
+    return HarmonicChoice(scene, options.harmonic_tolerance, options.n_harmonics).least();
+  }
+  return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
+}
 
 ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
                              const PointObserver& observe) {
@@ -139,16 +171,15 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   here.frequency_begin = here.frequency_end = frequency;
   check_range(here);
   const Stopwatch watch;
-  const HarmonicBalance balance(scene, options.n_harmonics);
-  const StartPoint start = find_start(balance, frequency, options.residual_tolerance);
+  HarmonicSet set = first_harmonics(scene, options);
+  StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
-    const auto stability =
-        assess_stability(balance, start.solution->evaluation.jacobian, frequency);
-    curve.points.push_back(certified_point(balance, *start.solution, frequency, stability));
-    curve.points.back().contact_evaluations = start.evaluations;
+    curve.points.push_back(point_with_harmonics(scene, std::move(set), std::move(*start.solution),
+                                                options, curve));
+    curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
   } else {
@@ -162,7 +193,8 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
 std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const ResponseCurve& curve,
                                                double frequency,
                                                const ContinuationOptions& options) {
-  const HarmonicBalance balance(scene, options.n_harmonics);
+  const HarmonicSet least = first_harmonics(scene, options);
+  std::unique_ptr<HarmonicBalance> balance;
   std::vector<ResponsePoint> found;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const ResponsePoint& a = curve.points[i - 1];
@@ -171,15 +203,18 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     const bool ends_here = i + 1 == curve.points.size() && b.frequency == frequency && !crosses;
     if (!crosses && !ends_here) continue;
     const double share = ends_here ? 1.0 : (frequency - a.frequency) / (b.frequency - a.frequency);
-    const Eigen::VectorXd guess = (1.0 - share) * a.q.vector() + share * b.q.vector();
+    const HarmonicSet set = least.united(a.orders).united(b.orders);
+    if (!balance || balance->set() != set) balance = std::make_unique<HarmonicBalance>(scene, set);
+    const Eigen::VectorXd guess =
+        (1.0 - share) * balance->unknowns(a.q) + share * balance->unknowns(b.q);
     NewtonOptions newton;
     newton.tolerance = options.residual_tolerance;
     newton.max_iterations = 30;
-    const NewtonResult solution = solve_at(balance, guess, frequency, newton);
+    const NewtonResult solution = solve_at(*balance, guess, frequency, newton);
     if (!solution.converged) continue;
     found.push_back(
-        certified_point(balance, solution, frequency,
-                        assess_stability(balance, solution.evaluation.jacobian, frequency)));
+        certified_point(*balance, solution, frequency,
+                        assess_stability(*balance, solution.evaluation.jacobian, frequency)));
   }
   return found;
 }

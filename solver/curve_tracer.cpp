@@ -50,10 +50,15 @@ std::string at_hertz(const std::string& text, double frequency) {
 
 CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
                          const PointObserver& observe)
-    : balance_(scene, options.n_harmonics),
+    : scene_(scene),
       options_(options),
+      balance_(std::make_unique<HarmonicBalance>(scene, first_harmonics(scene, options))),
       observe_(observe),
-      range_(std::abs(options.frequency_end - options.frequency_begin)) {}
+      range_(std::abs(options.frequency_end - options.frequency_begin)) {
+  if (options.harmonic_tolerance > 0.0) {
+    choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
+  }
+}
 
 double CurveTracer::progress(double frequency) const {
   return (frequency - options_.frequency_begin) /
@@ -62,21 +67,24 @@ double CurveTracer::progress(double frequency) const {
 
 StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
   if (last_x_.size() != at.point.x.size() || last_x_ != at.point.x) {
-    last_stability_ = assess_stability(balance_, at.evaluation.jacobian, at.point.parameter);
+    last_stability_ = slow_flow_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
     last_x_ = at.point.x;
   }
   return last_stability_;
 }
 
 Scaling CurveTracer::scaling_at(const NewtonResult& at) {
-  Scaling scaling = natural_scaling(balance_, at.point.x, at.point.parameter);
+  Scaling scaling = natural_scaling(*balance_, at.point.x, at.point.parameter);
   scaling.parameter = std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
   return scaling;
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  ResponsePoint point = certified_point(balance_, at, at.point.parameter, stability_at(at));
+  const StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
+                                                   at.point.parameter, stability_at(at));
+  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
+  point.harmonics_left_out = left_out_;
   // At a fold a multiplier is 1: on which side it falls is rounding.
   if (mark == PointMark::fold) point.stability = Stability::not_assessed;
   return point;
@@ -110,16 +118,32 @@ void CurveTracer::stop(const std::string& diagnosis, const std::string& message)
   curve_.message = message;
 }
 
-bool CurveTracer::add_specials(const BranchWalker& walker, double share_of_segment) {
-  const std::vector<SpecialPoint> found = special_points(walker, balance_);
-  take_stock(walker);
-  for (const SpecialPoint& special : found) {
-    if (special.share < share_of_segment && !add(special.solution, special.mark)) return false;
+bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
+  const double left_out_now = left_out_;
+  std::vector<SpecialPoint> found = special_points(walker, *balance_);
+  std::vector<double> left_out(found.size(), 0.0);
+  const auto any_lacks = [&] {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (enlarge(walker, found[i].solution.point)) return true;
+      left_out[i] = left_out_;
+    }
+    return false;
+  };
+  while (choice_ && any_lacks()) {
+    found = special_points(walker, *balance_);
+    left_out.assign(found.size(), 0.0);
   }
+  take_stock(walker);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    left_out_ = left_out[i];
+    const bool within = found[i].share < share_of_segment;
+    if (within && !add(found[i].solution, found[i].mark)) return false;
+  }
+  left_out_ = left_out_now;
   return true;
 }
 
-bool CurveTracer::finish(const BranchWalker& walker) {
+bool CurveTracer::finish(BranchWalker& walker) {
   const double before = walker.before().solution.point.parameter;
   const double now = walker.now().solution.point.parameter;
   const double share = (options_.frequency_end - before) / (now - before);
@@ -147,7 +171,8 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
                       (a.parameter - b.parameter) / scaling.parameter);
   };
   const BranchVector& now = walker.now().solution.point;
-  return distance(now, *entry_) < distance(now, walker.before().solution.point);
+  const BranchVector entry{balance_->unknowns(entry_->q), entry_->frequency};
+  return distance(now, entry) < distance(now, walker.before().solution.point);
 }
 
 bool CurveTracer::walk(BranchWalker& walker) {
@@ -155,6 +180,7 @@ bool CurveTracer::walk(BranchWalker& walker) {
     const bool stepped = walker.advance();
     take_stock(walker);
     if (!stepped) return true;
+    enlarge(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
       static_cast<void>(finish(walker));
@@ -171,9 +197,10 @@ bool CurveTracer::walk(BranchWalker& walker) {
       return false;
     }
     if (closed(walker, n_steps)) {
-      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->parameter));
+      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
       return false;
     }
+    reduce(walker);
   }
   stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
                      " points");
@@ -182,7 +209,7 @@ bool CurveTracer::walk(BranchWalker& walker) {
 
 BranchWalker CurveTracer::walker_from(NewtonResult start) {
   const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
-    return balance_.evaluate(x, frequency);
+    return balance_->evaluate(x, frequency);
   };
   walker_evaluations_ = walker_iterations_ = 0;
   n_remedies_ = 0;
@@ -202,12 +229,12 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
     const double frequency =
         from.parameter + ahead * (options_.frequency_end - options_.frequency_begin);
     if (progress(frequency) >= 1.0) break;
-    NewtonResult corrected = solve_at(balance_, from.x, frequency, newton);
+    NewtonResult corrected = solve_at(*balance_, from.x, frequency, newton);
     curve_.contact_evaluations += corrected.evaluations;
     curve_.iterations += corrected.iterations;
     const bool plain = corrected.converged;
     if (!plain) {
-      StartPoint start = find_start(balance_, frequency, options_.residual_tolerance);
+      StartPoint start = find_start(*balance_, frequency, options_.residual_tolerance);
       curve_.contact_evaluations += start.evaluations;
       curve_.iterations += start.iterations;
       if (!start.solution) continue;
@@ -219,34 +246,36 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
   return std::nullopt;
 }
 
-ResponseCurve CurveTracer::follow(NewtonResult start) {
-  entry_ = start.point;
-  if (!add(start)) return std::move(curve_);
+ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
+  use(set);
+  start = settled(std::move(start));
+  entry_ = {balance_->harmonics(start.point.x), start.point.parameter};
+  if (!add(start)) return finished();
   BranchWalker walker = walker_from(std::move(start));
   if (walk(walker)) {
     stop(stall_name(walker.stall()),
          at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
   }
-  return std::move(curve_);
+  return finished();
 }
 
 ResponseCurve CurveTracer::run() {
-  StartPoint start = find_start(balance_, options_.frequency_begin, options_.residual_tolerance);
+  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance);
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
   if (!start.solution) {
     stop("no-start",
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
-    return std::move(curve_);
+    return finished();
   }
-  std::optional<NewtonResult> next = std::move(start.solution);
+  std::optional<NewtonResult> next = settled(std::move(*start.solution));
   for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
     if (!add(*next)) {
       stop("interrupted", at_hertz("stopped", next->point.parameter));
-      return std::move(curve_);
+      return finished();
     }
     BranchWalker walker = walker_from(std::move(*next));
-    if (!walk(walker)) return std::move(curve_);
+    if (!walk(walker)) return finished();
     const double last = walker.now().solution.point.parameter;
     const char* name = stall_name(walker.stall());
     next = restart(walker);
@@ -255,11 +284,12 @@ ResponseCurve CurveTracer::run() {
     } else if (!on_the_branch(walker.now(), next->point)) {
       stop("branch-jump", at_hertz(std::string(name) + ", and another branch beyond it", last));
       curve_.log.push_back({last, "other-branch"});
-      entry_ = next->point;
+      entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
     }
+    if (next) next = settled(std::move(*next));
   }
   if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
-  return std::move(curve_);
+  return finished();
 }
 
 }  // namespace microslip::solver

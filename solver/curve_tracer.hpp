@@ -1,14 +1,17 @@
 /// @file
 /// One sweep along one branch: walks it, certifies every point, solves for peaks and folds between
-/// points, ends exactly at the end of the range.
+/// points, ends exactly at the end of the range. Where harmonics are chosen, both ends of a step and the
+/// peaks and folds between them have those that any of them needs.
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include "solver/branch_walker.hpp"
 #include "solver/continuation.hpp"
 #include "solver/harmonic_balance.hpp"
+#include "solver/harmonic_choice.hpp"
 #include "solver/stability.hpp"
 
 namespace microslip::solver {
@@ -22,7 +25,8 @@ class CurveTracer {
   [[nodiscard]] ResponseCurve run();
   /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
   /// with the diagnosis "loop".
-  [[nodiscard]] ResponseCurve follow(NewtonResult start);
+  /// @param set  of the unknowns of `start`.
+  [[nodiscard]] ResponseCurve follow(NewtonResult start, const HarmonicSet& set);
 
  private:
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
@@ -36,23 +40,41 @@ class CurveTracer {
   /// A solution a little way beyond a point at which the walker stalled; empty: none was found.
   [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
   void take_stock(const BranchWalker& walker);
+  void use(const HarmonicSet& set);
+  /// The solution with the harmonics it needs, solved for at its frequency.
+  [[nodiscard]] NewtonResult settled(NewtonResult at);
+  [[nodiscard]] bool change_harmonics(BranchWalker& walker, const HarmonicSet& set);
+  /// Harmonics that a point on the last step needs, on the whole step. False: there are none.
+  [[nodiscard]] bool enlarge(BranchWalker& walker, const BranchVector& point);
+  void enlarge(BranchWalker& walker);
+  void reduce(BranchWalker& walker);
+  /// Brings all points to the same number of harmonics.
+  [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
   /// Peaks and folds up to a share of the last step. False: as for add().
-  [[nodiscard]] bool add_specials(const BranchWalker& walker, double share_of_segment);
-  [[nodiscard]] bool finish(const BranchWalker& walker);
+  [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
+  [[nodiscard]] bool finish(BranchWalker& walker);
   void stop(const std::string& diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
 
   using Clock = std::chrono::steady_clock;
 
-  HarmonicBalance balance_;
+  struct Entry {
+    Harmonics q;
+    double frequency = 0.0;
+  };
+
+  const Scene& scene_;
   ContinuationOptions options_;
+  std::unique_ptr<HarmonicBalance> balance_;
+  std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
+  double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked
   const PointObserver& observe_;
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
   Eigen::VectorXd last_x_;             ///< of last_stability_
-  std::optional<BranchVector> entry_;  ///< where a jump entered the branch walked now
+  std::optional<Entry> entry_;         ///< where a jump entered the branch walked now
   std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
   long walker_evaluations_ = 0;        ///< of the walker, counted already
   long walker_iterations_ = 0;

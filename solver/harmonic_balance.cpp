@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -14,9 +15,8 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument("scene: " + message);
 }
 
-void check(const Scene& scene, int n_harmonics) {
+void check(const Scene& scene) {
   const Eigen::Index n = scene.n_modes();
-  require(n_harmonics >= 1, "at least one harmonic, not " + std::to_string(n_harmonics));
   require(n >= 1, "no modes");
   require(scene.damping_ratio.size() == n && scene.output.size() == n &&
               scene.excitation.n_signals() == n,
@@ -31,23 +31,60 @@ void check(const Scene& scene, int n_harmonics) {
           "damping ratios, output and excitation must be finite");
 }
 
+std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
+  std::vector<Eigen::Index> rows{0};
+  for (const int k : set.orders()) {
+    rows.push_back(2 * k - 1);
+    rows.push_back(2 * k);
+  }
+  return rows;
+}
+
 }  // namespace
 
-HarmonicBalance::HarmonicBalance(const Scene& scene, int n_harmonics)
-    : scene_(scene), n_harmonics_(n_harmonics) {
-  check(scene, n_harmonics);
+HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
+    : scene_(scene), set_(std::move(set)), rows_(rows_of(set_)) {
+  check(scene);
   const Eigen::Index n = scene.n_modes();
-  Harmonics excitation(n_harmonics, n);
-  const Eigen::Index rows = std::min(excitation.rows().rows(), scene.excitation.rows().rows());
-  excitation.rows().topRows(rows) = scene.excitation.rows().topRows(rows);
-  excitation_ = excitation.vector();
+  excitation_ = unknowns(scene.excitation);
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
   stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
 }
 
 Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
-  return {n_harmonics_, scene_.n_modes(), x};
+  const Eigen::Index n = scene_.n_modes();
+  if (set_.complete()) return {set_.highest(), n, x};
+  Harmonics q(set_.highest(), n);
+  Eigen::Index at = 0;
+  for (const Eigen::Index row : rows_) {
+    q.rows().row(row) = x.segment(at, n).transpose();
+    at += n;
+  }
+  return q;
+}
+
+Eigen::VectorXd HarmonicBalance::unknowns(const Harmonics& q) const {
+  const Eigen::Index n = scene_.n_modes();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()) * n);
+  Eigen::Index at = 0;
+  for (const Eigen::Index row : rows_) {
+    if (row < q.rows().rows()) x.segment(at, n) = q.rows().row(row).transpose();
+    at += n;
+  }
+  return x;
+}
+
+Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
+  if (set_.complete()) return full;
+  return unknowns(Harmonics(set_.highest(), scene_.n_modes(), full));
+}
+
+/// Force and derivatives in the unknowns alone; all rows of the force.
+contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
+                                                      double frequency) const {
+  if (set_.complete()) return scene_.contact->evaluate(harmonics(x), frequency);
+  return scene_.contact->evaluate_rows(harmonics(x), frequency, rows_);
 }
 
 void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
@@ -56,8 +93,8 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
   auto& J = result.jacobian;
   result.residual.head(n) += stiffness_.cwiseProduct(x.head(n));
   J.diagonal().head(n) += stiffness_;
-  for (int k = 1; k <= n_harmonics_; ++k) {
-    const Eigen::Index s = (2 * k - 1) * n;
+  Eigen::Index s = n;
+  for (const int k : set_.orders()) {
     const Eigen::Index c = s + n;
     const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
     const Eigen::ArrayXd viscous = k * frequency * damping_.array();
@@ -72,6 +109,7 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
     J.diagonal().segment(s, 2 * n) += dynamic.matrix().replicate(2, 1);
     J.block(s, c, n, n).diagonal() -= viscous.matrix();
     J.block(c, s, n, n).diagonal() += viscous.matrix();
+    s += 2 * n;
   }
 }
 
@@ -84,8 +122,8 @@ void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double fac
 BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) const {
   BalanceEvaluation result;
   if (scene_.contact) {
-    contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency);
-    result.contact_force = contact.force.vector();
+    contact::ForceAndJacobian contact = contact_at(x, frequency);
+    result.contact_force = unknowns(contact.force);
     result.residual = result.contact_force - excitation_;
     result.jacobian = std::move(contact.jacobian);
     result.parameter_derivative = std::move(contact.frequency_derivative);
@@ -104,8 +142,8 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
                                                      double share,
                                                      const Eigen::MatrixXd& stiffness) const {
   BalanceEvaluation result;
-  const contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency);
-  result.contact_force = contact.force.vector();
+  const contact::ForceAndJacobian contact = contact_at(x, frequency);
+  result.contact_force = unknowns(contact.force);
   result.defect = share * contact.defect;
   Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
   add_stiffness(stiffness, 1.0, linear);
@@ -149,7 +187,7 @@ double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency
   // A stiff contact holds its points still: motions of the modes cancel there, their rounding does not.
   double sum = (q.rows() * stiffness_.asDiagonal()).norm() +
                (q.rows().cwiseAbs() * stuck_stiffness_.cwiseAbs()).norm();
-  for (int k = 1; k <= n_harmonics_; ++k) {
+  for (const int k : set_.orders()) {
     sum += (k * frequency) * (k * frequency) * std::hypot(q.sine(k).norm(), q.cosine(k).norm());
   }
   return sum;

@@ -1,21 +1,25 @@
 /// @file
-/// Harmonic-balance equations of a scene (theory section 13; paper A, eqs 30–38), for any number of
+/// Harmonic-balance equations of a scene (theory section 13; paper A, eqs 30–38), for any set of
 /// harmonics:
 ///
 ///   R(x, ω) = L(ω) x + G(x, ω) − Q = 0,     x = harmonics of q, in the order of Harmonics::vector()
+///                                               without those that the set leaves out, which are zero
 ///
 ///   mean        L: ω_n²
 ///   harmonic k  L: [ ω_n² − k²ω²    −2ζ_n ω_n kω  ]  on (sine, cosine) of mode n
 ///                  [ 2ζ_n ω_n kω    ω_n² − k²ω²   ]
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
+#include "solver/harmonic_set.hpp"
 #include "solver/scene.hpp"
 
 namespace microslip::solver {
 
-/// R and its derivatives at one iterate; n = (2H+1) · n_modes.
+/// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes.
 struct BalanceEvaluation {
   Eigen::VectorXd residual;              ///< R [N/√kg], n
   Eigen::MatrixXd jacobian;              ///< ∂R/∂x [1/s²], n × n
@@ -28,13 +32,18 @@ class HarmonicBalance {
  public:
   /// @param scene  borrowed; must outlive this.
   /// @throws std::invalid_argument  sizes in the scene differ, a value is not finite or out of range.
-  HarmonicBalance(const Scene& scene, int n_harmonics);
+  HarmonicBalance(const Scene& scene, HarmonicSet set);
 
   [[nodiscard]] Eigen::Index size() const { return excitation_.size(); }
-  [[nodiscard]] int n_harmonics() const { return n_harmonics_; }
+  [[nodiscard]] const HarmonicSet& set() const { return set_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Eigen::VectorXd& excitation() const { return excitation_; }
+  /// x with zeros for what is left out, up to the highest harmonic of the set.
   [[nodiscard]] Harmonics harmonics(const Eigen::VectorXd& x) const;
+  /// The harmonics of the set alone; zero where q has none.
+  [[nodiscard]] Eigen::VectorXd unknowns(const Harmonics& q) const;
+  /// The same of a vector in the order of harmonics(x).vector(), of a gradient say.
+  [[nodiscard]] Eigen::VectorXd unknowns(const Eigen::VectorXd& full) const;
 
   [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency) const;
   /// λ of the contact and 1 − λ of a linear stiffness in its place; the parameter is λ:
@@ -61,9 +70,12 @@ class HarmonicBalance {
   void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
   void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                      Eigen::MatrixXd& matrix) const;
+  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x,
+                                                     double frequency) const;
 
   const Scene& scene_;
-  int n_harmonics_;
+  HarmonicSet set_;
+  std::vector<Eigen::Index> rows_;  // of Harmonics::rows(), one per block of unknowns
   Eigen::VectorXd excitation_;
   Eigen::VectorXd stiffness_;  // ω_n²
   Eigen::VectorXd damping_;    // 2ζ_n ω_n

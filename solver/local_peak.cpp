@@ -32,7 +32,7 @@ struct Slope {
 Slope slope_along(const HarmonicBalance& balance, const Eigen::VectorXd& x,
                   const BranchVector& tangent, const Scaling& scaling) {
   const auto output = output_amplitude(balance.harmonics(x), balance.scene().output);
-  return {output.gradient.dot(tangent.x) * scaling.x, output.half_peak_to_peak};
+  return {balance.unknowns(output.gradient).dot(tangent.x) * scaling.x, output.half_peak_to_peak};
 }
 
 double distance(const BranchVector& a, const BranchVector& b, const Scaling& scaling) {
@@ -52,7 +52,7 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   peak.point = at.point;
   peak.scaling = scaling;
   const double frequency = at.point.parameter;
-  const double width = assess_stability(balance, at.evaluation.jacobian, frequency).nearest;
+  const double width = slow_flow_stability(balance, at.evaluation.jacobian, frequency).nearest;
   peak.scaling.parameter = std::clamp(width, narrowest * frequency, widest * frequency);
   const BranchVector along{direction.x,
                            direction.parameter * scaling.parameter / peak.scaling.parameter};
@@ -81,7 +81,7 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
 
 std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const ResponsePoint& peak) {
   NewtonResult at;
-  at.point = {peak.q.vector(), peak.frequency};
+  at.point = {balance.unknowns(peak.q), peak.frequency};
   at.evaluation = balance.evaluate(at.point.x, peak.frequency);
   Scaling scaling = natural_scaling(balance, at.point.x, peak.frequency);
   scaling.parameter = widest * peak.frequency;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/common_harmonics.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -51,10 +53,13 @@ void check(const PeakTraceOptions& options) {
 
 PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions& range,
                            const PeakTraceOptions& options)
-    : family_(family), range_(range), options_(options) {
+    : family_(family), choosing_(range), range_(range), options_(options) {
   check(options);
   options_.n_checks = std::min(options.n_checks, options.n_values);
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
+  std::vector<double> checks;
+  for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
+  range_ = with_common_harmonics(family_, checks, choosing_);
 }
 
 double PeakFamilies::position(double parameter) const {
@@ -75,6 +80,11 @@ double PeakFamilies::parameter(double position) const {
 
 double PeakFamilies::value_position(int index) const {
   return position(options_.lower) + spacing_ * index;
+}
+
+double PeakFamilies::check_position(int index) const {
+  const double last = options_.n_values - 1;
+  return value_position(static_cast<int>(std::lround(index * last / (options_.n_checks - 1))));
 }
 
 void PeakFamilies::note(const std::string& text, double position) {
@@ -99,7 +109,8 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
 const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
   const auto known = curves_.find(position);
   if (known != curves_.end()) return known->second;
-  const ResponseCurve curve = trace_response(family_(parameter(position)), range_);
+  const Scene scene = family_(parameter(position));
+  const ResponseCurve curve = trace_response(scene, range_);
   ++result_.n_curves;
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
@@ -110,6 +121,10 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
                [](const ResponsePoint& point) { return point.mark == PointMark::peak; });
   std::stable_sort(kept.peaks.begin(), kept.peaks.end(),
                    [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
+  if (choosing_.harmonic_tolerance > 0.0 && !kept.peaks.empty() &&
+      left_out_at(scene, kept.peaks.front(), choosing_) > choosing_.harmonic_tolerance) {
+    note("the highest peak lacks harmonics that the checks did not need", position);
+  }
   return curves_.emplace(position, std::move(kept)).first->second;
 }
 
@@ -169,7 +184,7 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
     guess.parameter += ahead / base * (other->second.point.parameter - a.point.parameter);
   }
   const Scene scene = family_(parameter(target));
-  const HarmonicBalance balance(scene, range_.n_harmonics);
+  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
   PeakWork work;
   std::optional<LocalPeak> peak = follow_peak(balance, a, guess, range_, work);
   if (!peak) peak = follow_peak(balance, a, a.point, range_, work);
@@ -237,7 +252,7 @@ void PeakFamilies::seed(double position) {
     }
   }
   const Scene scene = family_(parameter(position));
-  const HarmonicBalance balance(scene, range_.n_harmonics);
+  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
   for (std::size_t i = 0; i < std::min(most_seeds, curve.peaks.size()); ++i) {
     const bool known = std::any_of(families_.begin(), families_.end(), [&](const Peaks& peaks) {
       const auto here = peaks.find(position);
@@ -263,10 +278,7 @@ void PeakFamilies::settle() {
 void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
   for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
-  for (int i = 0; i < options_.n_checks; ++i) {
-    seed(value_position(
-        static_cast<int>(std::lround(static_cast<double>(i) * last / (options_.n_checks - 1)))));
-  }
+  for (int i = 0; i < options_.n_checks; ++i) seed(check_position(i));
   settle();
   for (int i = 0; i <= last; ++i) {
     const double here = value_position(i);

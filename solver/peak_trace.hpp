@@ -11,6 +11,9 @@
 ///                                      the last agreement are traced whole
 ///
 /// and named in `notes`. At worst every value is traced whole, which is what a search on curves costs.
+///
+/// Where harmonics are chosen, all peaks have those that the peaks of the checks need
+/// (common_harmonics.hpp); a curve whose highest peak needs more is named in `notes`.
 #pragma once
 
 #include <functional>
@@ -85,6 +88,7 @@ class PeakFamilies {
   [[nodiscard]] double known_position(double parameter) const;
   [[nodiscard]] double parameter(double position) const;
   [[nodiscard]] double value_position(int index) const;
+  [[nodiscard]] double check_position(int index) const;
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   const Curve& curve_at(double position);
   void seed(double position);
@@ -99,7 +103,8 @@ class PeakFamilies {
   void note(const std::string& text, double position);
 
   const SceneFamily& family_;
-  ContinuationOptions range_;
+  ContinuationOptions choosing_;  ///< as given
+  ContinuationOptions range_;     ///< with the harmonics that all peaks have
   PeakTraceOptions options_;
   double spacing_;
   std::vector<Peaks> families_;

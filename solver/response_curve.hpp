@@ -20,6 +20,8 @@ enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 struct ResponsePoint {
   double frequency = 0.0;         ///< ω [rad/s]
   Harmonics q;                    ///< [m√kg]
+  std::vector<int> orders;        ///< harmonics that were unknowns beside the mean; empty: all of q
+  double harmonics_left_out = 0.0;  ///< what those left out change, over the amplitude; 0: not asked
   double amplitude = 0.0;         ///< half the peak-to-peak value of the output over the period [m]
   double first_amplitude = 0.0;   ///< first harmonic of the output [m]
   double mean = 0.0;              ///< mean of the output [m]
@@ -40,7 +42,8 @@ struct ResponsePoint {
 /// A remedy that was needed and helped.
 struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
-  /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, or other-branch
+  /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
+  /// harmonics-kept: the equations with more harmonics were not solved
   std::string remedy;
 };
 

@@ -77,7 +77,7 @@ class Segment {
     if (kind_ == PointMark::fold) return {point.solution.point.parameter, step.parameter / length};
     const auto amplitude =
         output_amplitude(balance_.harmonics(point.solution.point.x), balance_.scene().output);
-    return {amplitude.half_peak_to_peak, amplitude.gradient.dot(step.x) / length};
+    return {amplitude.half_peak_to_peak, balance_.unknowns(amplitude.gradient).dot(step.x) / length};
   }
 
   /// Where the slope of the cubic through both ends comes nearest to changing sign; 0: it does not.

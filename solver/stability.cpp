@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -16,6 +19,10 @@ constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in it,
 // and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
+// Of Hill's problem: some 0.1 s for its eigenvectors.
+constexpr Eigen::Index most_states = 160;
+// Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
+constexpr double real_tolerance = 1e-6;
 
 double sign_of_determinant(const Eigen::MatrixXd& matrix) {
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
@@ -27,20 +34,68 @@ double sign_of_determinant(const Eigen::MatrixXd& matrix) {
   return sign;
 }
 
+/// A balance reduced to some of its harmonics: the others follow without inertia or memory of their own,
+/// J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
+struct Reduced {
+  std::vector<int> orders;
+  Eigen::MatrixXd jacobian;
+};
+
+/// The first two, and harmonics at which a mode is slow against the cycle.
+std::vector<int> slow_orders(const HarmonicBalance& balance, double frequency) {
+  std::vector<int> kept;
+  for (const int k : balance.set().orders()) {
+    const Eigen::ArrayXd turn = balance.scene().natural_frequency.array() - k * frequency;
+    if (kept.size() < 2 || (turn.abs() < slow_share * frequency).any()) kept.push_back(k);
+  }
+  return kept;
+}
+
+/// As many as Hill's problem can hold.
+std::vector<int> low_orders(const HarmonicBalance& balance) {
+  const auto room = static_cast<std::size_t>(most_states / (4 * balance.scene().n_modes()));
+  std::vector<int> orders = balance.set().orders();
+  orders.resize(std::min(orders.size(), std::max<std::size_t>(room, 2)));
+  return orders;
+}
+
+Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                std::vector<int> orders) {
+  const Eigen::Index n = balance.scene().n_modes();
+  Reduced result{std::move(orders), {}};
+  std::vector<Eigen::Index> low;
+  std::vector<Eigen::Index> high;
+  for (Eigen::Index i = 0; i < n; ++i) low.push_back(i);
+  Eigen::Index first = n;
+  for (const int k : balance.set().orders()) {
+    const bool kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
+    for (Eigen::Index i = first; i < first + 2 * n; ++i) (kept ? low : high).push_back(i);
+    first += 2 * n;
+  }
+  result.jacobian = jacobian(low, low);
+  if (!high.empty()) {
+    result.jacobian -= jacobian(low, high) * jacobian(high, high).partialPivLu().solve(
+                                                 Eigen::MatrixXd(jacobian(high, low)));
+  }
+  return result;
+}
+
+Eigen::ArrayXd damping_of(const Scene& scene) {
+  return 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+}
+
 /// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean.
-Eigen::MatrixXd slow_flow(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                          double frequency) {
-  const Scene& scene = balance.scene();
+Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double frequency) {
   const Eigen::Index n = scene.n_modes();
-  const Eigen::Index size = balance.size();
-  const Eigen::ArrayXd damping =
-      2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+  const Eigen::MatrixXd& jacobian = balance.jacobian;
+  const Eigen::Index size = jacobian.rows();
+  const Eigen::ArrayXd damping = damping_of(scene);
   Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(size + n, size + n);
   flow.block(0, size, n, n).setIdentity();
   flow.block(size, 0, n, size) = -jacobian.topRows(n);
   flow.block(size, size, n, n).diagonal() = -damping.matrix();
-  for (int k = 1; k <= balance.n_harmonics(); ++k) {
-    const Eigen::Index s = (2 * k - 1) * n;
+  Eigen::Index s = n;
+  for (const int k : balance.orders) {
     const Eigen::Index c = s + n;
     const double spin = 2.0 * k * frequency;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -51,8 +106,46 @@ Eigen::MatrixXd slow_flow(const HarmonicBalance& balance, const Eigen::MatrixXd&
       flow.row(s + i).head(size) = -(damping[i] * sine + spin * cosine) / square;
       flow.row(c + i).head(size) = (spin * sine - damping[i] * cosine) / square;
     }
+    s += 2 * n;
   }
   return flow;
+}
+
+/// Hill's problem as a first-order one in (p, λp/ω), eigenvalues over ω.
+Eigen::MatrixXd hill_matrix(const Scene& scene, const Reduced& balance, double frequency) {
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::Index size = balance.jacobian.rows();
+  const Eigen::VectorXd damping = damping_of(scene).matrix() / frequency;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * size, 2 * size);
+  matrix.topRightCorner(size, size).setIdentity();
+  matrix.bottomLeftCorner(size, size) = -balance.jacobian / (frequency * frequency);
+  auto delta = matrix.bottomRightCorner(size, size);  // −Δ/ω
+  delta.diagonal() = -damping.replicate(size / n, 1);
+  Eigen::Index s = n;
+  for (const int k : balance.orders) {
+    delta.block(s, s + n, n, n).diagonal().setConstant(2.0 * k);
+    delta.block(s + n, s, n, n).diagonal().setConstant(-2.0 * k);
+    s += 2 * n;
+  }
+  return matrix;
+}
+
+/// Mean harmonic of an eigenvector, from −H to H: S sin kθ + C cos kθ has (C ∓ iS)/2 at ±k.
+double centre_of(const Eigen::VectorXcd& p, const std::vector<int>& orders, Eigen::Index n) {
+  constexpr std::complex<double> i{0.0, 1.0};
+  double moment = 0.0;
+  double size = p.head(n).squaredNorm();
+  Eigen::Index s = n;
+  for (const int k : orders) {
+    const auto sine = p.segment(s, n);
+    const auto cosine = p.segment(s + n, n);
+    const double ahead = 0.25 * (cosine - i * sine).squaredNorm();
+    const double behind = 0.25 * (cosine + i * sine).squaredNorm();
+    moment += k * (ahead - behind);
+    size += ahead + behind;
+    s += 2 * n;
+  }
+  return moment / size;
 }
 
 /// A resonance near by is a pair −d ± i(ω_r − ω), or, close to it, two real values of which one vanishes
@@ -72,12 +165,14 @@ double nearest_resonance(const Eigen::VectorXcd& eigenvalues) {
 
 }  // namespace
 
-StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                                 double frequency) {
+StabilityReport slow_flow_stability(const HarmonicBalance& balance,
+                                    const Eigen::MatrixXd& jacobian, double frequency) {
   StabilityReport report;
   report.determinant_sign = sign_of_determinant(jacobian);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(slow_flow(balance, jacobian, frequency), false);
-  if (solver.info() != Eigen::Success) return report;
+  const Eigen::MatrixXd flow = slow_flow(
+      balance.scene(), reduced(balance, jacobian, slow_orders(balance, frequency)), frequency);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
+  if (!flow.allFinite() || solver.info() != Eigen::Success) return report;
   report.nearest = nearest_resonance(solver.eigenvalues());
   report.growth = -std::numeric_limits<double>::infinity();
   for (const auto& value : solver.eigenvalues()) {
@@ -89,6 +184,47 @@ StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::Ma
   report.stability =
       grows || report.determinant_sign < 0.0 ? Stability::unstable : Stability::stable;
   return report;
+}
+
+StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                               double frequency, StabilityReport slow) {
+  if (balance.set().highest() == 1) return slow;
+  StabilityReport report = std::move(slow);
+  report.stability = Stability::not_assessed;
+  const Scene& scene = balance.scene();
+  const Reduced low = reduced(balance, jacobian, low_orders(balance));
+  const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
+  if (!matrix.allFinite()) return report;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success) return report;
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors().topRows(low.jacobian.rows());
+  std::vector<std::pair<double, Eigen::Index>> centres;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    centres.emplace_back(std::abs(centre_of(vectors.col(i), low.orders, n)), i);
+  }
+  std::sort(centres.begin(), centres.end());
+  double real_growth = -std::numeric_limits<double>::infinity();
+  double growth = real_growth;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(2 * n); ++i) {
+    const std::complex<double> value = solver.eigenvalues()[centres[i].second];  // over ω
+    const bool real = std::abs(value.imag() - std::round(value.imag())) < real_tolerance;
+    growth = std::max(growth, value.real());
+    if (real) real_growth = std::max(real_growth, value.real());
+  }
+  report.growth = growth * frequency;
+  if (report.determinant_sign < 0.0 || real_growth > growth_tolerance) {
+    report.stability = Stability::unstable;
+  } else if (growth <= growth_tolerance) {
+    report.stability = Stability::stable;
+  }
+  return report;
+}
+
+StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                                 double frequency) {
+  return hill_stability(balance, jacobian, frequency,
+                        slow_flow_stability(balance, jacobian, frequency));
 }
 
 }  // namespace microslip::solver

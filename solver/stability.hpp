@@ -1,12 +1,20 @@
 /// @file
-/// Stability of a solution by its slow flow (theory section 17): amplitudes vary slowly against the
-/// cycle, so that the steady-cycle force applies,
+/// Stability of a solution (theory section 17), as far as the Jacobian of the balance can tell it.
+///
+/// One harmonic: its slow flow. Amplitudes vary slowly against the cycle, so that the steady-cycle force
+/// applies,
 ///
 ///   B̈ + C Ḃ + Ω B + G_b = Q_b,      (2ikωI + C) Ȧ^(k) + (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k)
 ///
-/// linearised with the Jacobian of the balance. Stable: no eigenvalue that is slow against the cycle
-/// (|Im λ| < ω/4) grows, and det ∂R/∂x, whose sign changes at folds and simple branch points, is not
-/// negative.
+/// linearised. Stable: no eigenvalue that is slow against the cycle (|Im λ| < ω/4) grows, and det ∂R/∂x,
+/// whose sign changes at folds and simple branch points, is not negative.
+///
+/// Several: Hill's quadratic eigenproblem (∂R/∂x + λΔ + λ²I) p = 0, Δ made of C and 2kω, whose
+/// eigenvectors p tell the 2 n_modes exponents that are no copies λ ± ikω of others: those centred
+/// on harmonic 0. Where 160 states do not hold all harmonics, the highest answer quasi-statically. A real
+/// exponent that grows, or a negative determinant, is unstable. The Jacobian of a hysteretic force is that
+/// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
+/// point is not assessed. With no exponent growing it is called stable.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,11 +27,23 @@ namespace microslip::solver {
 struct StabilityReport {
   Stability stability = Stability::not_assessed;
   double determinant_sign = 0.0;  ///< of ∂R/∂x: 1, −1, or 0 where it is singular
-  double growth = 0.0;            ///< largest real part of the slow eigenvalues [rad/s], −∞: there is none
+  double growth = 0.0;  ///< largest real part of the eigenvalues judged [rad/s], −∞: there is none
   /// How near, in frequency, a resonance of the linearised structure is, or how wide [rad/s].
   double nearest = 0.0;
 };
 
+/// By the slow flow alone: what one harmonic is judged by, and the width of resonances for any number.
+[[nodiscard]] StabilityReport slow_flow_stability(const HarmonicBalance& balance,
+                                                  const Eigen::MatrixXd& jacobian,
+                                                  double frequency);
+
+/// The same judged by Hill's exponents where there are several harmonics.
+/// @param slow  slow_flow_stability() of the same point.
+[[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance,
+                                             const Eigen::MatrixXd& jacobian, double frequency,
+                                             StabilityReport slow);
+
+/// Both in turn.
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,
                                                const Eigen::MatrixXd& jacobian, double frequency);
 

@@ -414,7 +414,7 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
                      {"cannot be switched off in this version"});
   }
   expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
-  for (const char* harmonics : {"auto", "0", "1.0", "100"}) {
+  for (const char* harmonics : {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
                      {"response.harmonics"});
   }
@@ -446,6 +446,20 @@ TEST(SceneFile, LawsOfContactAreRead) {
   EXPECT_EQ(modal.response->harmonics, 5);
   EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
   EXPECT_EQ(modal.response->n_time_points, 7);
+}
+
+TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
+  const auto list = *parse(modal_text, {"response.harmonics=[5, 0, 1, 3]"}).response;
+  EXPECT_EQ(list.harmonic_orders, (std::vector<int>{5, 1, 3}));
+  EXPECT_EQ(list.harmonics, 5);
+  EXPECT_EQ(list.harmonic_tolerance, 0.0);
+  const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
+  EXPECT_EQ(chosen.harmonic_tolerance, 1e-3);
+  EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
+  const auto finer = parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
+  EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
+  EXPECT_EQ(complaint(finer.complete_toml), "");
+  EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).response->harmonic_tolerance, 0.0);
 }
 
 TEST(BadScene, LawsOfContactTellWhatTheyMiss) {

@@ -37,6 +37,7 @@ solver::ResponseCurve three_points() {
                   synthetic::point(295.9, 1.0 / 3e4)};
   curve.points[0].stability = solver::Stability::not_assessed;
   curve.points[1].mark = solver::PointMark::peak;
+  curve.points[1].orders = {1, 3, 5};
   curve.points[2].mark = solver::PointMark::fold;
   curve.points[2].stability = solver::Stability::unstable;
   return curve;
@@ -59,7 +60,8 @@ TEST(WriteCsv, CurveHasTheColumnsOfTheInterface) {
                      "dissipation_mismatch",
                      "mark",
                      "awake_share",
-                     "iterations"};
+                     "iterations",
+                     "harmonics"};
   ASSERT_EQ(rows.size(), 4U);
   for (const Row& row : rows) EXPECT_EQ(row.size(), expected.size());
   EXPECT_EQ(rows[0], expected);
@@ -74,9 +76,10 @@ TEST(WriteCsv, CurveValuesStandInTheirColumns) {
   EXPECT_EQ(std::stod(first[3]), -0.01 * 1e-4);
   EXPECT_DOUBLE_EQ(std::stod(first[4]), -45.0);
   EXPECT_EQ(Row(first.begin() + 5, first.end()),
-            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", "", "1", "3"}));
+            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", "", "1", "3", "1"}));
   EXPECT_EQ(rows[2][5], "1");
   EXPECT_EQ(rows[2][13], "peak");
+  EXPECT_EQ(rows[2][16], "3");  // unknowns beside the mean, not the highest order
   EXPECT_EQ(rows[3][5], "0");
   EXPECT_EQ(rows[3][13], "fold");
   EXPECT_EQ(std::stod(rows[3][1]), 1.0 / 3e4) << "digits are lost";

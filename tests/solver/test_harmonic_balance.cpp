@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/linear_force.hpp"
+#include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -139,6 +140,51 @@ TEST(HarmonicBalance, LinearPartIsTheComplexImpedanceOfEachHarmonic) {
       EXPECT_NEAR(force.sine(k)[n], expected.real(), 1e-14 * std::abs(impedance));
       EXPECT_NEAR(force.cosine(k)[n], expected.imag(), 1e-14 * std::abs(impedance));
     }
+  }
+}
+
+Scene event_scene() {
+  Scene scene = tests::three_dof_scene(30.0);
+  tests::use_event_cycles(scene);
+  return scene;
+}
+
+TEST(HarmonicBalance, ASetLeavesOutRowsAndColumnsOfTheWhole) {
+  const Scene scene = event_scene();
+  const HarmonicBalance whole(scene, 5);
+  const HarmonicBalance odd(scene, HarmonicSet(std::vector<int>{1, 3, 5}));
+  const double omega = 130.0;
+  const Eigen::VectorXd x = some_motion(odd, omega);
+  const Eigen::VectorXd wide = whole.unknowns(odd.harmonics(x));
+  ASSERT_EQ(odd.size(), 14);  // 2 modes, mean and three harmonics
+  EXPECT_EQ(odd.unknowns(whole.harmonics(wide)), x);
+  const auto all = whole.evaluate(wide, omega);
+  const auto some = odd.evaluate(x, omega);
+  EXPECT_EQ(some.residual, odd.unknowns(all.residual));
+  EXPECT_EQ(some.parameter_derivative, odd.unknowns(all.parameter_derivative));
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(x.size(), j);
+    const Eigen::VectorXd column = all.jacobian * whole.unknowns(odd.harmonics(step));
+    EXPECT_EQ(some.jacobian.col(j), odd.unknowns(column)) << j;
+  }
+}
+
+TEST(HarmonicBalance, JacobianOfASetIsTheDifferenceOfResiduals) {
+  const Scene scene = event_scene();
+  const HarmonicBalance balance(scene, HarmonicSet(std::vector<int>{1, 2, 5}));
+  const double omega = 130.0;
+  const Eigen::VectorXd x = some_motion(balance, omega);
+  const auto at = balance.evaluate(x, omega);
+  const double h = 1e-6 * x.norm();
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), j);
+    const Eigen::VectorXd difference = (balance.evaluate(x + step, omega).residual -
+                                        balance.evaluate(x - step, omega).residual) /
+                                       (2.0 * h);
+    // Central differences err by h² times the third derivative, 1e-12 of the scale, and by rounding,
+    // 1e-16 / 1e-6 of it; transitions move by h between the two sides, which the square root of
+    // section 4.5 enlarges.
+    EXPECT_LT((difference - at.jacobian.col(j)).norm(), 1e-5 * at.jacobian.norm()) << j;
   }
 }
 

@@ -1,0 +1,238 @@
+#include "solver/harmonic_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "solver/output_amplitude.hpp"
+#include "solver/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+constexpr double added_down_to = 0.5;   // of the tolerance
+constexpr double dropped_up_to = 0.05;  // of the tolerance
+constexpr int probed_ahead = 4;         // harmonics beyond the highest of the set
+// Forces fall with k² at least and displacements with k² more: a resonance at kω beyond this gains
+// less than 1e-3 of the first harmonic even at a damping of 1e-2.
+constexpr int farthest_resonance = 15;
+
+// Of the force scale: what symmetry leaves of a harmonic is some 1e-15 of it, and a resonance of damping
+// 1e-6 makes no more of this than 1e-6 of the amplitude.
+constexpr double silent = 1e-12;
+
+struct Share {
+  int order = 0;
+  double error = 0.0;
+};
+
+HarmonicSet least_set(const Scene& scene) {
+  std::vector<int> orders{1};
+  for (int k = 1; k <= scene.excitation.n_harmonics(); ++k) {
+    const bool excited =
+        scene.excitation.sine(k).norm() > 0.0 || scene.excitation.cosine(k).norm() > 0.0;
+    if (excited) orders.push_back(k);
+  }
+  return HarmonicSet(std::move(orders));
+}
+
+double top_resonance(const Scene& scene) {
+  Eigen::MatrixXd stiffness = scene.natural_frequency.array().square().matrix().asDiagonal();
+  if (scene.contact) stiffness += scene.contact->stuck_stiffness();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+/// [∂R/∂x ∂R/∂ω; tᵀ] in unknowns that are not scaled.
+Eigen::PartialPivLU<Eigen::MatrixXd> factors_of(const BalanceEvaluation& at,
+                                                const Eigen::VectorXd& tangent_x,
+                                                double tangent_parameter, const Scaling& scaling) {
+  const Eigen::Index n = at.residual.size();
+  Eigen::MatrixXd matrix(n + 1, n + 1);
+  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
+  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
+  matrix.bottomLeftCorner(1, n) = tangent_x.transpose();
+  matrix(n, n) = tangent_parameter;
+  return matrix.partialPivLu();
+}
+
+/// Σ_h |output · δ^(h)|, the mean left out: it does not change the amplitude.
+double output_change(const HarmonicBalance& balance, const Eigen::VectorXd& change) {
+  const Eigen::VectorXd y = balance.harmonics(change).rows() * balance.scene().output;
+  double sum = 0.0;
+  for (Eigen::Index row = 1; row + 1 < y.size(); row += 2) sum += std::hypot(y[row], y[row + 1]);
+  return std::isfinite(sum) ? sum : 0.0;  // singular equations tell nothing
+}
+
+/// First of the 2n unknowns of each harmonic of a set.
+std::vector<std::pair<int, Eigen::Index>> blocks_of(const HarmonicBalance& balance) {
+  std::vector<std::pair<int, Eigen::Index>> blocks;
+  const Eigen::Index n = balance.scene().n_modes();
+  Eigen::Index first = n;
+  for (const int k : balance.set().orders()) {
+    blocks.emplace_back(k, first);
+    first += 2 * n;
+  }
+  return blocks;
+}
+
+double amplitude_of(const HarmonicBalance& balance, const Eigen::VectorXd& x) {
+  return output_amplitude(balance.harmonics(x), balance.scene().output).half_peak_to_peak;
+}
+
+}  // namespace
+
+HarmonicChoice::HarmonicChoice(const Scene& scene, double tolerance, int highest)
+    : scene_(scene),
+      tolerance_(tolerance),
+      highest_(highest),
+      least_(least_set(scene)),
+      top_frequency_(top_resonance(scene)) {
+  if (!(tolerance > 0.0) || highest < 1) {
+    throw std::invalid_argument("harmonics: tolerance " + std::to_string(tolerance) +
+                                " and highest " + std::to_string(highest) +
+                                "; needs a tolerance above 0 and at least one harmonic");
+  }
+}
+
+int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
+  const double resonance = std::ceil(std::min(top_frequency_ / frequency, 1.0 * farthest_resonance));
+  // Beyond the highest allowed as well: what is left out there is told.
+  return std::max(set.highest() + probed_ahead, static_cast<int>(resonance));
+}
+
+std::vector<int> HarmonicChoice::heard(const HarmonicBalance& balance, const BranchVector& point,
+                                       int highest, const Scaling& scaling) const {
+  Harmonics q(highest, scene_.n_modes());
+  const Harmonics known = balance.harmonics(point.x);
+  q.rows().topRows(known.rows().rows()) = known.rows();
+  const Harmonics force = scene_.contact->evaluate_rows(q, point.parameter, {}).force;
+  std::vector<int> orders;
+  for (int k = 1; k <= highest; ++k) {
+    const double size = std::hypot(force.sine(k).norm(), force.cosine(k).norm());
+    if (size > silent * scaling.residual && !balance.set().contains(k)) orders.push_back(k);
+  }
+  return orders;
+}
+
+HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
+                                          const BranchVector& tangent,
+                                          const Scaling& scaling) const {
+  HarmonicDecision decision{balance.set(), {}};
+  const double amplitude = amplitude_of(balance, point.x);
+  const int probe = probed(balance.set(), point.parameter);
+  if (!scene_.contact || amplitude == 0.0) return decision;
+  const HarmonicBalance wide(scene_, balance.set().united(heard(balance, point, probe, scaling)));
+  if (wide.set() == balance.set()) return decision;
+  const auto widened = [&](const Eigen::VectorXd& x) { return wide.unknowns(balance.harmonics(x)); };
+  const BalanceEvaluation at = wide.evaluate(widened(point.x), point.parameter);
+  const auto factors = factors_of(at, widened(tangent.x), tangent.parameter, scaling);
+  const Eigen::Index n = scene_.n_modes();
+  std::vector<Share> shares;
+  for (const auto& [order, first] : blocks_of(wide)) {
+    if (balance.set().contains(order)) continue;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(wide.size() + 1);
+    right.segment(first, 2 * n) = -at.residual.segment(first, 2 * n) / scaling.residual;
+    const Eigen::VectorXd step = factors.solve(right).head(wide.size()) * scaling.x;
+    shares.push_back({order, output_change(wide, step) / amplitude});
+    decision.left_out += shares.back().error;
+  }
+  decision.missing = decision.left_out;
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.error > b.error; });
+  for (const Share& share : shares) {
+    if (decision.left_out <= added_down_to * tolerance_) break;
+    if (share.order > highest_) continue;
+    decision.added.push_back(share.order);
+    decision.left_out -= share.error;
+  }
+  decision.left_out = std::max(decision.left_out, 0.0);
+  decision.set = decision.set.united(decision.added);
+  return decision;
+}
+
+HarmonicDecision HarmonicChoice::reduced(const HarmonicBalance& balance,
+                                         const NewtonResult& solution, const BranchVector& tangent,
+                                         const Scaling& scaling) const {
+  HarmonicDecision decision{balance.set(), {}};
+  const Eigen::VectorXd& x = solution.point.x;
+  const double amplitude = amplitude_of(balance, x);
+  if (balance.set() == least_ || amplitude == 0.0) return decision;
+  const auto factors = factors_of(solution.evaluation, tangent.x, tangent.parameter, scaling);
+  const Eigen::Index size = 2 * scene_.n_modes();
+  std::vector<Share> shares;
+  for (const auto& [order, first] : blocks_of(balance)) {
+    if (least_.contains(order)) continue;
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(balance.size() + 1, size);
+    right.middleRows(first, size).setIdentity();
+    const Eigen::MatrixXd response = factors.solve(right);
+    const Eigen::MatrixXd own = response.middleRows(first, size);
+    const Eigen::VectorXd force = -own.partialPivLu().solve(x.segment(first, size));
+    const Eigen::VectorXd change = response.topRows(balance.size()) * force;
+    shares.push_back({order, output_change(balance, change) / amplitude});
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.error < b.error; });
+  std::vector<int> kept = balance.set().orders();
+  for (const Share& share : shares) {
+    if (decision.left_out + share.error > dropped_up_to * tolerance_) break;
+    decision.left_out += share.error;
+    kept.erase(std::find(kept.begin(), kept.end(), share.order));
+  }
+  decision.set = HarmonicSet(std::move(kept));
+  return decision;
+}
+
+/// Newton with more harmonics from a solution with fewer.
+NewtonResult widened(const Scene& scene, const HarmonicBalance& from, const HarmonicSet& set,
+                     const NewtonResult& at, double tolerance, SettledSolution& count) {
+  const HarmonicBalance larger(scene, set);
+  NewtonOptions options;
+  options.tolerance = tolerance;
+  options.max_iterations = 40;
+  NewtonResult next = solve_at(larger, larger.unknowns(from.harmonics(at.point.x)),
+                               at.point.parameter, options);
+  count.evaluations += next.evaluations;
+  count.iterations += next.iterations;
+  return next;
+}
+
+SettledSolution settle_harmonics(const HarmonicChoice& choice, const Scene& scene, HarmonicSet set,
+                                 NewtonResult at, double tolerance) {
+  SettledSolution result{std::move(set), std::move(at)};
+  const double frequency = result.solution.point.parameter;
+  for (;;) {
+    const HarmonicBalance balance(scene, result.set);
+    const Eigen::VectorXd& x = result.solution.point.x;
+    const BranchVector hold{Eigen::VectorXd::Zero(x.size()), 1.0};
+    const HarmonicDecision decision = choice.enlarged(balance, result.solution.point, hold,
+                                                      natural_scaling(balance, x, frequency));
+    ++result.evaluations;
+    result.left_out = decision.missing;
+    if (decision.added.empty()) return result;
+    HarmonicSet wanted = decision.set;
+    NewtonResult next = widened(scene, balance, wanted, result.solution, tolerance, result);
+    if (!next.converged && decision.added.size() > 1) {
+      wanted = result.set.united({decision.added.front()});
+      next = widened(scene, balance, wanted, result.solution, tolerance, result);
+    }
+    if (!next.converged) {
+      wanted = decision.set;
+      StartPoint start = find_start(HarmonicBalance(scene, wanted), frequency, tolerance);
+      result.evaluations += start.evaluations;
+      result.iterations += start.iterations;
+      result.settled = start.solution.has_value();
+      if (!result.settled) return result;
+      next = std::move(*start.solution);
+    }
+    result.solution = std::move(next);
+    result.set = std::move(wanted);
+  }
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,80 @@
+/// @file
+/// Harmonics that matter at a solution, chosen there. What leaving harmonic k out does is told by one
+/// Newton step of the equations that have it, on the plane across the branch, so that a fold does not
+/// count as an error:
+///
+///   added   [∂R/∂x  ∂R/∂ω; tᵀ] δ_k = [−G^(k); 0],     G^(k) the contact force at the motion without k
+///   dropped the same matrix, with the force on rows k that takes x^(k) to zero
+///
+///   e_k = Σ_h |output · δ_k^(h)| / a                   a the amplitude of the output
+///
+/// The contact stiffness and the coupling of harmonics are in the matrix: without contact it is
+/// Z(kω)⁻¹ G^(k). Harmonics are added, the largest e_k first, until those left out sum to half the tolerance
+/// (a margin for second order and for harmonics beyond those probed), and dropped while they sum to a
+/// twentieth: a factor of ten between the two keeps a set from chattering.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/harmonic_balance.hpp"
+#include "solver/newton.hpp"
+
+namespace microslip::solver {
+
+/// A set of harmonics with what it leaves out.
+struct HarmonicDecision {
+  HarmonicSet set;
+  std::vector<int> added;  ///< those that matter most first
+  double left_out = 0.0;   ///< Σ e_k of harmonics that the set misses, of those probed
+  double missing = 0.0;    ///< the same of the set that was asked about
+};
+
+class HarmonicChoice {
+ public:
+  /// @param scene      borrowed.
+  /// @param tolerance  of the amplitude, relative, > 0.
+  /// @param highest    harmonic that may be added, ≥ 1.
+  /// @throws std::invalid_argument  tolerance or highest out of range.
+  HarmonicChoice(const Scene& scene, double tolerance, int highest);
+
+  /// What every point has: the first harmonic and those of the excitation.
+  [[nodiscard]] const HarmonicSet& least() const { return least_; }
+  /// The set of a balance with what its solution misses.
+  /// @param tangent  of the branch in variables of `scaling`; (0, 1): at a fixed frequency.
+  [[nodiscard]] HarmonicDecision enlarged(const HarmonicBalance& balance, const BranchVector& point,
+                                          const BranchVector& tangent,
+                                          const Scaling& scaling) const;
+  /// The set without what its solution does not need; `left_out` is what goes.
+  [[nodiscard]] HarmonicDecision reduced(const HarmonicBalance& balance, const NewtonResult& solution,
+                                         const BranchVector& tangent, const Scaling& scaling) const;
+
+ private:
+  /// Orders up to the highest in which the contact answers, those of the balance left out.
+  [[nodiscard]] std::vector<int> heard(const HarmonicBalance& balance, const BranchVector& point,
+                                       int highest, const Scaling& scaling) const;
+  [[nodiscard]] int probed(const HarmonicSet& set, double frequency) const;
+
+  const Scene& scene_;
+  double tolerance_;
+  int highest_;
+  HarmonicSet least_;
+  double top_frequency_;  // highest resonance of the linear limits [rad/s]
+};
+
+/// A solution at a fixed frequency with the harmonics it needs.
+struct SettledSolution {
+  HarmonicSet set;
+  NewtonResult solution;
+  double left_out = 0.0;
+  bool settled = true;  ///< false: the equations with more harmonics were not solved
+  long iterations = 0;
+  long evaluations = 0;
+};
+
+/// Adds harmonics until nothing is missing, solving in between.
+/// @param at  converged, in the unknowns of `set`.
+[[nodiscard]] SettledSolution settle_harmonics(const HarmonicChoice& choice, const Scene& scene,
+                                               HarmonicSet set, NewtonResult at, double tolerance);
+
+}  // namespace microslip::solver
