@@ -93,9 +93,11 @@ TEST_P(Refits, CurveMeetsThatOfManyCells) {
     const auto found = marked(fitted, mark);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      // 3200 midpoint cells err by some 1e-4 (fitted_quadrature.cpp).
-      EXPECT_NEAR(found[i].frequency, expected[i].frequency, 3e-4 * expected[i].frequency);
-      EXPECT_NEAR(found[i].amplitude, expected[i].amplitude, 3e-4 * expected[i].amplitude);
+      // 3200 midpoint cells err by 1e-6 to 1e-5 at these peaks, with order 1/n from 200 to 51200. Where the
+      // branch is vertical, at a fold, the amplitude goes like the root of what moves the frequency.
+      const double tolerance = mark == PointMark::peak ? 2e-5 : 1e-3;
+      EXPECT_NEAR(found[i].frequency, expected[i].frequency, 2e-5 * expected[i].frequency);
+      EXPECT_NEAR(found[i].amplitude, expected[i].amplitude, tolerance * expected[i].amplitude);
     }
   }
 }
