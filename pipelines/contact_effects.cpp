@@ -107,7 +107,6 @@ contact::SurfaceLaw surface_law(const contact::PointParameters& point, double se
 std::unique_ptr<contact::ModalForce> fitted_force(const std::shared_ptr<const PatchFields>& fields,
                                                   double load) {
   contact::FittedPatchOptions options;
-  options.rule.order = fields->order();
   options.force_tolerance = fitted_tolerance;
   return std::make_unique<contact::FittedPatchForce>(
       fields->cells(),

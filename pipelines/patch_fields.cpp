@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "contact/fitted_rule.hpp"
 #include "mesh/shape_functions.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -17,10 +18,6 @@ namespace {
 // Areas of the same patch, added up differently, agree to rounding; a rectangle or straight edges that only
 // nearly are would lose a part of the patch.
 constexpr double same_area = 1e-9;
-// Of one large cell: polynomials of degree 15. Faces of a mesh are small against what the fields vary over.
-constexpr int order_of_rectangle = 8;
-constexpr int order_of_faces = 5;
-
 Eigen::Vector2d in_plane(const PatchPlane& plane, const Eigen::Vector3d& x) {
   return {plane.frame.row(0).dot(x - plane.origin), plane.frame.row(2).dot(x - plane.origin)};
 }
@@ -73,7 +70,7 @@ PatchFields::PatchFields(const mesh::Mesh& mesh, const ContactDescription& conta
   const mesh::Surface& surface = mesh.surface(contact.surface);
   add_faces(mesh, surface, plane, residual);
   choose_cells(surface.area, std::move(sampled));
-  const contact::PatchRule rule = contact::gauss_rule(cells_, order_of_rectangle);
+  const contact::PatchRule rule = contact::gauss_rule(cells_, contact::FittedRuleOptions{}.order);
   total_stiffness_ = rule.weights.dot(stiffness(compliance(rule.p, rule.r), 1));
   const double total =
       preload_ ? rule.weights.dot(preload_->at(rule.p, rule.r)) : rule.weights.sum();
@@ -81,10 +78,6 @@ PatchFields::PatchFields(const mesh::Mesh& mesh, const ContactDescription& conta
     throw SceneError(contact.preload_field->place + ": the field has no total to scale");
   }
   unit_preload_ = 1.0 / total;
-}
-
-int PatchFields::order() const {
-  return cells_.corners.rows() == 1 ? order_of_rectangle : order_of_faces;
 }
 
 void PatchFields::add_faces(const mesh::Mesh& mesh, const mesh::Surface& surface,

@@ -45,8 +45,6 @@ class PatchFields {
               const fem::ResidualFlexibility* residual, contact::PatchCells sampled);
 
   [[nodiscard]] const contact::PatchCells& cells() const { return cells_; }
-  /// Gauss points per direction that the cells call for.
-  [[nodiscard]] int order() const;
   /// u and v alone. @param p, r  [m], n each.   @return n × n_modes.
   [[nodiscard]] contact::ModalShapes shapes(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
   /// @param load  total preload [N]; negative: the gap it stands for (interfaces: −load/∬k_v dA).
