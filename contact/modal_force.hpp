@@ -84,7 +84,7 @@ class ModalForce {
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
     if (n_rows == q.rows().rows()) return all;
     ForceAndJacobian some{std::move(all.force), Eigen::MatrixXd(n_rows * n, n_rows * n),
-                          Eigen::VectorXd(n_rows * n)};
+                          Eigen::VectorXd(n_rows * n), all.defect};
     for (Eigen::Index i = 0; i < n_rows; ++i) {
       const Eigen::Index row = rows[static_cast<std::size_t>(i)] * n;
       some.frequency_derivative.segment(i * n, n) = all.frequency_derivative.segment(row, n);

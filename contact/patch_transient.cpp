@@ -95,7 +95,7 @@ PatchTransient::PatchTransient(ContactPatch patch, ModalShapes shapes)
 TransientMemory PatchTransient::virgin_memory() const {
   TransientMemory memory{std::vector<ContactState>(patch_.points().size()),
                          Eigen::VectorXd::Zero(n_points())};
-  commit(Eigen::VectorXd::Zero(n_modes()), memory);
+  commit({Eigen::VectorXd::Zero(n_modes()), Eigen::VectorXd::Zero(n_modes())}, memory);
   return memory;
 }
 
@@ -104,10 +104,10 @@ Eigen::VectorXd PatchTransient::modal_force(const Eigen::VectorXd& friction,
   return shapes_.u.transpose() * friction + shapes_.v.transpose() * normal;
 }
 
-Eigen::VectorXd PatchTransient::trial_force(const Eigen::VectorXd& q,
+Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes_.u * q;
-  Eigen::VectorXd normal = shapes_.v * q;
+  Eigen::VectorXd friction = shapes_.u * motion.q;
+  Eigen::VectorXd normal = shapes_.v * motion.q;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PointParameters& point = patch_.points()[static_cast<std::size_t>(i)];
     const double load = std::max(0.0, signed_load(point, normal[i]));
@@ -118,9 +118,9 @@ Eigen::VectorXd PatchTransient::trial_force(const Eigen::VectorXd& q,
   return modal_force(friction, normal);
 }
 
-double PatchTransient::commit(const Eigen::VectorXd& q, TransientMemory& memory) const {
-  const Eigen::VectorXd u = shapes_.u * q;
-  const Eigen::VectorXd v = shapes_.v * q;
+double PatchTransient::commit(const ModalMotion& motion, TransientMemory& memory) const {
+  const Eigen::VectorXd u = shapes_.u * motion.q;
+  const Eigen::VectorXd v = shapes_.v * motion.q;
   double work = 0.0;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -132,10 +132,10 @@ double PatchTransient::commit(const Eigen::VectorXd& q, TransientMemory& memory)
   return work;
 }
 
-Eigen::VectorXd PatchTransient::held_force(const Eigen::VectorXd& q,
+Eigen::VectorXd PatchTransient::held_force(const ModalMotion& motion,
                                            const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes_.u * q;
-  Eigen::VectorXd normal = shapes_.v * q;
+  Eigen::VectorXd friction = shapes_.u * motion.q;
+  Eigen::VectorXd normal = shapes_.v * motion.q;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
     const PointParameters& point = patch_.points()[index];

@@ -31,10 +31,10 @@ class PatchTransient final : public TransientForce {
   [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
   [[nodiscard]] Eigen::Index n_points() const override { return patch_.n_points(); }
   [[nodiscard]] TransientMemory virgin_memory() const override;
-  [[nodiscard]] Eigen::VectorXd trial_force(const Eigen::VectorXd& q,
+  [[nodiscard]] Eigen::VectorXd trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const override;
-  double commit(const Eigen::VectorXd& q, TransientMemory& memory) const override;
-  [[nodiscard]] Eigen::VectorXd held_force(const Eigen::VectorXd& q,
+  double commit(const ModalMotion& motion, TransientMemory& memory) const override;
+  [[nodiscard]] Eigen::VectorXd held_force(const ModalMotion& motion,
                                            const TransientMemory& memory) const override;
   [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> guards(
       const ModalMotion& motion, const TransientMemory& memory,

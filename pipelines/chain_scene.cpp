@@ -145,8 +145,7 @@ void add_cells(ModalModel& model, const Contact& contact, const ChainSystem& sys
   const Eigen::VectorXd p = cell_centres(contact.n_along, contact.length);
   const Eigen::VectorXd r = cell_centres(contact.n_across, contact.width);
   const double n_cells = static_cast<double>(contact.n_along) * contact.n_across;
-  const double sum_pp = contact.n_across * p.squaredNorm();
-  const double sum_rr = contact.n_along * r.squaredNorm();
+  const Eigen::Index begin = row;
   for (Eigen::Index j = 0; j < r.size(); ++j) {
     for (Eigen::Index i = 0; i < p.size(); ++i, ++row) {
       contact::PointParameters cell = contact.whole;
@@ -154,13 +153,15 @@ void add_cells(ModalModel& model, const Contact& contact, const ChainSystem& sys
       cell.normal_stiffness /= n_cells;
       cell.preload /= n_cells;
       model.points.push_back(cell);
-      if (contact.moment_r != 0.0) model.preload_offset[row] += contact.moment_r * p[i] / sum_pp;
-      if (contact.moment_p != 0.0) model.preload_offset[row] -= contact.moment_p * r[j] / sum_rr;
       model.shapes.u.row(row) = contact.slip.transpose() * system.shapes;
       model.shapes.v.row(row) = contact.approach.transpose() * system.shapes;
       model.positions.row(row) << p[i], r[j];
     }
   }
+  if (contact.moment_p == 0.0 && contact.moment_r == 0.0) return;
+  const auto cells = model.positions.middleRows(begin, row - begin);
+  model.tilted_areas.push_back({"contact.points.preload_moment", begin, cells.col(0), cells.col(1),
+                                contact.whole.preload, {contact.moment_p, contact.moment_r}});
 }
 
 void set_contacts(ModalModel& model, const std::vector<Contact>& contacts,
@@ -172,12 +173,10 @@ void set_contacts(ModalModel& model, const std::vector<Contact>& contacts,
   model.weights = Eigen::VectorXd::Ones(n);
   model.shapes = {Eigen::MatrixXd::Zero(n, n_modes), Eigen::MatrixXd::Zero(n, n_modes),
                   Eigen::MatrixXd::Zero(n, n_modes)};
-  model.preload_offset = Eigen::VectorXd::Zero(n);
   model.positions = Eigen::MatrixX2d::Zero(n, 2);
   for (const Contact& contact : contacts) {
     add_cells(model, contact, system, static_cast<Eigen::Index>(model.points.size()));
   }
-  if (model.preload_offset.isZero(0.0)) model.preload_offset.resize(0);
   if (contacts.size() > 1) model.positions.resize(0, 2);  // areas of their own: no common plane
 }
 
@@ -203,18 +202,6 @@ void set_forces(ModalModel& model, SectionReader& s, const ChainSystem& system) 
     completed.push_back(std::move(complete));
   }
   s.complete("forces", std::move(completed));
-}
-
-/// The lowest modes, as many as asked for.
-void keep_lowest(ChainSystem& system, const SectionReader& s) {
-  if (!s.given("count")) return;
-  const int count = s.integer("count");
-  if (count > system.frequency.size()) {
-    s.fail("count", fmt::format("{} modes of a system that has {}", count, system.frequency.size()),
-           s.node("count"));
-  }
-  system.frequency.conservativeResize(count);
-  system.shapes.conservativeResize(Eigen::NoChange, count);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 ///
 ///   n_i = N share/(n m) + M_r p_i/Σp² − M_p r_i/Σr²        (theory section 12)
 ///
-/// for the preload moments M_p, M_r, right as long as no cell is unloaded. The cells move as one: only
-/// the coordinates of the chain turn nothing.
+/// for the preload moments M_p, M_r as long as every cell stays loaded; else some lift off and the others
+/// carry (tilted_area.hpp). The cells move as one: only the coordinates of the chain turn nothing.
 #pragma once
 
 #include <string>

@@ -38,18 +38,6 @@ Eigen::MatrixXd read_rows(const SectionReader& s, std::string_view key) {
   return matrix;
 }
 
-Eigen::MatrixXd read_symmetric(const SectionReader& s, std::string_view key) {
-  const Eigen::MatrixXd matrix = read_rows(s, key);
-  if (matrix.rows() != matrix.cols()) {
-    s.fail(key, fmt::format("{} rows of {} numbers: not square", matrix.rows(), matrix.cols()),
-           s.node(key));
-  }
-  // Printed numbers agree to their last digit, not to rounding.
-  constexpr double printed = 1e-9;
-  if (!matrix.isApprox(matrix.transpose(), printed)) s.fail(key, "is not symmetric", s.node(key));
-  return 0.5 * (matrix + matrix.transpose());
-}
-
 ChainSystem checked_modes(const SectionReader& s, std::string_view key, const Eigen::MatrixXd& K,
                           const Eigen::MatrixXd& M) {
   try {
@@ -128,6 +116,30 @@ std::vector<std::string> read_coordinates(const SectionReader& s, Eigen::Index n
 }
 
 }  // namespace
+
+Eigen::MatrixXd read_symmetric(const SectionReader& s, std::string_view key) {
+  const Eigen::MatrixXd matrix = read_rows(s, key);
+  if (matrix.rows() != matrix.cols()) {
+    s.fail(key, fmt::format("{} rows of {} numbers: not square", matrix.rows(), matrix.cols()),
+           s.node(key));
+  }
+  // Printed numbers agree to their last digit, not to rounding.
+  constexpr double printed = 1e-9;
+  if (!matrix.isApprox(matrix.transpose(), printed)) s.fail(key, "is not symmetric", s.node(key));
+  return 0.5 * (matrix + matrix.transpose());
+}
+
+void keep_lowest(ChainSystem& system, const SectionReader& modes) {
+  if (!modes.given("count")) return;
+  const int count = modes.integer("count");
+  if (count > system.frequency.size()) {
+    modes.fail("count",
+               fmt::format("{} modes of a system that has {}", count, system.frequency.size()),
+               modes.node("count"));
+  }
+  system.frequency.conservativeResize(count);
+  system.shapes.conservativeResize(Eigen::NoChange, count);
+}
 
 Eigen::MatrixXd chain_stiffness(Eigen::Index n_masses, const Eigen::VectorXd& springs) {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_masses, n_masses);

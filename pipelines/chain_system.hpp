@@ -27,6 +27,12 @@ struct ChainSystem {
 [[nodiscard]] Eigen::MatrixXd chain_stiffness(Eigen::Index n_masses,
                                               const Eigen::VectorXd& springs);
 
+/// A symmetric matrix, written as a list of rows. @throws SceneError  not square, not symmetric.
+[[nodiscard]] Eigen::MatrixXd read_symmetric(const SectionReader& section, std::string_view key);
+
+/// The lowest modes, as many as `modes.count` asks for; all without it. @throws SceneError  too many.
+void keep_lowest(ChainSystem& system, const SectionReader& modes);
+
 /// @param model  the section [model] of a chain.
 /// @throws SceneError  as read_chain().
 [[nodiscard]] ChainSystem read_chain_system(const SectionReader& model);

@@ -50,19 +50,18 @@ void describe_effects(const SceneDescription& scene, const ReducedModel* model, 
 }
 
 /// Natural frequencies with every contact point stuck [Hz], ascending.
-Eigen::VectorXd stuck_frequencies(const ReducedModel& model, double load) {
-  const solver::Scene scene = solver_scene(model, load);
+Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
+  const solver::Scene scene = limit_scene(model);
   Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
   if (scene.contact) K += scene.contact->stuck_stiffness();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, Eigen::EigenvaluesOnly);
   return pairs.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
-void describe_modes(const ModalModel& modal, const ReducedModel& model, double load,
-                    std::ostream& out) {
+void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {
   Eigen::VectorXd free = modal.frequency_hz;
   std::sort(free.begin(), free.end());
-  const Eigen::VectorXd stuck = stuck_frequencies(model, load);
+  const Eigen::VectorXd stuck = stuck_frequencies(model);
   constexpr Eigen::Index longest_list = 20;
   fmt::print(out, "  natural frequencies [Hz]      free     all stuck\n");
   for (Eigen::Index i = 0; i < std::min(free.size(), longest_list); ++i) {
@@ -92,7 +91,7 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
   ReducedModel model = reduced_model(modal);
   model.effects = contact_effects(model, scene);
   require_held(model, scene);
-  describe_modes(modal, model, scene.response ? some_load(scene) : 1.0, out);
+  describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
     require_loads(model, scene);

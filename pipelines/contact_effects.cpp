@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -17,8 +18,8 @@
 #include "contact/patch_force.hpp"
 #include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
+#include "contact/planar_transient.hpp"
 #include "contact/sampled_cycle.hpp"
-#include "contact/surface_law.hpp"
 #include "pipelines/patch_fields.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -185,12 +186,25 @@ contact::ModalShapes simulated_shapes(const ReducedModel& model, bool on_vertice
   return shapes;
 }
 
-std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
-                                                                 double load, bool on_vertices) {
-  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
+contact::SurfaceLaw surface_of_point(const ReducedModel& model,
+                                     const contact::PointParameters& point, Eigen::Index row,
+                                     bool on_vertices) {
   const Eigen::VectorXd& second =
       on_vertices ? model.vertex_second_stiffness : model.second_stiffness;
   const Eigen::MatrixX3d& compliance = on_vertices ? model.vertex_compliance : model.compliance;
+  const bool slides = point.friction_coefficient > 0.0;
+  const contact::FrictionLaw friction =
+      slides && model.effects.friction_law
+          ? *model.effects.friction_law
+          : contact::FrictionLaw::constant(point.friction_coefficient);
+  return surface_law(
+      point, second[row], friction, model.effects,
+      compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
+}
+
+std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
+                                                                 double load, bool on_vertices) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
   const ContactEffects& effects = model.effects;
   std::vector<std::shared_ptr<const contact::PointLaw>> laws;
   laws.reserve(points.size());
@@ -201,14 +215,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
       laws.push_back(std::make_shared<contact::EventLaw>(point));
       continue;
     }
-    const bool slides = point.friction_coefficient > 0.0;
-    const contact::FrictionLaw friction =
-        slides && effects.friction_law
-            ? *effects.friction_law
-            : contact::FrictionLaw::constant(point.friction_coefficient);
-    const contact::SurfaceLaw surface = surface_law(
-        point, second[row], friction, effects,
-        compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
+    const contact::SurfaceLaw surface = surface_of_point(model, point, row, on_vertices);
     if (effects.second_direction) {
       laws.push_back(std::make_shared<contact::PlanarLaw>(surface, planar_tolerance));
     } else {
@@ -238,17 +245,17 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
 std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
   const ContactEffects& effects = model.effects;
-  if (!effects.simple_laws()) {
-    throw RefusedError(fmt::format(
-        "response.method = \"time\" integrates smooth contact with constant friction along p; this scene "
-        "has {}",
-        effects.second_direction ? "friction along r as well (effects.second_direction = \"off\" leaves it out)"
-        : effects.roughness      ? "rough surfaces"
-                                 : "a friction coefficient that follows the slip speed"));
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
+  if (effects.second_direction || effects.friction_law || effects.roughness) {
+    std::vector<contact::SurfaceLaw> laws;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      laws.push_back(surface_of_point(model, points[i], static_cast<Eigen::Index>(i), false));
+    }
+    return std::make_unique<contact::PlanarTransient>(model.weights, std::move(laws),
+                                                      simulated_shapes(model, false));
   }
   return std::make_unique<contact::PatchTransient>(
-      contact::ContactPatch(model.weights, point_parameters(model, load, false)),
-      simulated_shapes(model, false));
+      contact::ContactPatch(model.weights, points), simulated_shapes(model, false));
 }
 
 }  // namespace microslip::pipelines

@@ -9,6 +9,7 @@
 
 #include "contact/modal_force.hpp"
 #include "contact/point_law.hpp"
+#include "contact/surface_law.hpp"
 #include "contact/transient_force.hpp"
 #include "pipelines/run_results.hpp"
 
@@ -26,9 +27,15 @@ namespace microslip::pipelines {
 [[nodiscard]] std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load);
 
 /// The same contact for integration in time; nullptr: the scene has none.
-/// @throws RefusedError  an effect that is not integrated in time.
 [[nodiscard]] std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model,
                                                                        double load);
+
+/// Surfaces of a contact point (or vertex) with a preload of its own.
+/// @param point  constants, bodies in series included; its preload is taken as it is.
+/// @param row    of the point in the model.
+[[nodiscard]] contact::SurfaceLaw surface_of_point(const ReducedModel& model,
+                                                   const contact::PointParameters& point,
+                                                   Eigen::Index row, bool on_vertices);
 
 /// The law of each contact point, or of each vertex of the cells.
 [[nodiscard]] std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(

@@ -77,36 +77,6 @@ contact::FrictionLaw friction_law_in(const SectionReader& s, std::string_view ke
   return contact::FrictionLaw::hyperbolic(entry("static", "1"), entry("rate", "s/m"));
 }
 
-/// Heights of one surface, or of two: variances of independent heights add.
-std::optional<contact::RoughSurface> roughness_in(const SectionReader& s) {
-  if (!s.given("roughness")) return std::nullopt;
-  constexpr std::array<std::string_view, 2> laws{"cubic", "gaussian"};
-  const toml::node& node = *s.node("roughness");
-  double height = 0.0;
-  std::string law;
-  const auto add = [&](const toml::node& entry) {
-    const toml::table* table = entry.as_table();
-    if (table == nullptr) {
-      s.fail("roughness", "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two",
-             &entry);
-    }
-    const std::string one = law_of(s, "roughness", *table, laws, {"height"});
-    if (!law.empty() && one != law) {
-      s.fail("roughness", "a cubic surface against a gaussian one has no law of its own", &entry);
-    }
-    law = one;
-    height = std::hypot(height, entry_of(s, "roughness", *table, "height", "m"));
-  };
-  if (const toml::array* list = node.as_array()) {
-    if (list->empty() || list->size() > 2) s.fail("roughness", "expected one or two surfaces", &node);
-    for (const toml::node& entry : *list) add(entry);
-  } else {
-    add(node);
-  }
-  return law == "cubic" ? contact::RoughSurface::cubic(height)
-                        : contact::RoughSurface::matching_gaussian(height);
-}
-
 /// A number, an expression in p and r, or { file = … }. The completed scene keeps the absolute path.
 FieldDescription field_in(SectionReader& s, std::string_view key,
                           const std::filesystem::path& folder, const char* unit) {
@@ -161,10 +131,6 @@ void read_preload(SectionReader& s, const std::filesystem::path& folder,
   if (turned && contact.preload_field) {
     s.fail("preload_moment", "a preload_field has its own moments; give one of the two", &moment);
   }
-  if (turned && s.given("roughness")) {
-    s.fail("preload_moment", "rough surfaces under a moment are not available in this version",
-           &moment);
-  }
 }
 
 void read_quadrature(const SectionReader& s, ContactDescription& contact, const ContactLaws& laws) {
@@ -205,6 +171,43 @@ void read_fit(const SectionReader& s, ContactDescription& contact) {
 
 }  // namespace
 
+std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
+  if (!s.given("roughness")) return std::nullopt;
+  constexpr std::array<std::string_view, 2> laws{"cubic", "gaussian"};
+  const toml::node& node = *s.node("roughness");
+  double height = 0.0;
+  std::string law;
+  const auto add = [&](const toml::node& entry) {
+    const toml::table* table = entry.as_table();
+    if (table == nullptr) {
+      s.fail("roughness", "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two",
+             &entry);
+    }
+    const std::string one = law_of(s, "roughness", *table, laws, {"height"});
+    if (!law.empty() && one != law) {
+      s.fail("roughness", "a cubic surface against a gaussian one has no law of its own", &entry);
+    }
+    law = one;
+    height = std::hypot(height, entry_of(s, "roughness", *table, "height", "m"));
+  };
+  if (const toml::array* list = node.as_array()) {
+    if (list->empty() || list->size() > 2) s.fail("roughness", "expected one or two surfaces", &node);
+    for (const toml::node& entry : *list) add(entry);
+  } else {
+    add(node);
+  }
+  return law == "cubic" ? contact::RoughSurface::cubic(height)
+                        : contact::RoughSurface::matching_gaussian(height);
+}
+
+double read_friction(const SectionReader& s, ContactLaws& laws) {
+  const toml::node& node = *s.node("friction_coefficient");
+  const toml::table* law = node.as_table();
+  if (law == nullptr) return s.number_in(node, "friction_coefficient");
+  laws.friction = friction_law_in(s, "friction_coefficient", *law);
+  return laws.friction->at_rest();
+}
+
 ContactDescription read_contact(SectionReader s, const std::filesystem::path& folder,
                                 ContactLaws& laws) {
   ContactDescription contact;
@@ -225,7 +228,7 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   }
   contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
-  laws.roughness = roughness_in(s);
+  laws.roughness = read_roughness(s);
   read_preload(s, folder, contact);
   contact.wear_coefficient = s.number("wear_coefficient");
   contact.n_points = s.integer("points");
@@ -241,7 +244,7 @@ ContactLaws read_contact_laws(const SectionReader& s, double& wear_coefficient) 
     if (!node.is_table()) s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
     laws.friction = friction_law_in(s, "friction_law", *node.as_table());
   }
-  laws.roughness = roughness_in(s);
+  laws.roughness = read_roughness(s);
   wear_coefficient = s.number("wear_coefficient");
   return laws;
 }

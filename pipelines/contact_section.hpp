@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "pipelines/scene_description.hpp"
 #include "pipelines/section_reader.hpp"
@@ -16,5 +17,11 @@ namespace microslip::pipelines {
 /// Modal scenes: laws beside the constants that the points carry.
 /// @param wear_coefficient  [m²/N], written.
 [[nodiscard]] ContactLaws read_contact_laws(const SectionReader& section, double& wear_coefficient);
+
+/// `friction_coefficient` as a number or a law, which goes into `laws`. @return μ at rest.
+[[nodiscard]] double read_friction(const SectionReader& section, ContactLaws& laws);
+
+/// `roughness` of one surface, or of two: variances of independent heights add. None: smooth.
+[[nodiscard]] std::optional<contact::RoughSurface> read_roughness(const SectionReader& section);
 
 }  // namespace microslip::pipelines

@@ -149,7 +149,10 @@ void set_fields(ReducedModel& model, const ContactDescription& contact) {
   const Field friction(contact.friction);
   model.friction_coefficient = friction.at(centres.p, centres.r);
   model.vertex_friction_coefficient = friction.at(vertices.p, vertices.r);
-  model.preload_moment = contact.preload_moment;
+  if (contact.preload_moment != std::array{0.0, 0.0}) {
+    model.tilted_areas.push_back(
+        {"contact.preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
+  }
   if (!contact.preload_field) {
     model.preload = contact::uniform_preload(model.weights, 1.0);
     model.vertex_preload =
@@ -325,7 +328,7 @@ ReducedModel reduced_model(const ModalModel& modal) {
   model.weights = modal.weights;
   model.shapes = modal.shapes;
   model.load_measure = modal.load_measure;
-  model.preload_offset = modal.preload_offset;
+  model.tilted_areas = modal.tilted_areas;
   const auto n = static_cast<Eigen::Index>(modal.points.size());
   model.points = Eigen::MatrixX3d::Zero(n, 3);
   if (modal.positions.rows() == n) {

@@ -205,7 +205,7 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   };
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
-  init_command->add_option("kind", a.input, "blade, mesh, modal, bar or chain")
+  init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
       ->default_str("blade");
   with_output(init_command, "file to write; it must not exist");
   with_scene(

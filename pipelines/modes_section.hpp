@@ -1,6 +1,6 @@
 /// @file
 /// What the sections of several kinds share: damping ratios, and the four sections of the kinds that
-/// have formulas for their modes (bar, chain).
+/// have formulas for their modes (bar, chain, block).
 #pragma once
 
 #include "pipelines/scene_description.hpp"

@@ -9,10 +9,9 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "contact/preload_equilibrium.hpp"
 #include "pipelines/contact_effects.hpp"
-#include "pipelines/contact_stage.hpp"
 #include "pipelines/scene_error.hpp"
+#include "pipelines/tilted_area.hpp"
 #include "pipelines/time_response.hpp"
 
 namespace microslip::pipelines {
@@ -25,36 +24,6 @@ Eigen::VectorXd pressures(const Eigen::VectorXd& unit, const Eigen::VectorXd& no
                           double total_stiffness, double load) {
   if (load >= 0.0 || unit.size() == 0 || total_stiffness == 0.0) return load * unit;
   return (load / total_stiffness) * normal_stiffness;
-}
-
-bool has_moment(const ReducedModel& model) {
-  return model.preload_moment[0] != 0.0 || model.preload_moment[1] != 0.0;
-}
-
-/// Bodies that tilt against each other under a force and moments (theory section 12). A point that lifts
-/// off has a gap: negative pressure.
-Eigen::VectorXd tilted_pressures(const ReducedModel& model, double load, bool on_vertices) {
-  const Eigen::Vector3d origin = patch_centroid(model);
-  const auto along = [&](const Eigen::MatrixX3d& points, int axis) -> Eigen::VectorXd {
-    return (points.rowwise() - origin.transpose()) * model.frame.row(axis).transpose();
-  };
-  if (!(model.normal_stiffness.minCoeff() > 0.0)) {
-    throw RefusedError("contact.preload_moment: bodies that tilt need a normal contact stiffness");
-  }
-  try {
-    const contact::ContactArea area({along(model.points, 2), along(model.points, 0), model.weights});
-    const contact::PreloadEquilibrium rest = contact::preload_equilibrium(
-        area, contact::one_sided_springs(model.normal_stiffness),
-        {.force = load, .moment_y = model.preload_moment[1], .moment_z = model.preload_moment[0]});
-    const Eigen::MatrixX3d& points = on_vertices ? model.vertices : model.points;
-    const Eigen::VectorXd& stiffness =
-        on_vertices ? model.vertex_normal_stiffness : model.normal_stiffness;
-    const Eigen::ArrayXd approach = rest.approach + along(points, 0).array() * rest.rotation_y -
-                                    along(points, 2).array() * rest.rotation_z;
-    return stiffness.array() * approach;
-  } catch (const contact::PreloadError& error) {
-    throw RefusedError(fmt::format("preload-unbalanced: contact.preload_moment: {}", error.what()));
-  }
 }
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
@@ -139,10 +108,11 @@ std::vector<contact::PointParameters> point_parameters(const ReducedModel& model
   if (in_newtons && load < 0.0 && total <= 0.0) {
     throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
   }
-  Eigen::VectorXd preload = has_moment(model) && load > 0.0
-                                ? tilted_pressures(model, load, on_vertices)
-                                : pressures(unit, stiffness, total, load);
-  if (!on_vertices && model.preload_offset.size() > 0) preload += model.preload_offset;
+  Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
+  for (const TiltedArea& area : model.tilted_areas) {
+    const Eigen::VectorXd tilted = tilted_pressures(model, area, load, on_vertices);
+    preload.segment(on_vertices ? 0 : area.begin, tilted.size()) = tilted;
+  }
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(preload.size()));
   for (Eigen::Index i = 0; i < preload.size(); ++i) {
     points[static_cast<std::size_t>(i)] = {tangential[i], stiffness[i], friction[i], preload[i]};
@@ -160,6 +130,12 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   return scene;
 }
 
+solver::Scene limit_scene(ReducedModel model) {
+  model.tilted_areas.clear();
+  model.effects.roughness.reset();
+  return solver_scene(model, 1.0);
+}
+
 void require_response(const SceneDescription& scene) {
   if (!scene.response) {
     throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
@@ -167,22 +143,10 @@ void require_response(const SceneDescription& scene) {
   if (!scene.without_contact.empty()) throw SceneError(scene.without_contact);
 }
 
-double some_load(const SceneDescription& scene) {
-  double largest = 1.0;
-  bool any = false;
-  for (const CurveRequest& request : curve_requests(scene)) {
-    const auto* load = std::get_if<double>(&request.preload);
-    if (load == nullptr || *load <= 0.0) continue;
-    largest = any ? std::max(largest, *load) : *load;
-    any = true;
-  }
-  return largest;
-}
-
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
-  const solver::Scene problem = solver_scene(model, some_load(scene));
+  const solver::Scene problem = limit_scene(model);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
   if (problem.contact) stuck += problem.contact->stuck_stiffness();
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
@@ -197,26 +161,15 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
-  if (model.preload_offset.size() == 0) return;
-  double least = 0.0;  // load under which the first cell is just unloaded
-  for (Eigen::Index i = 0; i < model.preload.size(); ++i) {
-    if (model.preload_offset[i] < 0.0) {
-      least = std::max(least, -model.preload_offset[i] / model.preload[i]);
+  for (const TiltedArea& area : model.tilted_areas) {
+    for (const CurveRequest& request : curve_requests(scene)) {
+      const auto* load = std::get_if<double>(&request.preload);
+      if (load != nullptr) static_cast<void>(tilted_pressures(model, area, *load, false));
     }
-  }
-  const auto refuse = [&](double load) {
-    throw RefusedError(fmt::format(
-        "preload_moment: under {:g} N some cells are unloaded by the moment; a unilateral equilibrium is "
-        "not available in this version: give at least {:.6g} N",
-        load, least));
-  };
-  for (const CurveRequest& request : curve_requests(scene)) {
-    const auto* load = std::get_if<double>(&request.preload);
-    if (load != nullptr && *load < least) refuse(*load);
-  }
-  const auto& optimum = scene.response->optimum;
-  if (optimum && optimum->of_preload() && optimum->range && (*optimum->range)[0] < least) {
-    refuse((*optimum->range)[0]);
+    const auto& optimum = scene.response->optimum;
+    if (optimum && optimum->of_preload() && optimum->range) {
+      static_cast<void>(tilted_pressures(model, area, (*optimum->range)[0], false));
+    }
   }
 }
 
@@ -236,7 +189,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   const solver::ContinuationOptions options = continuation_options(*scene.response);
   CurveResult result{request.name, request.preload, {}, {}};
   if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
-    result.curve = solver::trace_linear(solver_scene(model, some_load(scene)),
+    result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
                                         options);
@@ -246,6 +199,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   if (scene.response->method == ResponseDescription::Method::time) {
     problem.transient = transient_force(model, std::get<double>(request.preload));
     result.curve = integrate_curve(problem, *scene.response, observe);
+    result.integrated = true;
     return result;
   }
   result.curve = options.frequency_begin == options.frequency_end

@@ -30,19 +30,18 @@ struct CurveRequest {
 /// The same patch as the solver takes it. Modes and excitation of the model are copied.
 [[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
 
-/// A moment beside the preload leaves every cell loaded, for all loads the scene asks for: then the linear
-/// distribution of theory section 12 is the equilibrium.
-/// @throws RefusedError  it does not; the message names the least load that would do.
+/// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in full
+/// contact.
+[[nodiscard]] solver::Scene limit_scene(ReducedModel model);
+
+/// Moments beside the preload can be balanced under all loads the scene asks for.
+/// @throws RefusedError  they cannot; the message names the force they need.
 void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
 /// @throws SceneError  no [response], or one that speaks of a contact the scene does not have.
 void require_response(const SceneDescription& scene);
-
-/// The largest positive load of the curves, else 1: for what does not depend on the load, where moments
-/// must be in equilibrium with one.
-[[nodiscard]] double some_load(const SceneDescription& scene);
 
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
 void require_held(const ReducedModel& model, const SceneDescription& scene);

@@ -71,7 +71,7 @@ class RunRecord {
   };
 
   void describe(const StructureModes& modes);
-  void warn_of_precision(const CurveSummary& curve);
+  void warn_of_precision(const CurveSummary& curve, const ReducedModel& model);
   void write_summary_file();
   void fail(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;

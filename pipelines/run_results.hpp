@@ -57,8 +57,7 @@ struct ReducedModel {
   Eigen::VectorXd friction_coefficient;
   Eigen::VectorXd preload;        ///< [Pa] at unit load: total 1 N, or as given where the load is a scale
   LoadMeasure load_measure = LoadMeasure::force;
-  std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
-  Eigen::VectorXd preload_offset; ///< [Pa] added under every load: what moments give; empty: none
+  std::vector<TiltedArea> tilted_areas;  ///< where moments act beside the load
   int fit_degree = -1;            ///< −1: no fit
   Eigen::VectorXd fit_error;      ///< per mode; empty without a fit
   /// Cells of the patch for pictures: cell c belongs to point c. No cells: points only.
@@ -89,6 +88,7 @@ struct CurveResult {
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
+  bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 
 /// The best preload when one uncertain number of the contact is multiplied.

@@ -36,8 +36,18 @@ enum class ResidualKind { none, stiffness };
 /// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
 enum class LoadMeasure { scale, force };
 
+/// Points of two plane stiff bodies that are pressed together by a force and moments and tilt against each
+/// other (theory section 12): some of them may lift off.
+struct TiltedArea {
+  std::string key;         ///< that gives the moments, for messages
+  Eigen::Index begin = 0;  ///< its first point; the others follow
+  Eigen::VectorXd p, r;    ///< of its points, from where the moments turn [m]
+  double share = 1.0;      ///< of the load of a curve [-]
+  std::array<double, 2> moment{0.0, 0.0};  ///< about p and r [N m], the same under every load
+};
+
 /// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
-/// `bar` and `chain`.
+/// `bar`, `chain` and `block`.
 struct ModalModel {
   Eigen::VectorXd frequency_hz;
   Eigen::VectorXd damping_ratio;
@@ -49,7 +59,7 @@ struct ModalModel {
   Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
   Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
   LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
-  Eigen::VectorXd preload_offset;  ///< added under every load [Pa]: what moments give; empty: none
+  std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
   ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
 };
 

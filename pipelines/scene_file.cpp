@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "pipelines/bar_scene.hpp"
+#include "pipelines/block_scene.hpp"
 #include "pipelines/chain_scene.hpp"
 #include "pipelines/contact_section.hpp"
 #include "pipelines/csv_table.hpp"
@@ -26,7 +27,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
-constexpr std::array<std::string_view, 5> kinds{"blade", "mesh", "modal", "bar", "chain"};
+constexpr std::array<std::string_view, 6> kinds{"blade", "mesh", "modal", "bar", "chain", "block"};
 
 /// The scene while it is read: what was given, and the completed scene that grows beside it.
 struct Reading {
@@ -454,13 +455,18 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   };
   const LeanSections sections{section("model"), section("modes"), section("contact"),
                               section("excitation")};
-  std::string output;
+  std::string coordinate;
+  std::optional<BlockOutput> output;
   if (reading.given.contains("response")) {
-    const SectionReader response = section("response");
+    SectionReader response = section("response");
     scene.response = kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
-    if (kind == "chain") output = response.text("output");
+    if (kind == "chain") coordinate = response.text("output");
+    if (kind == "block") output = read_block_output(response);
   }
-  const ModalModel model = kind == "bar" ? read_bar(sections) : read_chain(sections, output);
+  const ModalModel model =
+      kind == "bar"     ? read_bar(sections)
+      : kind == "chain" ? read_chain(sections, coordinate)
+                        : read_block(sections, output, scene.laws, scene.wear_coefficient);
   if (model.points.empty() && reading.given.contains("response")) {
     scene.without_contact = contact_keys_without_contact(section("response"));
   }
@@ -484,7 +490,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   reading.complete.insert_or_assign("title", scene.title);
   if (kind == "modal") {
     read_modal_scene(reading, scene);
-  } else if (kind == "bar" || kind == "chain") {
+  } else if (kind == "bar" || kind == "chain" || kind == "block") {
     read_lean_scene(reading, kind, scene);
   } else {
     read_meshed(reading, kind, scene);

@@ -18,7 +18,7 @@ constexpr KeySpec length_key(std::string_view name, std::string_view preset,
   return {name, number, "m", preset, 0.0, 10.0, true, meaning};
 }
 
-constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal | bar | chain"};
+constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal | bar | chain | block"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
 constexpr std::array blade_keys{
@@ -77,6 +77,17 @@ constexpr std::array chain_model_keys{
             "given modes: one row per mode, mass-normalised, a number per coordinate", true},
 };
 
+constexpr std::array block_model_keys{
+    kind_key,
+    KeySpec{"mass", number, "kg", "", 0.0, unbounded, true, "of the block; vectors of this scene are told along p, q, r: q points out of the block into the ground"},
+    KeySpec{"moments_of_inertia", other, "kg*m^2", "", 0.0, unbounded, false, "about p, q, r through the centre of mass: the principal axes"},
+    KeySpec{"height", number, "m", "0", -unbounded, unbounded, false, "of the centre of mass above the contact plane"},
+    KeySpec{"stiffness", other, "N/m", "", 0.0, unbounded, false, "springs at the centre of mass along p, q, r", true},
+    KeySpec{"rotational_stiffness", other, "N*m", "", 0.0, unbounded, false, "springs that turn about p, q, r, per rad", true},
+    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false,
+            "6 x 6 instead, SI, of the displacements along p, q, r and the rotations about them, at the centre of mass", true},
+};
+
 constexpr std::array material_keys{
     KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
     KeySpec{"poissons_ratio", number, "1", "", -1.0, 0.4999, true, "ν"},
@@ -126,6 +137,22 @@ constexpr std::array bar_excitation_keys{
     KeySpec{"force", number, "N", "", -unbounded, unbounded, false, "F in F sin θ along the bar, at its right end"},
 };
 
+constexpr std::array block_excitation_keys{
+    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic loads F sin(θ + phase)"},
+};
+
+constexpr std::array block_force_keys{
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] where the force acts, from the centre of mass"},
+    KeySpec{"force", other, "N", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes along p, q, r"},
+    KeySpec{"moment", other, "N*m", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes about p, q, r"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr std::array block_output_keys{
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] from the centre of mass"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "along p, q, r"},
+};
+
 constexpr std::array chain_contact_keys{
     KeySpec{"points", other, "", "[]", 0, 0, false, "contacts, a list of tables"},
 };
@@ -153,6 +180,21 @@ constexpr KeySpec roughness_key{"roughness", other, "m", "", 0.0, unbounded, fal
                                 "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two", true};
 constexpr KeySpec wear_key{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
                            "Archard: depth per (pressure × slip distance)"};
+
+constexpr std::array block_contact_keys{
+    KeySpec{"cells", other, "", "[4, 4]", 0, 0, false, "along p and r"},
+    KeySpec{"size", other, "m", "", 0.0, unbounded, false, "of the contact rectangle along p and r"},
+    KeySpec{"centre", other, "m", "[0, 0]", -unbounded, unbounded, false, "of the rectangle along p and r, from below the centre of mass"},
+    KeySpec{"normal_stiffness", number, "N/m", "", 0.0, unbounded, false, "of all cells together, in full contact; 0: constant load"},
+    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "the same along p and along r"},
+    KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
+            "μ: a number, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "{ law = \"hyperbolic\", static = …, rate = … }"},
+    roughness_key,
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
+            "about p and r through the centre of the rectangle, beside each preload; cells may lift off"},
+    wear_key,
+};
 
 constexpr std::array modal_contact_keys{
     KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
@@ -266,6 +308,20 @@ constexpr std::array chain_response_keys{
     phases_key,
 };
 
+constexpr std::array block_response_keys{
+    KeySpec{"output", other, "", "", 0, 0, false, "{ at = [p, q, r], direction = [p, q, r] }: the displacement that is told"},
+    frequency_key,
+    method_key,
+    time_points_key,
+    harmonics_key,
+    search_key,
+    preload_key,
+    optimum_key,
+    optimum_range_key,
+    maps_key,
+    phases_key,
+};
+
 constexpr std::array modal_response_keys{
     frequency_key, method_key, time_points_key, harmonics_key,
     harmonic_tolerance_key, search_key,
@@ -297,7 +353,7 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
-constexpr std::array<SectionSpec, 27> sections{{
+constexpr std::array<SectionSpec, 34> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -325,13 +381,20 @@ constexpr std::array<SectionSpec, 27> sections{{
     {"response.chain", chain_response_keys},
     {"force.chain", chain_force_keys},
     {"excitation.chain", excitation_keys},
+    {"model.block", block_model_keys},
+    {"modes.block", chain_mode_keys},
+    {"contact.block", block_contact_keys},
+    {"excitation.block", block_excitation_keys},
+    {"force.block", block_force_keys},
+    {"output.block", block_output_keys},
+    {"response.block", block_response_keys},
 }};
 
 constexpr std::array<std::string_view, 8> mesh_sections{
     "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
 constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
                                                          "effects"};
-constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain
+constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain, block
     "model", "modes", "contact", "excitation", "response", "effects"};
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -367,7 +430,7 @@ SectionSpec section_spec(std::string_view section, std::string_view kind) {
 
 std::span<const std::string_view> sections_of_kind(std::string_view kind) {
   if (kind == "modal") return modal_sections;
-  if (kind == "bar" || kind == "chain") return lean_sections;
+  if (kind == "bar" || kind == "chain" || kind == "block") return lean_sections;
   return mesh_sections;
 }
 

@@ -87,10 +87,34 @@ const Examples& chain_examples() {
   return values;
 }
 
+const Examples& block_examples() {
+  static const Examples values{
+      {"model.mass", "\"1 kg\""},
+      {"model.moments_of_inertia", "[0.002, 0.003, 0.002]"},
+      {"model.height", "\"20 mm\""},
+      {"model.stiffness", "[\"16 kN/m\", \"20 kN/m\", \"16 kN/m\"]"},
+      {"model.rotational_stiffness", "[60, 60, 60]"},
+      {"modes.damping_ratio", "\"2 %\""},
+      {"contact.cells", "[4, 4]"},
+      {"contact.size", "[\"0.1 m\", \"0.1 m\"]"},
+      {"contact.normal_stiffness", "\"40 kN/m\""},
+      {"contact.tangential_stiffness", "\"40 kN/m\""},
+      {"contact.friction_coefficient", "0.5"},
+      {"contact.roughness", "{ law = \"cubic\", height = \"0.5 mm\" }"},
+      {"excitation.forces",
+       "[\n  { at = [0, 0, 0], force = [\"10 N\", 0, 0], moment = [0, 0, 0], phase = 0 },\n]"},
+      {"response.output", "{ at = [0, 0, 0], direction = [1, 0, 0] }"},
+      {"response.frequency", "[\"18 Hz\", \"40 Hz\"]"},
+      {"response.preload", "[\"free\", 20, 40, \"stuck\"]"},
+  };
+  return values;
+}
+
 const Examples& examples_of(std::string_view kind) {
   if (kind == "modal") return modal_examples();
   if (kind == "bar") return bar_examples();
   if (kind == "chain") return chain_examples();
+  if (kind == "block") return block_examples();
   return mesh_examples();
 }
 
@@ -126,6 +150,7 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
     }
     text += '\n';
     if (kind == "chain" && key.name == "points") add_table_keys(text, "contact.chain.point");
+    if (kind == "block" && key.name == "forces") add_table_keys(text, "force.block");
     text += fmt::format("{} = {}\n", key.name, value);
   }
 }
@@ -133,7 +158,7 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
 }  // namespace
 
 std::string scene_template(std::string_view kind) {
-  constexpr std::array<std::string_view, 5> kinds{"blade", "mesh", "modal", "bar", "chain"};
+  constexpr std::array<std::string_view, 6> kinds{"blade", "mesh", "modal", "bar", "chain", "block"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: {}", kind,
                                  fmt::join(kinds, ", ")));

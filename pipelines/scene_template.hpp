@@ -7,7 +7,7 @@
 
 namespace microslip::pipelines {
 
-/// @param kind  blade, mesh, modal, bar or chain.
+/// @param kind  blade, mesh, modal, bar, chain or block.
 /// @throws SceneError  another kind.
 /// @note read_scene takes the template as it is (a mesh scene once its file is there).
 [[nodiscard]] std::string scene_template(std::string_view kind);

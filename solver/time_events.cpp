@@ -33,6 +33,23 @@ constexpr std::array<double, n_stages> error_weights{
     71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
     -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
 
+/// Of the highest coefficient of the dense output (Hairer, Nørsett & Wanner I, section II.6).
+constexpr std::array<double, n_stages> dense_weights{
+    -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0,  701980252875.0 / 199316789632.0,
+    -1453857185.0 / 822651844.0,    69997945.0 / 29380423.0};
+
+/// Dense output of order four; the end is the last stage.
+InternalPolynomials internal_polynomials(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
+                                         double length, const Eigen::MatrixXd& rate) {
+  const Eigen::Map<const Eigen::VectorXd> d(dense_weights.data(), n_stages);
+  const Eigen::VectorXd change = end - begin;
+  const Eigen::VectorXd bend = length * rate.col(0) - change;
+  InternalPolynomials c(begin.size(), 5);
+  c << begin, change, bend, change - length * rate.col(n_stages - 1) - bend, length * (rate * d);
+  return c;
+}
+
 }  // namespace
 
 EventStepper::EventStepper(const TimeSystem& system, const TimeOptions& options)
@@ -70,45 +87,66 @@ Eigen::VectorXd EventStepper::acceleration(double time, const ModalMotion& motio
   ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
-                              contact != nullptr ? contact->held_force(motion.q, memory)
+                              contact != nullptr ? contact->held_force(motion, memory)
                                                  : Eigen::VectorXd::Zero(system_.n_modes()).eval());
 }
 
-EventStepper::Step EventStepper::try_step(double time, double length, const TimeState& state,
-                                          const Eigen::VectorXd& acceleration_begin) {
+void EventStepper::accelerate(double time, TimeState& state) {
+  state.motion.acceleration = acceleration(time, state.motion, state.memory);
+}
+
+EventStepper::Step EventStepper::try_step(double time, double length, const TimeState& state) {
   const Eigen::Index n = system_.n_modes();
+  const contact::TransientForce* contact = system_.contact();
+  const Eigen::Index n_internal = contact != nullptr ? contact->n_internal() : 0;
+  const contact::GuardScale size = scale();
   Eigen::MatrixXd velocity(n, n_stages);  // of each stage
   Eigen::MatrixXd acceleration_of(n, n_stages);
+  Eigen::MatrixXd internal_rate(n_internal, n_stages);
+  TransientMemory moved = n_internal > 0 ? state.memory : TransientMemory{};
+  const TransientMemory& memory = n_internal > 0 ? moved : state.memory;
   velocity.col(0) = state.motion.velocity;
-  acceleration_of.col(0) = acceleration_begin;
+  acceleration_of.col(0) = state.motion.acceleration;
+  if (n_internal > 0) internal_rate.col(0) = contact->internal_rates(state.motion, memory, size);
   Step step;
   for (std::size_t i = 1; i < n_stages; ++i) {
     const Eigen::Map<const Eigen::VectorXd> a(stages[i].data(), static_cast<Eigen::Index>(i));
     const auto column = static_cast<Eigen::Index>(i);
     step.displacement = length * (velocity.leftCols(column) * a);
     step.velocity = length * (acceleration_of.leftCols(column) * a);
-    velocity.col(column) = state.motion.velocity + step.velocity;
-    acceleration_of.col(column) =
-        acceleration(time + nodes[i] * length,
-                     {state.motion.q + step.displacement, velocity.col(column)}, state.memory);
+    ModalMotion motion{state.motion.q + step.displacement, state.motion.velocity + step.velocity};
+    if (n_internal > 0) {
+      moved.internal = state.memory.internal + length * (internal_rate.leftCols(column) * a);
+    }
+    motion.acceleration = acceleration(time + nodes[i] * length, motion, memory);
+    velocity.col(column) = motion.velocity;
+    acceleration_of.col(column) = motion.acceleration;
+    if (n_internal > 0) {
+      internal_rate.col(column) = contact->internal_rates(motion, memory, size);
+    }
   }
   step.acceleration_end = acceleration_of.col(n_stages - 1);
   const Eigen::Map<const Eigen::VectorXd> weights(error_weights.data(), n_stages);
-  const contact::GuardScale size = scale();
   const double displacement_error = length * (velocity * weights).norm();
   const double velocity_error = length * (acceleration_of * weights).norm();
   step.error =
       displacement_error == 0.0 && velocity_error == 0.0
           ? 0.0
           : std::max(displacement_error / size.displacement, velocity_error / size.velocity);
+  if (n_internal > 0) {
+    step.internal = internal_polynomials(state.memory.internal, moved.internal, length, internal_rate);
+    const Eigen::VectorXd importance = contact->internal_weights(state.motion, state.memory, size);
+    const Eigen::VectorXd error = length * (internal_rate * weights);
+    step.error = std::max(step.error, error.cwiseProduct(importance).lpNorm<Eigen::Infinity>());
+  }
   return step;
 }
 
-EventStepper::Step EventStepper::accepted_step(double time, double& length, const TimeState& state,
-                                               const Eigen::VectorXd& acceleration_begin) {
+EventStepper::Step EventStepper::accepted_step(double time, double& length,
+                                               const TimeState& state) {
   const double asked = length;
   while (true) {
-    Step step = try_step(time, length, state, acceleration_begin);
+    Step step = try_step(time, length, state);
     const double ratio = step.error / tolerance_;
     const double factor = ratio > 0.0 ? std::clamp(0.9 * std::pow(ratio, -0.2), 0.2, 5.0) : 5.0;
     if (ratio <= 1.0) {
@@ -122,6 +160,11 @@ EventStepper::Step EventStepper::accepted_step(double time, double& length, cons
     }
     length *= std::isfinite(factor) ? std::min(factor, 0.9) : 0.2;
   }
+}
+
+void EventStepper::move_to(double x, const TimeSegment& segment, TimeState& state) {
+  state.motion = segment.at(x);
+  if (segment.has_internal()) state.memory.internal = segment.internal_at(x);
 }
 
 void EventStepper::count_events(std::size_t n) {
@@ -154,9 +197,11 @@ void EventStepper::observe(TimeObserver* observer, const TimeSegment& segment, d
   if (observer == nullptr || end == 0.0) return;
   double work = 0.0;
   if (system_.contact() != nullptr) {
+    TransientMemory now = memory;
     for (const auto& [at, weight] : gauss_five) {
+      if (segment.has_internal()) now.internal = segment.internal_at(end * at);
       work += end * segment.length() * weight *
-              system_.contact()->slip_power(segment.at(end * at), memory);
+              system_.contact()->slip_power(segment.at(end * at), now);
     }
   }
   observer->take(segment, end, memory, work);
@@ -166,8 +211,9 @@ void EventStepper::advance_period(TimeState& state, TimeObserver* observer) {
   const double period = system_.period();
   period_events_ = 0;
   reach(state.motion);
+  accelerate(0.0, state);
   settle(state);
-  Eigen::VectorXd begin = acceleration(0.0, state.motion, state.memory);
+  accelerate(0.0, state);
   double time = 0.0;
   while (period - time > shortest_step * period) {
     const double rest = period - time;
@@ -177,27 +223,28 @@ void EventStepper::advance_period(TimeState& state, TimeObserver* observer) {
     } else if (rest < 2.0 * length) {
       length = 0.5 * rest;
     }
-    const Step step = accepted_step(time, length, state, begin);
-    const TimeSegment segment(time, length, state.motion, step.displacement, step.velocity, begin,
-                              step.acceleration_end);
+    const Step step = accepted_step(time, length, state);
+    const TimeSegment segment(time, length, state.motion, step.displacement, step.velocity,
+                              state.motion.acceleration, step.acceleration_end, step.internal);
     const auto event = system_.contact() != nullptr
                            ? first_event(*system_.contact(), segment, state.memory, scale())
                            : std::nullopt;
     observe(observer, segment, event ? event->at : 1.0, state.memory);
     if (event) {
-      state.motion = segment.at(event->at);
       time += event->at * length;
+      move_to(event->at, segment, state);
       for (const Eigen::Index point : event->points) {
         system_.contact()->switch_state(point, state.motion, state.memory);
       }
       count_events(event->points.size());
       settle(state);
-      begin = acceleration(time, state.motion, state.memory);
+      accelerate(time, state);
     } else {
+      if (segment.has_internal()) state.memory.internal = segment.internal_at(1.0);
       state.motion.q += step.displacement;
       state.motion.velocity += step.velocity;
+      state.motion.acceleration = step.acceleration_end;
       time += length;
-      begin = step.acceleration_end;
     }
     reach(state.motion);
   }

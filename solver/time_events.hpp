@@ -15,6 +15,9 @@ class EventStepper final : public TimeStepper {
   void advance_period(TimeState& state, TimeObserver* observer) override;
   [[nodiscard]] long n_events() const override { return n_events_; }
   [[nodiscard]] long n_evaluations() const override { return n_evaluations_; }
+  [[nodiscard]] Eigen::VectorXd contact_force(const TimeState& state) const override {
+    return system_.contact()->held_force(state.motion, state.memory);
+  }
 
  private:
   /// What a step adds, and its error against the size of the motion.
@@ -22,16 +25,18 @@ class EventStepper final : public TimeStepper {
     Eigen::VectorXd displacement;
     Eigen::VectorXd velocity;
     Eigen::VectorXd acceleration_end;
+    InternalPolynomials internal;  // of the internal variables
     double error = 0.0;
   };
   [[nodiscard]] contact::GuardScale scale() const;
   [[nodiscard]] Eigen::VectorXd acceleration(double time, const ModalMotion& motion,
                                              const TransientMemory& memory);
-  [[nodiscard]] Step try_step(double time, double length, const TimeState& state,
-                              const Eigen::VectorXd& acceleration_begin);
+  /// q̈ where an observer, a guard or a switch sees the motion.
+  void accelerate(double time, TimeState& state);
+  [[nodiscard]] Step try_step(double time, double length, const TimeState& state);
   /// Shortens `length` until the error is within the tolerance and proposes the next one.
-  [[nodiscard]] Step accepted_step(double time, double& length, const TimeState& state,
-                                   const Eigen::VectorXd& acceleration_begin);
+  [[nodiscard]] Step accepted_step(double time, double& length, const TimeState& state);
+  static void move_to(double x, const TimeSegment& segment, TimeState& state);
   /// Ends states that are violated as they stand.
   void settle(TimeState& state);
   void count_events(std::size_t n);

@@ -15,17 +15,32 @@ constexpr std::array<double, n_samples> sample_at{0.0, 0.25, 0.5, 0.75, 1.0};
 /// Events closer than this, in steps, are one.
 constexpr double simultaneous = 1e-12;
 
+/// Memory with the internal variables of any instant of a segment.
+class MemoryAlong {
+ public:
+  MemoryAlong(const TimeSegment& segment, const contact::TransientMemory& memory)
+      : segment_(segment), memory_(memory) {}
+  const contact::TransientMemory& at(double x) {
+    if (segment_.has_internal()) memory_.internal = segment_.internal_at(x);
+    return memory_;
+  }
+
+ private:
+  const TimeSegment& segment_;
+  contact::TransientMemory memory_;
+};
+
 /// One guard of one point along a segment, raised by the tolerance.
 struct GuardAlong {
   const TransientForce& contact;
   const TimeSegment& segment;
-  const contact::TransientMemory& memory;
+  MemoryAlong& memory;
   const contact::GuardScale& scale;
   Eigen::Index point;
   std::size_t guard;
 
   double operator()(double x) const {
-    return contact.guards_of(point, segment.at(x), memory, scale)[guard] + guard_tolerance;
+    return contact.guards_of(point, segment.at(x), memory.at(x), scale)[guard] + guard_tolerance;
   }
 };
 
@@ -112,8 +127,9 @@ std::optional<TimeEvent> first_event(const TransientForce& contact, const TimeSe
                                      const contact::GuardScale& scale) {
   using GuardRows = Eigen::Matrix<double, Eigen::Dynamic, TransientForce::guards_per_point>;
   std::array<GuardRows, n_samples> sampled;
+  MemoryAlong along(segment, memory);
   for (std::size_t j = 0; j < n_samples; ++j) {
-    sampled[j] = contact.guards(segment.at(sample_at[j]), memory, scale);
+    sampled[j] = contact.guards(segment.at(sample_at[j]), along.at(sample_at[j]), scale);
   }
   struct Violation {
     double at;
@@ -128,7 +144,7 @@ std::optional<TimeEvent> first_event(const TransientForce& contact, const TimeSe
       for (std::size_t j = 0; j < n_samples; ++j) {
         g[j] = sampled[j](point, static_cast<Eigen::Index>(guard)) + guard_tolerance;
       }
-      at = std::min(at, first_violation({contact, segment, memory, scale, point, guard}, g));
+      at = std::min(at, first_violation({contact, segment, along, scale, point, guard}, g));
     }
     if (at <= 1.0) violations.push_back({at, point});
     first = std::min(first, at);

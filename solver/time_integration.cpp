@@ -11,12 +11,11 @@ namespace microslip::solver {
 namespace {
 
 PeriodState period_state(const TimeSystem& system, const TimeState& state,
-                         const TimeLevels& levels) {
+                         const TimeStepper& stepper) {
+  const TimeLevels& levels = stepper.levels();
   PeriodState result{state.motion.q, state.motion.velocity,
                      Eigen::VectorXd::Zero(system.n_modes())};
-  if (system.contact() != nullptr) {
-    result.contact_force = system.contact()->trial_force(state.motion.q, state.memory);
-  }
+  if (system.contact() != nullptr) result.contact_force = stepper.contact_force(state);
   result.displacement_size = levels.last.displacement;
   result.velocity_size = levels.last.velocity;
   result.force_size = std::max(system.excitation_size(), result.contact_force.norm());
@@ -51,7 +50,7 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
   TimePoint point;
   while (point.n_periods < options.max_periods) {
     stepper.advance_period(state, nullptr);
-    test.add(period_state(system, state, stepper.levels()));
+    test.add(period_state(system, state, stepper));
     ++point.n_periods;
     if (point.n_periods < options.min_periods) continue;
     point.period_multiple = test.multiple(options.periodicity_tolerance);

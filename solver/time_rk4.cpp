@@ -33,7 +33,7 @@ Eigen::VectorXd Rk4Stepper::acceleration(double time, const ModalMotion& motion,
   ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
-                              contact != nullptr ? contact->trial_force(motion.q, memory)
+                              contact != nullptr ? contact->trial_force(motion, memory)
                                                  : Eigen::VectorXd::Zero(system_.n_modes()).eval());
 }
 
@@ -56,7 +56,7 @@ void Rk4Stepper::step(double time, double length, TimeState& state,
   double work = 0.0;
   if (system_.contact() != nullptr) {
     const std::vector<contact::ContactState> before = state.memory.state;
-    work = system_.contact()->commit(state.motion.q, state.memory);
+    work = system_.contact()->commit(state.motion, state.memory);
     for (std::size_t i = 0; i < before.size(); ++i) {
       n_events_ += before[i] != state.memory.state[i] ? 1 : 0;
     }

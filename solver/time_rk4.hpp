@@ -15,6 +15,9 @@ class Rk4Stepper final : public TimeStepper {
   void advance_period(TimeState& state, TimeObserver* observer) override;
   [[nodiscard]] long n_events() const override { return n_events_; }
   [[nodiscard]] long n_evaluations() const override { return n_evaluations_; }
+  [[nodiscard]] Eigen::VectorXd contact_force(const TimeState& state) const override {
+    return system_.contact()->trial_force(state.motion, state.memory);
+  }
 
  private:
   [[nodiscard]] Eigen::VectorXd acceleration(double time, const ModalMotion& motion,

@@ -29,6 +29,16 @@ void check(const TimeOptions& options) {
   require(options.n_harmonics >= 1, "n_harmonics must be at least 1");
 }
 
+/// dq/dθ.
+Harmonics by_phase(const Harmonics& q) {
+  Harmonics rate(q.n_harmonics(), q.n_signals());
+  for (int h = 1; h <= q.n_harmonics(); ++h) {
+    rate.rows().row(2 * h) = h * q.sine(h);
+    rate.rows().row(2 * h - 1) = -h * q.cosine(h);
+  }
+  return rate;
+}
+
 }  // namespace
 
 void TimeStepper::reach(const ModalMotion& motion) {
@@ -61,16 +71,15 @@ TimeState state_at_rest(const TimeSystem& system) {
 
 TimeState state_on(const TimeSystem& system, const Harmonics& q) {
   TimeState state = state_at_rest(system);
+  const Harmonics rate = by_phase(q);
   if (system.contact() != nullptr) {
     constexpr int n_samples = 720;
-    for (int i = 0; i <= 2 * n_samples; ++i) {  // the period map of the sliders is idempotent
-      system.contact()->commit(q.at(2.0 * std::numbers::pi * i / n_samples), state.memory);
+    for (int i = 0; i <= 2 * n_samples; ++i) {  // the period map of sliders on a line is idempotent
+      const double phase = 2.0 * std::numbers::pi * i / n_samples;
+      system.contact()->commit({q.at(phase), system.frequency() * rate.at(phase)}, state.memory);
     }
   }
-  state.motion.q = q.at(0.0);
-  for (int h = 1; h <= q.n_harmonics(); ++h) {
-    state.motion.velocity += h * system.frequency() * q.sine(h).transpose();
-  }
+  state.motion = {q.at(0.0), system.frequency() * rate.at(0.0)};
   return state;
 }
 

@@ -66,6 +66,8 @@ class TimeStepper {
   [[nodiscard]] virtual long n_events() const = 0;       ///< changes of state so far
   [[nodiscard]] virtual long n_evaluations() const = 0;  ///< of the contact force so far
   [[nodiscard]] const TimeLevels& levels() const { return levels_; }
+  /// G between two periods, as the method sees it [N/√kg]. The scene must have contact.
+  [[nodiscard]] virtual Eigen::VectorXd contact_force(const TimeState& state) const = 0;
 
  protected:
   void reach(const ModalMotion& motion);

@@ -26,6 +26,8 @@ ModalMotion moving(double u, double v, double u_rate, double v_rate) {
   return {Eigen::Vector2d(u, v), Eigen::Vector2d(u_rate, v_rate)};
 }
 
+ModalMotion still(const Eigen::Vector2d& q) { return {q, Eigen::Vector2d::Zero()}; }
+
 Eigen::Vector2d motion_at(const PointMotion& m, double phase) {
   return {m.u_mean + m.u_sin * std::sin(phase) + m.u_cos * std::cos(phase),
           m.v_mean + m.v_sin * std::sin(phase) + m.v_cos * std::cos(phase)};
@@ -47,8 +49,8 @@ TEST(PatchTransient, CarriesNoDynamicForceAtRest) {
   for (const double preload : {-2.0, 0.0, 3.0}) {
     const PatchTransient force = one_point({5.0, 7.0, 0.4, preload});
     const TransientMemory memory = force.virgin_memory();
-    EXPECT_EQ(force.trial_force(Eigen::Vector2d::Zero(), memory), Eigen::Vector2d::Zero());
-    EXPECT_EQ(force.held_force(Eigen::Vector2d::Zero(), memory), Eigen::Vector2d::Zero());
+    EXPECT_EQ(force.trial_force(still(Eigen::Vector2d::Zero()), memory), Eigen::Vector2d::Zero());
+    EXPECT_EQ(force.held_force(still(Eigen::Vector2d::Zero()), memory), Eigen::Vector2d::Zero());
     EXPECT_EQ(memory.state[0], preload > 0.0 ? ContactState::stick : ContactState::separated);
   }
 }
@@ -56,11 +58,11 @@ TEST(PatchTransient, CarriesNoDynamicForceAtRest) {
 TEST(PatchTransient, TrialForceIsTheSpringUntilTheConeAndTheConeBeyond) {
   const PatchTransient force = one_point({5.0, 7.0, 0.5, 2.0}, 3.0);
   const TransientMemory memory = force.virgin_memory();
-  EXPECT_DOUBLE_EQ(force.trial_force(Eigen::Vector2d(0.1, 0.0), memory)[0], 3.0 * 0.5);
-  EXPECT_DOUBLE_EQ(force.trial_force(Eigen::Vector2d(1.0, 0.0), memory)[0], 3.0 * 1.0);
-  EXPECT_DOUBLE_EQ(force.trial_force(Eigen::Vector2d(-1.0, 0.0), memory)[0], -3.0 * 1.0);
-  EXPECT_DOUBLE_EQ(force.trial_force(Eigen::Vector2d(0.0, 0.1), memory)[1], 3.0 * 0.7);
-  const Eigen::VectorXd open = force.trial_force(Eigen::Vector2d(1.0, -1.0), memory);
+  EXPECT_DOUBLE_EQ(force.trial_force(still(Eigen::Vector2d(0.1, 0.0)), memory)[0], 3.0 * 0.5);
+  EXPECT_DOUBLE_EQ(force.trial_force(still(Eigen::Vector2d(1.0, 0.0)), memory)[0], 3.0 * 1.0);
+  EXPECT_DOUBLE_EQ(force.trial_force(still(Eigen::Vector2d(-1.0, 0.0)), memory)[0], -3.0 * 1.0);
+  EXPECT_DOUBLE_EQ(force.trial_force(still(Eigen::Vector2d(0.0, 0.1)), memory)[1], 3.0 * 0.7);
+  const Eigen::VectorXd open = force.trial_force(still(Eigen::Vector2d(1.0, -1.0)), memory);
   EXPECT_DOUBLE_EQ(open[0], 0.0);
   EXPECT_DOUBLE_EQ(open[1], -3.0 * 2.0);  // the preload is gone
 }
@@ -68,11 +70,11 @@ TEST(PatchTransient, TrialForceIsTheSpringUntilTheConeAndTheConeBeyond) {
 TEST(PatchTransient, CommitMovesTheSliderByWhatItGivesWay) {
   const PatchTransient force = one_point({5.0, 0.0, 0.5, 2.0});
   TransientMemory memory = force.virgin_memory();
-  const double work = force.commit(Eigen::Vector2d(1.0, 0.0), memory);
+  const double work = force.commit(still(Eigen::Vector2d(1.0, 0.0)), memory);
   EXPECT_DOUBLE_EQ(memory.slider[0], 1.0 - 1.0 / 5.0);
   EXPECT_EQ(memory.state[0], ContactState::positive_slip);
   EXPECT_DOUBLE_EQ(work, 1.0 * 0.8);
-  EXPECT_DOUBLE_EQ(force.commit(Eigen::Vector2d(0.9, 0.0), memory), 0.0);
+  EXPECT_DOUBLE_EQ(force.commit(still(Eigen::Vector2d(0.9, 0.0)), memory), 0.0);
   EXPECT_EQ(memory.state[0], ContactState::stick);
 }
 
@@ -87,11 +89,11 @@ TEST(PatchTransient, ManySmallCommitsTraceTheClosedFormCycle) {
   double work = 0.0;
   for (int i = 0; i < 2 * n; ++i) {
     const double phase = 2.0 * pi * i / n;
-    const double step = force.commit(motion_at(motion, phase), memory);
+    const double step = force.commit(still(motion_at(motion, phase)), memory);
     if (i < n) continue;
     work += step;
     const CycleInstant now = at_phase(cycle, point, motion, phase);
-    const Eigen::VectorXd G = force.trial_force(motion_at(motion, phase), memory);
+    const Eigen::VectorXd G = force.trial_force(still(motion_at(motion, phase)), memory);
     largest = std::max(largest, std::abs(G[0] - now.friction));
     EXPECT_NEAR(G[1], now.normal - 1.0, 1e-12);
   }
@@ -105,8 +107,8 @@ TEST(PatchTransient, HeldForceAgreesWithTheTrialForceWhereTheStateHolds) {
   for (const Eigen::Vector2d& q : {Eigen::Vector2d(0.05, 0.1), Eigen::Vector2d(0.9, 0.1),
                                    Eigen::Vector2d(-0.9, 0.1), Eigen::Vector2d(0.3, -0.9)}) {
     TransientMemory memory = force.virgin_memory();
-    force.commit(q, memory);
-    EXPECT_LT((force.held_force(q, memory) - force.trial_force(q, memory)).norm(), 1e-15);
+    force.commit(still(q), memory);
+    EXPECT_LT((force.held_force(still(q), memory) - force.trial_force(still(q), memory)).norm(), 1e-15);
   }
 }
 
@@ -169,10 +171,10 @@ TEST(PatchTransient, ForceIsContinuousWhereSlipTurnsIntoStick) {
     TransientMemory memory = force.virgin_memory();
     memory.state[0] = slip;
     const ModalMotion motion = moving(0.6, 0.2, 0.0, 0.0);
-    const Eigen::VectorXd before = force.held_force(motion.q, memory);
+    const Eigen::VectorXd before = force.held_force(motion, memory);
     force.switch_state(0, motion, memory);
     EXPECT_EQ(memory.state[0], ContactState::stick);
-    EXPECT_LT((force.held_force(motion.q, memory) - before).norm(), 1e-15);
+    EXPECT_LT((force.held_force(motion, memory) - before).norm(), 1e-15);
   }
 }
 
@@ -192,8 +194,8 @@ TEST(PatchTransient, WithoutFrictionOnlyTheLoadActs) {
   const PatchTransient force = one_point({5.0, 3.0, 0.0, 1.0});
   TransientMemory memory = force.virgin_memory();
   EXPECT_EQ(memory.state[0], ContactState::slip);
-  EXPECT_EQ(force.held_force(Eigen::Vector2d(4.0, 0.1), memory)[0], 0.0);
-  EXPECT_EQ(force.trial_force(Eigen::Vector2d(4.0, 0.1), memory)[0], 0.0);
+  EXPECT_EQ(force.held_force(still(Eigen::Vector2d(4.0, 0.1)), memory)[0], 0.0);
+  EXPECT_EQ(force.trial_force(still(Eigen::Vector2d(4.0, 0.1)), memory)[0], 0.0);
   EXPECT_EQ(force.slip_power(moving(1, 0, 1, 0), memory), 0.0);
   EXPECT_EQ(force.stuck_stiffness()(0, 0), 0.0);
   EXPECT_EQ(force.stuck_stiffness()(1, 1), 3.0);

@@ -1,6 +1,7 @@
 // Scenes of the kinds bar and chain: what their sections become, and what is refused.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -233,15 +234,50 @@ TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
   EXPECT_NEAR(moment_r, 0.0, 1e-14);
 }
 
-TEST(ChainScene, AMomentThatUnloadsACellIsRefused) {
-  const SceneDescription scene = parse(chain_text, {area_point, "response.preload=[50, 30]"});
+// Rows of four cells at r = ∓37.5 mm, ∓12.5 mm; 30 N and 1 N m act at r = −33.3 mm. Two rows carry:
+// N₁ + N₂ = 30 N, 37.5 N₁ + 12.5 N₂ = 1000 N mm, so 25 N and 5 N, and the approach falls by 20 N a row.
+TEST(ChainScene, AMomentLiftsCellsOff) {
+  const SceneDescription scene = parse(chain_text, {area_point, "response.preload=[30]"});
   const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
-  try {
-    require_loads(model, scene);
-    FAIL() << "taken";
-  } catch (const RefusedError& error) {
-    EXPECT_NE(std::string(error.what()).find("at least 48 N"), std::string::npos) << error.what();
+  require_loads(model, scene);
+  const auto points = point_parameters(model, 30.0, false);
+  const std::array<double, 4> rows{25.0, 5.0, -15.0, -35.0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(points[i].preload, rows[i / 4] / 4.0, 1e-12);  // rounding of numbers of size ten
   }
+}
+
+TEST(ChainScene, AnAreaOfSeveralContactsTiltsUnderItsShare) {
+  const ReducedModel model = reduced_model(model_of(
+      chain_text,
+      {"contact.points=[{ slip = \"m2\", tangential_stiffness = 1, friction_coefficient = 0.5 }, "
+       "{ slip = \"m1\", approach = \"m1\", tangential_stiffness = 4e4, normal_stiffness = 8e4, "
+       "friction_coefficient = 0.5, share = 3, cells = [2, 2], size = [0.2, 0.2], preload_moment = "
+       "[0, 1] }]"}));
+  const auto points = point_parameters(model, 40.0, false);
+  EXPECT_DOUBLE_EQ(points[0].preload, 10.0);
+  const std::array<double, 4> cells{2.5, 12.5, 2.5, 12.5};  // 30/4 ∓ 1/(4 · 0.05)
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(points[i + 1].preload, cells[i], 1e-13);
+}
+
+TEST(ChainScene, AMomentWithoutEquilibriumIsRefused) {
+  for (const char* loads : {"[50, 26.6]", "[0]", "[-30]"}) {
+    const SceneDescription scene =
+        parse(chain_text, {area_point, "response.preload=" + std::string(loads)});
+    const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+    EXPECT_THROW(require_loads(model, scene), RefusedError) << loads;
+  }
+}
+
+TEST(ChainScene, LimitsKnowNoMoment) {
+  const SceneDescription scene = parse(chain_text, {area_point});
+  const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  const SceneDescription plain = parse(chain_text);
+  const ReducedModel point = reduced_model(std::get<ModalModel>(plain.model));
+  EXPECT_LT((limit_scene(model).contact->stuck_stiffness() -
+             limit_scene(point).contact->stuck_stiffness())
+                .norm(),
+            1e-9);  // rounding of 4e4 N/m per kg
 }
 
 TEST(ChainScene, MistakesAreNamed) {

@@ -288,12 +288,20 @@ class Chains(unittest.TestCase):
     def test_a_moment_raises_the_peak_at_50_N(self):
         self.assertGreater(self.moment.highest(50), 1.1 * self.plain.highest(50))
 
-    def test_a_moment_below_48_N_is_refused(self):
+    def test_a_moment_below_48_N_lifts_cells_off(self):
+        """At 30 N two of the four rows carry, 25 N and 5 N: 8 of 16 cells stay open all the time."""
+        folder = run("chain_2dof_moment", "lifted", "response.preload=[47.9, 30]", "response.maps=[]")
+        for load, share in ((30, 8 / 16), (47.9, 4 / 16)):
+            for row in rows_of(folder, f"preload_{load:g}"):
+                self.assertAlmostEqual(float(row["separated_share"]), share, places=12)
+
+    def test_a_moment_without_equilibrium_is_refused(self):
+        """The resultant leaves the cell centres at 1 N m / 37.5 mm = 26.67 N."""
         command = [PROGRAM, "run", os.path.join(SOURCE, "share", "scenes", "chain_2dof_moment.toml"), "-q",
-                   "-o", os.path.join(FOLDER, "refused"), "--set", "response.preload=[30]"]
+                   "-o", os.path.join(FOLDER, "refused"), "--set", "response.preload=[26.6]"]
         finished = subprocess.run(command, capture_output=True, text=True, timeout=60)
         self.assertEqual(finished.returncode, 2, finished.stderr)
-        self.assertIn("at least 48 N", finished.stderr)
+        self.assertIn("more than 26.6667 N", finished.stderr)
 
     def test_points_are_certified(self):
         for chain in (self.plain, self.normal, self.moment):
