@@ -88,8 +88,8 @@ void FittedPatchForce::undo_refit() {
 PatchRule FittedPatchForce::fitted_to(const std::vector<Motion>& motions) const {
   std::vector<Harmonics> states;
   for (const Motion& motion : motions) states.push_back(motion.q);
-  // The first refit of a point moves the lines. If that is not enough they may appear and vanish in turn:
-  // those of the result before stay, and more points per piece may be what is missing.
+  // The first refit of a point moves the lines. If that is not enough they may appear and vanish in
+  // turn: those of the result before stay, and more points per piece may be what is missing.
   if (n_refits_ > 1) {
     for (const Motion& motion : previous_) states.push_back(motion.q);
   }

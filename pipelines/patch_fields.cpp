@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include "contact/fitted_rule.hpp"
 #include "mesh/shape_functions.hpp"
@@ -15,8 +15,8 @@
 namespace microslip::pipelines {
 namespace {
 
-// Areas of the same patch, added up differently, agree to rounding; a rectangle or straight edges that only
-// nearly are would lose a part of the patch.
+// Areas of the same patch, added up differently, agree to rounding; a rectangle or straight edges
+// that only nearly are would lose a part of the patch.
 constexpr double same_area = 1e-9;
 Eigen::Vector2d in_plane(const PatchPlane& plane, const Eigen::Vector3d& x) {
   return {plane.frame.row(0).dot(x - plane.origin), plane.frame.row(2).dot(x - plane.origin)};

@@ -46,7 +46,8 @@ class PatchFields {
 
   [[nodiscard]] const contact::PatchCells& cells() const { return cells_; }
   /// u and v alone. @param p, r  [m], n each.   @return n × n_modes.
-  [[nodiscard]] contact::ModalShapes shapes(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
+  [[nodiscard]] contact::ModalShapes shapes(const Eigen::VectorXd& p,
+                                            const Eigen::VectorXd& r) const;
   /// @param load  total preload [N]; negative: the gap it stands for (interfaces: −load/∬k_v dA).
   /// @throws RefusedError  a stiffness that is not positive.
   [[nodiscard]] std::vector<contact::PointParameters> parameters(const Eigen::VectorXd& p,
@@ -64,7 +65,8 @@ class PatchFields {
   void add_faces(const mesh::Mesh& mesh, const mesh::Surface& surface, const PatchPlane& plane,
                  const fem::ResidualFlexibility* residual);
   void choose_cells(double area, contact::PatchCells sampled);
-  [[nodiscard]] Eigen::MatrixX2d compliance(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
+  [[nodiscard]] Eigen::MatrixX2d compliance(const Eigen::VectorXd& p,
+                                            const Eigen::VectorXd& r) const;
   /// [N/m³] along p (axis 0) or q (axis 1).
   [[nodiscard]] Eigen::VectorXd stiffness(const Eigen::MatrixX2d& compliance, int axis) const;
 
@@ -76,8 +78,8 @@ class PatchFields {
   std::vector<Face> faces_;
   bool has_residual_;
   contact::PatchCells cells_;
-  double unit_preload_ = 0.0;      // [Pa] per 1 N, times the field where there is one
-  double total_stiffness_ = 0.0;   // ∬ k_v dA [N/m]
+  double unit_preload_ = 0.0;     // [Pa] per 1 N, times the field where there is one
+  double total_stiffness_ = 0.0;  // ∬ k_v dA [N/m]
 };
 
 }  // namespace microslip::pipelines

@@ -15,8 +15,8 @@ namespace microslip::solver {
 /// What became of a fit.
 struct RefitReport {
   bool is_replaced = false;  ///< solve again
-  bool is_kept = false;      ///< what was to be solved again was not: the discretisation is the old one
-  double change = 0.0;       ///< contact::Refit::change
+  bool is_kept = false;  ///< what was to be solved again was not: the discretisation is the old one
+  double change = 0.0;   ///< contact::Refit::change
 };
 
 /// Asks the force of a balance to suit points of a branch. Refits are counted from
@@ -31,8 +31,9 @@ struct RefitReport {
 
 struct RefittedSolution {
   NewtonResult solution;
-  double change = 0.0;   ///< of the last fit: an estimate of the error of the force
-  bool settled = true;   ///< false: on the last discretisation no solution was found; it is not in use
+  double change = 0.0;  ///< of the last fit: an estimate of the error of the force
+  bool settled =
+      true;  ///< false: on the last discretisation no solution was found; it is not in use
   int iterations = 0;
   int evaluations = 0;
 };

@@ -93,8 +93,9 @@ TEST_P(Refits, CurveMeetsThatOfManyCells) {
     const auto found = marked(fitted, mark);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      // 3200 midpoint cells err by 1e-6 to 1e-5 at these peaks, with order 1/n from 200 to 51200. Where the
-      // branch is vertical, at a fold, the amplitude goes like the root of what moves the frequency.
+      // 3200 midpoint cells err by 1e-6 to 1e-5 at these peaks, with order 1/n from 200 to 51200.
+      // Where the branch is vertical, at a fold, the amplitude goes like the root of what moves the
+      // frequency.
       const double tolerance = mark == PointMark::peak ? 2e-5 : 1e-3;
       EXPECT_NEAR(found[i].frequency, expected[i].frequency, 2e-5 * expected[i].frequency);
       EXPECT_NEAR(found[i].amplitude, expected[i].amplitude, tolerance * expected[i].amplitude);
@@ -107,8 +108,8 @@ TEST_P(Refits, EveryPointSolvesTheEquationsOnAForceFittedToItAlone) {
   const ResponseCurve curve = trace_response(scene, range());
   ASSERT_TRUE(curve.complete) << curve.message;
   for (const ResponsePoint& point : curve.points) {
-    const Scene fresh = scene_with(
-        on_lines(GetParam(), {.rule = {.order = 12}, .force_tolerance = 1e-12}));
+    const Scene fresh =
+        scene_with(on_lines(GetParam(), {.rule = {.order = 12}, .force_tolerance = 1e-12}));
     const HarmonicBalance balance(fresh, HarmonicSet(1));
     const Eigen::VectorXd x = balance.unknowns(point.q);
     fresh.contact->begin_point();
