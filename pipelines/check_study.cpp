@@ -23,13 +23,31 @@ namespace {
 // Curves' worth of work: the search itself and the four of its bracket.
 constexpr double searches_of_an_optimum = 5 * 6.0;
 
-/// Work of the contact against that of 300 cells.
-double contact_size(const SceneDescription& scene) {
-  if (!scene.contact) return 0.1;
-  constexpr double fitted = 60.0;  // measured: 40 to 80 on the blade of the default study
-  return scene.contact->quadrature == ContactDescription::Quadrature::fitted
-             ? fitted
-             : scene.contact->n_points / 300.0;
+// One point in one iteration [s]: medians of the benchmarks, doubled for the rest of an iteration.
+constexpr double closed_form_cost = 1.4e-6;
+constexpr double event_cost = 1e-5;
+constexpr double planar_cost = 1.5e-4;
+constexpr double iterations_per_curve = 350.0;
+// Cells that cost as much as a rule fitted to the motion: 40 to 80 times the default 300 on the blade.
+constexpr double fitted_cells = 18'000.0;
+
+bool is_fitted(const SceneDescription& scene) {
+  return scene.contact && scene.contact->quadrature == ContactDescription::Quadrature::fitted;
+}
+
+/// Seconds a curve takes, by the law of its points.
+double curve_seconds(const SceneDescription& scene, bool second_direction) {
+  const double n_points = is_fitted(scene) ? fitted_cells : scene.contact ? scene.contact->n_points : 30.0;
+  const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
+  const double cost = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
+  return iterations_per_curve * n_points * cost;
+}
+
+std::string second_direction_of(const SceneDescription& scene) {
+  for (const auto& [effect, setting] : scene.effects) {
+    if (effect == "second_direction") return setting;
+  }
+  return "auto";
 }
 
 /// Anchored at 115 000 degrees of freedom: 4 s and 0.7 GB on two cores (factorisation of a sparse
@@ -42,10 +60,13 @@ void forecast(const mesh::Mesh& mesh, const SceneDescription& scene, std::ostrea
   fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB", n_dofs, modes,
              memory);
   if (scene.response) {
-    const double per_curve = 0.15 * contact_size(scene);
-    const auto n_curves = static_cast<double>(curve_requests(scene).size());
     const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
-    fmt::print(out, "; curves {:.1f} s", per_curve * (n_curves + searches));
+    const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
+    const std::string along_r = second_direction_of(scene);
+    fmt::print(out, "; curves {:.1f} s", n_curves * curve_seconds(scene, along_r == "on"));
+    if (along_r == "auto" && !is_fitted(scene)) {
+      fmt::print(out, ", {:.0f} s if friction along r is called for", n_curves * curve_seconds(scene, true));
+    }
   }
   out << '\n';
 }

@@ -314,10 +314,12 @@ constexpr std::array block_response_keys{
     method_key,
     time_points_key,
     harmonics_key,
+    harmonic_tolerance_key,
     search_key,
     preload_key,
     optimum_key,
     optimum_range_key,
+    optimum_at_key,
     maps_key,
     phases_key,
 };

@@ -42,6 +42,12 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   std::vector<std::string> warnings;
   ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
+  if (model.effects.second_direction) {
+    record.progress().info(fmt::format(
+        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes a hundred times "
+        "longer than friction along p; effects.second_direction = \"off\" leaves it out",
+        100.0 * model.effects.motion_ratio));
+  }
   record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);
   if (structure) record.keep_structure(structure->mesh, structure->modes.basis);

@@ -28,7 +28,7 @@ constexpr int n_wild_scenes = 1000;
 constexpr double certificate = 1e-10;  // every written point of every curve
 // A fully stuck point far from resonance with a damping ratio of 1e-5 exchanges 1e-7 of what its
 // works are differences of: eps divided by that is the accuracy there is.
-constexpr double inherent = 3e-9;
+constexpr double inherent = 1e-9;
 constexpr double time_cap = 20.0;  // s per scene; the slowest takes some 3 s on a loaded core
 
 /// What a campaign counts, printed as a table.
@@ -168,7 +168,7 @@ TEST(ThreeDegreesOfFreedom, JumpAtThePreloadsPaperBNames) {
     for (const auto& point : curve.points) {
       folds += point.mark == solver::PointMark::fold ? 1 : 0;
       unstable += point.determinant_sign < 0.0 ? 1 : 0;
-      if (point.determinant_sign < 0.0) {
+      if (point.determinant_sign < 0.0 && point.mark != solver::PointMark::fold) {
         EXPECT_EQ(point.stability, solver::Stability::unstable);
       }
     }
