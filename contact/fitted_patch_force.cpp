@@ -51,37 +51,49 @@ FittedPatchForce::FittedPatchForce(PatchCells cells, ShapeField shapes, Paramete
                        }) {}
 
 void FittedPatchForce::begin_point() {
-  previous_.reset();
+  previous_.clear();
   n_refits_ = 0;
 }
 
-Refit FittedPatchForce::refit(const Harmonics& q, double frequency) {
-  PatchRule rule = fitted_to(q);
+Refit FittedPatchForce::refit(const std::vector<Motion>& motions) {
+  PatchRule rule = fitted_to(motions);
   std::unique_ptr<ModalForce> force = force_on(rule);
-  const double change = relative_change(*force, q, force_->evaluate(q, frequency).force.vector(),
-                                        force->evaluate(q, frequency).force.vector());
-  Refit result{Refit::Outcome::kept, change, rule_.n_points()};
-  if (change <= options_.force_tolerance) {
-    return result;
+  Refit result{Refit::Outcome::kept, 0.0, rule_.n_points()};
+  for (const Motion& motion : motions) {
+    result.change = std::max(
+        result.change, relative_change(*force, motion.q,
+                                       force_->evaluate(motion.q, motion.frequency).force.vector(),
+                                       force->evaluate(motion.q, motion.frequency).force.vector()));
   }
+  if (result.change <= options_.force_tolerance) return result;
   if (n_refits_ >= options_.max_refits) {
     result.outcome = Refit::Outcome::exhausted;
     return result;
   }
   ++n_refits_;
-  previous_ = q;
+  previous_ = motions;
+  replaced_ = Replaced{std::move(rule_), std::move(force_)};
   rule_ = std::move(rule);
   force_ = std::move(force);
-  return {Refit::Outcome::replaced, change, rule_.n_points()};
+  return {Refit::Outcome::replaced, result.change, rule_.n_points()};
 }
 
-PatchRule FittedPatchForce::fitted_to(const Harmonics& q) const {
-  std::vector<Harmonics> states{q};
-  if (previous_) {
-    states.push_back(*previous_);
+void FittedPatchForce::undo_refit() {
+  if (!replaced_) return;
+  rule_ = std::move(replaced_->rule);
+  force_ = std::move(replaced_->force);
+  replaced_.reset();
+}
+
+PatchRule FittedPatchForce::fitted_to(const std::vector<Motion>& motions) const {
+  std::vector<Harmonics> states;
+  for (const Motion& motion : motions) states.push_back(motion.q);
+  // The first refit of a point moves the lines. If that is not enough they may appear and vanish in
+  // turn: those of the result before stay, and more points per piece may be what is missing.
+  if (n_refits_ > 1) {
+    for (const Motion& motion : previous_) states.push_back(motion.q);
   }
   FittedRuleOptions options = options_.rule;
-  // The first refit moves the lines; if that is not enough, more points per piece may be.
   options.order += 2 * std::max(0, n_refits_ - 1);
   return fitted_rule(cells_, regime_guards(shapes_, parameters_, std::move(states)), options);
 }

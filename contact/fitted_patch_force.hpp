@@ -4,7 +4,7 @@
 /// to its result:
 ///
 ///   force.begin_point();
-///   do { q = solve(force); } while (force.refit(q, ω).outcome == Refit::Outcome::replaced);
+///   do { q = solve(force); } while (force.refit({{q, ω}}).outcome == Refit::Outcome::replaced);
 ///
 /// A result stands when the force on a rule fitted to it differs by less than the tolerance. Near the
 /// solution a rule fitted to the previous result errs with the square of what the lines moved, so one or
@@ -28,19 +28,6 @@ struct FittedPatchOptions {
   FittedRuleOptions rule;
   double force_tolerance = 1e-6;  ///< of Refit::change, > 0
   int max_refits = 4;             ///< for one solution point, ≥ 1
-};
-
-/// What fitting the rule to a result showed.
-struct Refit {
-  enum class Outcome {
-    kept,       ///< the change is within tolerance: the result stands, the rule is as before
-    replaced,   ///< the rule is new: solve again
-    exhausted,  ///< no more refits for this point; `change` estimates the error of the result
-  };
-  Outcome outcome = Outcome::kept;
-  /// ‖G_new − G_old‖ relative to the larger of ‖G_new‖ and the force of the stuck patch ‖K q‖ [-].
-  double change = 0.0;
-  Eigen::Index n_points = 0;  ///< of the rule now in use
 };
 
 class FittedPatchForce final : public ModalForce {
@@ -69,21 +56,23 @@ class FittedPatchForce final : public ModalForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return force_->stuck_stiffness();
   }
-  /// Of the points of the rule in use.
-  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override {
-    return force_->linear_state(centre, radius);
-  }
+  // linear_state() stays unknown: what is proved of the points of a rule is not proved between them, and
+  // the next rule has others.
 
-  /// A new solution point: refits are counted from here; the rule stays.
-  void begin_point();
-  /// @param q  result of an iteration on the rule in use, H = 1.
-  [[nodiscard]] Refit refit(const Harmonics& q, double frequency);
+  /// The rule stays.
+  void begin_point() override;
+  /// @param motions  H = 1 each, at least one; the rule follows the lines of all of them.
+  [[nodiscard]] Refit refit(const std::vector<Motion>& motions) override;
+  [[nodiscard]] Refit refit(const Harmonics& q, double frequency) {
+    return refit(std::vector<Motion>{{q, frequency}});
+  }
+  void undo_refit() override;
 
   [[nodiscard]] const PatchRule& rule() const { return rule_; }
   [[nodiscard]] const ModalForce& force() const { return *force_; }
 
  private:
-  [[nodiscard]] PatchRule fitted_to(const Harmonics& q) const;
+  [[nodiscard]] PatchRule fitted_to(const std::vector<Motion>& motions) const;
   [[nodiscard]] std::unique_ptr<ModalForce> force_on(const PatchRule& rule) const;
 
   PatchCells cells_;
@@ -93,7 +82,12 @@ class FittedPatchForce final : public ModalForce {
   MakeForce make_force_;
   PatchRule rule_;
   std::unique_ptr<ModalForce> force_;
-  std::optional<Harmonics> previous_;  // result the rule was last fitted to for this point
+  std::vector<Motion> previous_;  // what the rule was last fitted to for this point
+  struct Replaced {
+    PatchRule rule;
+    std::unique_ptr<ModalForce> force;
+  };
+  std::optional<Replaced> replaced_;  // by the last refit
   int n_refits_ = 0;
 };
 

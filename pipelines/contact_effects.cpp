@@ -13,12 +13,14 @@
 
 #include "contact/any_harmonics_force.hpp"
 #include "contact/event_law.hpp"
+#include "contact/fitted_patch_force.hpp"
 #include "contact/law_patch_force.hpp"
 #include "contact/patch_force.hpp"
 #include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
 #include "contact/planar_transient.hpp"
 #include "contact/sampled_cycle.hpp"
+#include "pipelines/patch_fields.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
 
@@ -31,6 +33,9 @@ constexpr double negligible_ratio = 0.03;
 constexpr int n_trial_frequencies = 200;
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
+// Of the force: peaks of one scene that are solved for twice, on a curve and alone, are told to be the same by
+// 1e-7 of their amplitude.
+constexpr double fitted_tolerance = 1e-8;
 
 std::string setting_of(const SceneDescription& scene, const char* name) {
   for (const auto& [effect, setting] : scene.effects) {
@@ -99,6 +104,20 @@ contact::SurfaceLaw surface_law(const contact::PointParameters& point, double se
           {compliance[0], compliance[1], compliance[2]}};
 }
 
+/// Points that follow the motion.
+std::unique_ptr<contact::ModalForce> fitted_force(const std::shared_ptr<const PatchFields>& fields,
+                                                  double load) {
+  contact::FittedPatchOptions options;
+  options.force_tolerance = fitted_tolerance;
+  return std::make_unique<contact::FittedPatchForce>(
+      fields->cells(),
+      [fields](const Eigen::VectorXd& p, const Eigen::VectorXd& r) { return fields->shapes(p, r); },
+      [fields, load](const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
+        return fields->parameters(p, r, load);
+      },
+      options);
+}
+
 }  // namespace
 
 double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene) {
@@ -142,6 +161,12 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
         "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} N/m^3): "
         "give a finite local stiffness, more modes, or modes.residual = \"none\"",
         model.second_stiffness.minCoeff()));
+  }
+  if (effects.second_direction && model.fields) {
+    throw RefusedError(fmt::format(
+        "contact.quadrature = \"fitted\" is for friction along p alone, and the patch moves along r ({:.2g} % "
+        "of that along p): use \"cells\", or leave friction along r out with effects.second_direction = \"off\"",
+        100.0 * effects.motion_ratio));
   }
   if (effects.roughness && meshed) {
     effects.local_tangential_stiffness = scene.contact->tangential_stiffness;
@@ -202,6 +227,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
 
 std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
+  if (model.fields) return fitted_force(model.fields, load);
   if (model.effects.closed_form()) {
     return std::make_unique<contact::PatchForce>(
         contact::ContactPatch(model.weights, point_parameters(model, load, false)),

@@ -1,6 +1,7 @@
 #include "pipelines/contact_stage.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 
 #include "contact/modal_contact_field.hpp"
 #include "contact/preload_field.hpp"
+#include "pipelines/patch_fields.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -81,40 +83,35 @@ Eigen::MatrixX3d node_positions(const mesh::Mesh& mesh, const mesh::Surface& sur
   return positions;
 }
 
-ShapesOnPatch fit_shapes(const mesh::Mesh& mesh, const mesh::Surface& surface,
-                         const mesh::SurfaceSampling& sampling, const ContactDescription& contact,
-                         const contact::ModalShapes& nodal, ReducedModel& model) {
-  const Eigen::Vector3d origin = mesh::fit_plane(mesh.nodes(), surface).centroid;
-  const auto nodes = in_plane(node_positions(mesh, surface), origin, model.frame);
+contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                                        const mesh::SurfaceSampling& sampling,
+                                        const ContactDescription& contact,
+                                        const contact::ModalShapes& nodal,
+                                        const PatchPlane& plane) {
+  const auto nodes = in_plane(node_positions(mesh, surface), plane.origin, plane.frame);
   // A positive share of the area for each node; interpolation weights themselves may be negative.
   const Eigen::VectorXd weights = sampling.to_centres.cwiseAbs().transpose() * sampling.weights;
   const auto degree = contact.fit == ContactDescription::Fit::degree
                           ? std::optional<int>(contact.fit_degree)
                           : std::nullopt;
-  const contact::ModalContactField field(nodes.p, nodes.r, weights, nodal, degree);
-  model.fit_degree = field.degree();
-  model.fit_error = field.fit_error();
-  const auto centres = in_plane(sampling.centres, origin, model.frame);
-  const auto vertices = in_plane(sampling.vertices, origin, model.frame);
+  return {nodes.p, nodes.r, weights, nodal, degree};
+}
+
+ShapesOnPatch shapes_of(const contact::ModalContactField& field,
+                        const mesh::SurfaceSampling& sampling, const PatchPlane& plane) {
+  const auto centres = in_plane(sampling.centres, plane.origin, plane.frame);
+  const auto vertices = in_plane(sampling.vertices, plane.origin, plane.frame);
   return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
 }
 
-/// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
-/// @param refuse  else a stiffness that is not positive stays, for those who need it to refuse.
-Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
-                                 const char* direction, bool refuse) {
-  const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
-  if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
-  const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
-  const Eigen::Index n_bad = (flexibility <= 0.0).count();
-  if (n_bad > 0 && refuse) {
-    throw RefusedError(fmt::format(
-        "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
-        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
-        "modes.residual = \"none\"",
-        direction, n_bad, residual.size(), flexibility.minCoeff()));
-  }
-  return flexibility.inverse();
+/// The cells of a sampling in the plane.
+contact::PatchCells cells_of(const ReducedModel& model, const PatchPlane& plane) {
+  const auto vertices = in_plane(model.vertices, plane.origin, plane.frame);
+  contact::PatchCells cells{Eigen::MatrixX2d(vertices.p.size(), 2),
+                            Eigen::MatrixX4i::Constant(model.cells.rows(), 4, -1)};
+  cells.vertices << vertices.p, vertices.r;
+  cells.corners.leftCols(model.cells.cols()) = model.cells.cast<int>();
+  return cells;
 }
 
 void set_stiffness(ReducedModel& model, const ContactDescription& contact,
@@ -190,15 +187,26 @@ void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescr
                                    along(basis.shapes, surface.nodes, model.frame.row(1)),
                                    along(basis.shapes, surface.nodes, model.frame.row(2))};
   ShapesOnPatch shapes;
+  std::optional<contact::ModalContactField> field;
   if (contact.fit == ContactDescription::Fit::none) {
     shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
   } else {
-    shapes = fit_shapes(mesh, surface, sampling, contact, nodal, model);
+    const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, model.frame};
+    field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
+    model.fit_degree = field->degree();
+    model.fit_error = field->fit_error();
+    shapes = shapes_of(*field, sampling, plane);
   }
   model.shapes = std::move(shapes.centres);
   model.vertex_shapes = std::move(shapes.vertices);
   set_stiffness(model, contact, sampling, residual);
   set_fields(model, contact);
+  if (field && contact.quadrature == ContactDescription::Quadrature::fitted) {
+    const PatchPlane plane{patch_centroid(model), model.frame};
+    model.fields = std::make_shared<const PatchFields>(
+        mesh, contact, plane, std::move(*field), mesh::fit_plane(mesh.nodes(), surface).centroid,
+        residual, cells_of(model, plane));
+  }
 }
 
 void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
@@ -226,6 +234,22 @@ void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
 }
 
 }  // namespace
+
+Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
+                                 const char* direction, bool refuse) {
+  const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
+  if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
+  const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
+  const Eigen::Index n_bad = (flexibility <= 0.0).count();
+  if (n_bad > 0 && refuse) {
+    throw RefusedError(fmt::format(
+        "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
+        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
+        "modes.residual = \"none\"",
+        direction, n_bad, residual.size(), flexibility.minCoeff()));
+  }
+  return flexibility.inverse();
+}
 
 Eigen::Vector3d patch_centroid(const ReducedModel& model) {
   return model.points.transpose() * model.weights / model.weights.sum();

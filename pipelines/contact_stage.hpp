@@ -3,6 +3,7 @@
 /// plain arrays the response stage can use (theory sections 1, 2, 13, 14).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,13 @@ namespace microslip::pipelines {
 
 /// Area-weighted mean of the contact points [m].
 [[nodiscard]] Eigen::Vector3d patch_centroid(const ReducedModel& model);
+
+/// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
+/// @param direction  for messages.
+/// @param refuse  else a stiffness that is not positive stays, for those who need it to refuse.
+[[nodiscard]] Eigen::VectorXd series_stiffness(const std::optional<double>& local,
+                                               const Eigen::VectorXd& residual,
+                                               const char* direction, bool refuse);
 
 /// Damping ratio of each mode. @param frequency  ω_n [rad/s].
 /// @throws SceneError  a list of another length than the modes, or α ≠ 0 with a rigid-body mode.

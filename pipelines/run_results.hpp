@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -19,6 +20,8 @@
 #include "solver/response_curve.hpp"
 
 namespace microslip::pipelines {
+
+class PatchFields;
 
 /// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
 struct ContactEffects {
@@ -66,6 +69,9 @@ struct ReducedModel {
   /// Compliance of the omitted modes along p, q, r [m³/N]; without rows where there is none.
   Eigen::MatrixX3d compliance, vertex_compliance;
   ContactEffects effects;
+  /// The patch as functions of position where its quadrature is fitted, else none. Shared: it does not change,
+  /// and the forces of all curves refer to it. Not in model.h5.
+  std::shared_ptr<const PatchFields> fields;
 };
 
 struct NamedMap {

@@ -352,6 +352,21 @@ ResponseDescription read_modal_response(const SectionReader& s, std::string_view
   return response;
 }
 
+/// Rules fitted to the lines of slip are there for the closed form of one harmonic.
+void check_quadrature(const SceneDescription& scene) {
+  if (!scene.contact || !scene.response) return;
+  if (scene.contact->quadrature != ContactDescription::Quadrature::fitted) return;
+  const ResponseDescription& response = *scene.response;
+  const auto refuse = [&](const char* why) {
+    throw SceneError(fmt::format("{}: \"fitted\" {}; use \"cells\"", scene.contact->quadrature_place, why));
+  };
+  if (response.method == ResponseDescription::Method::time) {
+    refuse("is not available with response.method = \"time\"");
+  }
+  if (response.harmonics > 1) refuse("is for one harmonic, and response.harmonics has more");
+  if (response.search_starts > 0) refuse("is not available with response.search_starts");
+}
+
 /// An effect that a key of another section switches: a setting that contradicts it is refused.
 void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
                          const SceneDescription& scene) {
@@ -480,6 +495,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
+  check_quadrature(scene);
   const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
   scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);

@@ -96,6 +96,7 @@ Json to_json(const CurveSummary& curve) {
           {"largest_energy_imbalance", curve.largest_energy_imbalance},
           {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
           {"largest_three_states_share", curve.largest_three_states_share},
+          {"largest_quadrature_change", curve.largest_quadrature_change},
           {"harmonics",
            {{"most", curve.most_harmonics},
             {"orders", curve.harmonic_orders},
@@ -164,6 +165,7 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
   raise(summary.largest_dissipation_mismatch, point.dissipation_mismatch);
   raise(summary.largest_three_states_share, point.report.three_states_share);
   raise(summary.largest_left_out, point.harmonics_left_out);
+  raise(summary.largest_quadrature_change, point.quadrature_change);
   summary.harmonic_orders.insert(point.orders.begin(), point.orders.end());
   summary.most_harmonics = std::max(summary.most_harmonics, point.orders.size());
 }

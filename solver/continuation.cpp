@@ -14,6 +14,7 @@
 #include "solver/harmonic_choice.hpp"
 #include "solver/linear_certificate.hpp"
 #include "solver/linear_force.hpp"
+#include "solver/refit.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
@@ -102,7 +103,22 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   return curve;
 }
 
-/// A solution at a fixed frequency as a point, after more harmonics are added where they are chosen.
+/// A solution at a fixed frequency as a point, on a force that suits it.
+ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solution,
+                            const ContinuationOptions& options, ResponseCurve& curve) {
+  RefittedSolution settled = settle_force(balance, std::move(solution), options.residual_tolerance);
+  solution = std::move(settled.solution);
+  const double frequency = solution.point.parameter;
+  curve.iterations += settled.iterations;
+  curve.contact_evaluations += settled.evaluations;
+  if (!settled.settled) curve.log.push_back({frequency, "quadrature-kept"});
+  const auto stability = assess_stability(balance, solution.evaluation.jacobian, frequency);
+  ResponsePoint point = certified_point(balance, solution, frequency, stability);
+  point.quadrature_change = settled.change;
+  return point;
+}
+
+/// The same after more harmonics are added where they are chosen.
 ResponsePoint point_with_harmonics(const Scene& scene, HarmonicSet set, NewtonResult solution,
                                    const ContinuationOptions& options, ResponseCurve& curve) {
   double left_out = 0.0;
@@ -119,9 +135,7 @@ ResponsePoint point_with_harmonics(const Scene& scene, HarmonicSet set, NewtonRe
     left_out = settled.left_out;
   }
   const HarmonicBalance balance(scene, std::move(set));
-  const double frequency = solution.point.parameter;
-  const auto stability = assess_stability(balance, solution.evaluation.jacobian, frequency);
-  ResponsePoint point = certified_point(balance, solution, frequency, stability);
+  ResponsePoint point = settled_point(balance, std::move(solution), options, curve);
   point.harmonics_left_out = left_out;
   return point;
 }
@@ -210,11 +224,12 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     NewtonOptions newton;
     newton.tolerance = options.residual_tolerance;
     newton.max_iterations = 30;
-    const NewtonResult solution = solve_at(*balance, guess, frequency, newton);
+    if (scene.contact) scene.contact->begin_point();
+    static_cast<void>(refit_to(*balance, {{guess, frequency}}));
+    NewtonResult solution = solve_at(*balance, guess, frequency, newton);
     if (!solution.converged) continue;
-    found.push_back(
-        certified_point(*balance, solution, frequency,
-                        assess_stability(*balance, solution.evaluation.jacobian, frequency)));
+    ResponseCurve work;
+    found.push_back(settled_point(*balance, std::move(solution), options, work));
   }
   return found;
 }

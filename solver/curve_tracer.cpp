@@ -85,6 +85,7 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
   point.harmonics_left_out = left_out_;
+  point.quadrature_change = change_;
   // At a fold a multiplier is 1: on which side it falls is rounding.
   if (mark == PointMark::fold) point.stability = Stability::not_assessed;
   return point;
@@ -118,10 +119,9 @@ void CurveTracer::stop(const std::string& diagnosis, const std::string& message)
   curve_.message = message;
 }
 
-bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
-  const double left_out_now = left_out_;
-  std::vector<SpecialPoint> found = special_points(walker, *balance_);
-  std::vector<double> left_out(found.size(), 0.0);
+std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
+                                                        std::vector<double>& left_out) {
+  std::vector<SpecialPoint> found;
   const auto any_lacks = [&] {
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (enlarge(walker, found[i].solution.point)) return true;
@@ -129,10 +129,19 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
     }
     return false;
   };
-  while (choice_ && any_lacks()) {
+  if (scene_.contact) scene_.contact->begin_point();
+  do {
     found = special_points(walker, *balance_);
     left_out.assign(found.size(), 0.0);
-  }
+  } while ((choice_ && any_lacks()) || (!found.empty() && refit(walker, found)));
+  return found;
+}
+
+bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
+  const double left_out_now = left_out_;
+  const double change_now = change_;
+  std::vector<double> left_out;
+  const std::vector<SpecialPoint> found = settled_specials(walker, left_out);
   take_stock(walker);
   for (std::size_t i = 0; i < found.size(); ++i) {
     left_out_ = left_out[i];
@@ -140,6 +149,7 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
     if (within && !add(found[i].solution, found[i].mark)) return false;
   }
   left_out_ = left_out_now;
+  if (found.empty()) change_ = change_now;
   return true;
 }
 
@@ -147,13 +157,21 @@ bool CurveTracer::finish(BranchWalker& walker) {
   const double before = walker.before().solution.point.parameter;
   const double now = walker.now().solution.point.parameter;
   const double share = (options_.frequency_end - before) / (now - before);
-  const NewtonResult last = walker.at_parameter(options_.frequency_end, share);
+  if (!add_specials(walker, share)) {
+    stop("interrupted", at_hertz("stopped", options_.frequency_end));
+    return false;
+  }
+  if (scene_.contact) scene_.contact->begin_point();
+  NewtonResult last;
+  do {
+    last = walker.at_parameter(options_.frequency_end, share);
+  } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
   take_stock(walker);
   if (!last.converged) {
     stop("newton-stall", at_hertz("no solution found", options_.frequency_end));
     return false;
   }
-  if (!add_specials(walker, share) || !add(last)) {
+  if (!add(last)) {
     stop("interrupted", at_hertz("stopped", options_.frequency_end));
     return false;
   }
@@ -181,6 +199,7 @@ bool CurveTracer::walk(BranchWalker& walker) {
     take_stock(walker);
     if (!stepped) return true;
     enlarge(walker);
+    settle_step(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
       static_cast<void>(finish(walker));

@@ -1,17 +1,20 @@
 /// @file
 /// One sweep along one branch: walks it, certifies every point, solves for peaks and folds between
 /// points, ends exactly at the end of the range. Where harmonics are chosen, both ends of a step and the
-/// peaks and folds between them have those that any of them needs.
+/// peaks and folds between them have those that any of them needs. Where the force follows the motion
+/// (refit.hpp) it suits all of them as well: no peak or fold is lost between two discretisations.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "solver/branch_walker.hpp"
 #include "solver/continuation.hpp"
 #include "solver/harmonic_balance.hpp"
 #include "solver/harmonic_choice.hpp"
+#include "solver/special_points.hpp"
 #include "solver/stability.hpp"
 
 namespace microslip::solver {
@@ -47,6 +50,13 @@ class CurveTracer {
   /// Harmonics that a point on the last step needs, on the whole step. False: there are none.
   [[nodiscard]] bool enlarge(BranchWalker& walker, const BranchVector& point);
   void enlarge(BranchWalker& walker);
+  /// The last step on a force fitted to its ends and the points between. True: it was solved again.
+  [[nodiscard]] bool refit(BranchWalker& walker, const std::vector<SpecialPoint>& between);
+  void settle_step(BranchWalker& walker);
+  /// Peaks and folds of the last step, with harmonics and a force that suit them.
+  /// @param left_out  of each, by its harmonics.
+  [[nodiscard]] std::vector<SpecialPoint> settled_specials(BranchWalker& walker,
+                                                           std::vector<double>& left_out);
   void reduce(BranchWalker& walker);
   /// Brings all points to the same number of harmonics.
   [[nodiscard]] ResponseCurve finished();
@@ -69,6 +79,7 @@ class CurveTracer {
   std::unique_ptr<HarmonicBalance> balance_;
   std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
   double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked
+  double change_ = 0.0;                   ///< by the last refit of the force
   const PointObserver& observe_;
   ResponseCurve curve_;
   double range_;

@@ -1,9 +1,10 @@
-// The part of CurveTracer that changes harmonics along the branch.
+// The part of CurveTracer that changes harmonics, and the force where it follows the motion, along the branch.
 
 #include <algorithm>
 #include <utility>
 
 #include "solver/curve_tracer.hpp"
+#include "solver/refit.hpp"
 
 namespace microslip::solver {
 
@@ -13,15 +14,44 @@ void CurveTracer::use(const HarmonicSet& set) {
 }
 
 NewtonResult CurveTracer::settled(NewtonResult at) {
-  if (!choice_) return at;
-  SettledSolution result =
-      settle_harmonics(*choice_, scene_, balance_->set(), std::move(at), options_.residual_tolerance);
+  if (choice_) {
+    SettledSolution result = settle_harmonics(*choice_, scene_, balance_->set(), std::move(at),
+                                              options_.residual_tolerance);
+    curve_.contact_evaluations += result.evaluations;
+    curve_.iterations += result.iterations;
+    if (!result.settled) curve_.log.push_back({result.solution.point.parameter, "harmonics-kept"});
+    left_out_ = result.left_out;
+    use(result.set);
+    at = std::move(result.solution);
+  }
+  RefittedSolution result = settle_force(*balance_, std::move(at), options_.residual_tolerance);
   curve_.contact_evaluations += result.evaluations;
   curve_.iterations += result.iterations;
-  if (!result.settled) curve_.log.push_back({result.solution.point.parameter, "harmonics-kept"});
-  left_out_ = result.left_out;
-  use(result.set);
+  if (!result.settled) curve_.log.push_back({result.solution.point.parameter, "quadrature-kept"});
+  change_ = result.change;
+  last_x_.resize(0);
   return std::move(result.solution);
+}
+
+bool CurveTracer::refit(BranchWalker& walker, const std::vector<SpecialPoint>& between) {
+  std::vector<BranchVector> points;
+  points.reserve(between.size());
+  for (const SpecialPoint& point : between) points.push_back(point.solution.point);
+  const RefitReport report = refit_step(walker, *balance_, std::move(points));
+  change_ = report.change;
+  if (report.is_replaced || report.is_kept) last_x_.resize(0);
+  if (report.is_kept) {
+    curve_.log.push_back({walker.now().solution.point.parameter, "quadrature-kept"});
+  }
+  take_stock(walker);
+  return report.is_replaced;
+}
+
+void CurveTracer::settle_step(BranchWalker& walker) {
+  if (!scene_.contact) return;
+  scene_.contact->begin_point();
+  while (refit(walker, {})) {
+  }
 }
 
 bool CurveTracer::change_harmonics(BranchWalker& walker, const HarmonicSet& set) {

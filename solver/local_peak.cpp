@@ -7,6 +7,7 @@
 
 #include "solver/branch_walker.hpp"
 #include "solver/output_amplitude.hpp"
+#include "solver/refit.hpp"
 #include "solver/special_points.hpp"
 #include "solver/stability.hpp"
 #include "solver/start_point.hpp"
@@ -61,15 +62,35 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   return peak;
 }
 
+/// The first peak of the last step, on a force that suits it. A refit may move it out of the step.
+std::optional<SpecialPoint> peak_of_step(const HarmonicBalance& balance, BranchWalker& walker) {
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  while (true) {
+    std::vector<SpecialPoint> found = peaks_between(walker, balance);
+    if (found.empty()) return std::nullopt;
+    const RefitReport fit = refit_step(walker, balance, {found.front().solution.point});
+    if (!fit.is_replaced) return std::move(found.front());
+  }
+}
+
+/// One step, both its ends on a force that suits them.
+bool settled_step(const HarmonicBalance& balance, BranchWalker& walker) {
+  if (!walker.advance()) return false;
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  while (refit_step(walker, balance, {}).is_replaced) {
+  }
+  return true;
+}
+
 /// Uphill from a point of the branch until a peak is passed.
 std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& walker,
                                const BranchVector& guess, const ContinuationOptions& range) {
-  for (int i = 0; i < max_steps && walker.advance(); ++i) {
-    for (const SpecialPoint& peak : peaks_between(walker, balance)) {
+  for (int i = 0; i < max_steps && settled_step(balance, walker); ++i) {
+    if (const auto peak = peak_of_step(balance, walker)) {
       const Scaling& scaling = walker.now().scaling;
-      const bool near = distance(peak.solution.point, guess, scaling) < farthest;
-      if (!near || !inside(peak.solution.point.parameter, range)) return std::nullopt;
-      return made_peak(balance, peak.solution, walker.now().tangent, scaling);
+      const bool near = distance(peak->solution.point, guess, scaling) < farthest;
+      if (!near || !inside(peak->solution.point.parameter, range)) return std::nullopt;
+      return made_peak(balance, peak->solution, walker.now().tangent, scaling);
     }
     const WalkerPoint& now = walker.now();
     if (distance(now.solution.point, guess, now.scaling) > 2.0 * farthest) return std::nullopt;
@@ -82,6 +103,8 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
 std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const ResponsePoint& peak) {
   NewtonResult at;
   at.point = {balance.unknowns(peak.q), peak.frequency};
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  static_cast<void>(refit_to(balance, {at.point}));
   at.evaluation = balance.evaluate(at.point.x, peak.frequency);
   Scaling scaling = natural_scaling(balance, at.point.x, peak.frequency);
   scaling.parameter = widest * peak.frequency;
@@ -104,9 +127,16 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
   NewtonResult guessed;
   guessed.point = guess;
   const Scaling scaling = rule(guessed);
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  static_cast<void>(refit_to(balance, {guess}));
   NewtonResult start = solve_newton(system, guess, from.tangent, scaling, {});
   work.iterations += start.iterations;
   work.contact_evaluations += start.evaluations;
+  while (start.converged && refit_to(balance, {start.point}).is_replaced) {
+    start = solve_newton(system, start.point, from.tangent, scaling, {});
+    work.iterations += start.iterations;
+    work.contact_evaluations += start.evaluations;
+  }
   if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
 
   BranchVector tangent = branch_tangent(start.evaluation, from.tangent, scaling).direction;
