@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@ constexpr std::array<std::string_view, 4> constants{"tangential_stiffness", "nor
                                                     "friction_coefficient", "preload"};
 constexpr std::array<std::string_view, 5> required{"u_sin", "u_cos", "v_mean", "v_sin", "v_cos"};
 constexpr std::string_view along_r = "tangential_stiffness_r";
+constexpr std::array<std::string_view, 10> optional_columns{
+    "id", "u_mean", "u_sin2", "u_cos2", "v_sin2", "v_cos2", "w_mean", "w_sin", "w_cos", along_r};
 constexpr std::string_view signals = "uvw";
 
 /// h of "", "2", "3", …; none for "0", "1", "02" or what is no number.
@@ -48,10 +51,11 @@ std::optional<Coefficient> coefficient_of(std::string_view name) {
 }
 
 std::vector<std::string_view> known_columns() {
-  std::vector<std::string_view> known(constants.begin(), constants.end());
-  known.insert(known.end(), required.begin(), required.end());
-  known.insert(known.end(), {"id", "u_mean", "u_sin2", "u_cos2", "v_sin2", "v_cos2", "w_mean",
-                             "w_sin", "w_cos", along_r});
+  std::vector<std::string_view> known;
+  known.reserve(constants.size() + required.size() + optional_columns.size());
+  std::copy(constants.begin(), constants.end(), std::back_inserter(known));
+  std::copy(required.begin(), required.end(), std::back_inserter(known));
+  std::copy(optional_columns.begin(), optional_columns.end(), std::back_inserter(known));
   return known;
 }
 
