@@ -1,6 +1,7 @@
 #include "pipelines/time_response.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <numbers>
 #include <vector>
 
@@ -32,11 +33,8 @@ void mark_peak(solver::ResponseCurve& curve) {
   }
 }
 
-}  // namespace
-
-solver::ResponseCurve integrate_curve(const solver::Scene& scene,
-                                      const ResponseDescription& response,
-                                      const solver::PointObserver& observe) {
+solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescription& response,
+                            const solver::PointObserver& observe) {
   solver::TimeOptions options;
   options.n_harmonics = std::max(response.harmonics, least_harmonics_of_time);
   solver::ResponseCurve curve;
@@ -73,6 +71,18 @@ solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                 options.max_periods);
   }
   mark_peak(curve);
+  return curve;
+}
+
+}  // namespace
+
+solver::ResponseCurve integrate_curve(const solver::Scene& scene,
+                                      const ResponseDescription& response,
+                                      const solver::PointObserver& observe) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  solver::ResponseCurve curve = sweep(scene, response, observe);
+  curve.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return curve;
 }
 
