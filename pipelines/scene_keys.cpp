@@ -276,61 +276,37 @@ constexpr KeySpec optimum_at_key{
     "optimum_at", other, "N", "", 0, 0, false,
     "preload (kind modal, bar: scale) under which another key is searched; else the only positive one", true};
 
-constexpr std::array response_keys{
-    KeySpec{"output", other, "", "", 0, 0, false, "{ at = …, direction = […] }: the displacement that is told"},
-    frequency_key,
-    method_key,
-    time_points_key,
-    harmonics_key,
-    harmonic_tolerance_key,
-    search_key,
-    preload_key,
-    optimum_key,
-    optimum_range_key,
-    optimum_at_key,
-    maps_key,
-    phases_key,
-};
+template <std::size_t... sizes>
+constexpr auto joined(const std::array<KeySpec, sizes>&... parts) {
+  std::array<KeySpec, (sizes + ...)> all{};
+  auto end = all.begin();
+  ((end = std::copy(parts.begin(), parts.end(), end)), ...);
+  return all;
+}
 
-constexpr std::array chain_response_keys{
-    KeySpec{"output", text, "", "", 0, 0, false, "coordinate that is told"},
-    frequency_key,
-    method_key,
-    time_points_key,
-    harmonics_key,
-    harmonic_tolerance_key,
-    search_key,
-    preload_key,
-    optimum_key,
-    optimum_range_key,
-    optimum_at_key,
-    maps_key,
-    phases_key,
-};
+// What every kind has in common, so that a key added here is known to all of them.
+constexpr std::array method_keys{frequency_key, method_key,             time_points_key,
+                                 harmonics_key, harmonic_tolerance_key, search_key};
+constexpr std::array result_keys{optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key};
 
-constexpr std::array block_response_keys{
-    KeySpec{"output", other, "", "", 0, 0, false, "{ at = [p, q, r], direction = [p, q, r] }: the displacement that is told"},
-    frequency_key,
-    method_key,
-    time_points_key,
-    harmonics_key,
-    harmonic_tolerance_key,
-    search_key,
-    preload_key,
-    optimum_key,
-    optimum_range_key,
-    optimum_at_key,
-    maps_key,
-    phases_key,
-};
-
-constexpr std::array modal_response_keys{
-    frequency_key, method_key, time_points_key, harmonics_key,
-    harmonic_tolerance_key, search_key,
-    KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false, "factors on the points' preload, one curve each"},
-    KeySpec{"limits", other, "", "false", 0, 0, false, "true: the free and the stuck limit as curves of their own"},
-    optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key,
-};
+constexpr auto loaded_keys = joined(method_keys, std::array{preload_key}, result_keys);
+constexpr auto response_keys = joined(
+    std::array{KeySpec{"output", other, "", "", 0, 0, false,
+                       "{ at = …, direction = […] }: the displacement that is told"}},
+    loaded_keys);
+constexpr auto chain_response_keys = joined(
+    std::array{KeySpec{"output", text, "", "", 0, 0, false, "coordinate that is told"}}, loaded_keys);
+constexpr auto block_response_keys = joined(
+    std::array{KeySpec{"output", other, "", "", 0, 0, false,
+                       "{ at = [p, q, r], direction = [p, q, r] }: the displacement that is told"}},
+    loaded_keys);
+constexpr auto modal_response_keys = joined(
+    method_keys,
+    std::array{KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false,
+                       "factors on the points' preload, one curve each"},
+               KeySpec{"limits", other, "", "false", 0, 0, false,
+                       "true: the free and the stuck limit as curves of their own"}},
+    result_keys);
 
 constexpr std::array modal_keys{
     KeySpec{"frequency", other, "Hz", "", 0, 0, false, "natural frequencies, one per mode", true},
