@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/cycle_report.hpp"
+#include "contact/mode_shape_check.hpp"
 #include "contact/point_motions.hpp"
 
 namespace microslip::contact {
@@ -21,16 +22,6 @@ void require(bool condition, const std::string& message) {
   if (!condition) {
     throw std::invalid_argument("LawPatchForce: " + message);
   }
-}
-
-void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index rows,
-                   Eigen::Index columns) {
-  require(shape.rows() == rows && shape.cols() == columns,
-          "mode shapes " + std::string(name) + " are " + std::to_string(shape.rows()) + " x " +
-              std::to_string(shape.cols()) + ", expected " + std::to_string(rows) + " x " +
-              std::to_string(columns));
-  require(shape.allFinite(),
-          "mode shapes " + std::string(name) + " have a value that is not finite");
 }
 
 // J_i Φ_i of a block of points, harmonic row by harmonic row of those asked for: n_rows matrices of
@@ -106,11 +97,11 @@ LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
   require(n >= 1 && static_cast<Eigen::Index>(laws_.size()) == n,
           std::to_string(n) + " weights for " + std::to_string(laws_.size()) + " laws");
   require(weights_.allFinite() && weights_.minCoeff() >= 0.0, "a weight is negative or not finite");
-  require_shape("u", shapes_.u, n, shapes_.u.cols());
-  require_shape("v", shapes_.v, n, shapes_.u.cols());
+  require_mode_shape("LawPatchForce", "u", shapes_.u, n, shapes_.u.cols());
+  require_mode_shape("LawPatchForce", "v", shapes_.v, n, shapes_.u.cols());
   shape_ = {&shapes_.u, &shapes_.v};
   if (shapes_.w.size() > 0) {
-    require_shape("w", shapes_.w, n, shapes_.u.cols());
+    require_mode_shape("LawPatchForce", "w", shapes_.w, n, shapes_.u.cols());
     shape_.push_back(&shapes_.w);
   }
 }

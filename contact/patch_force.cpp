@@ -11,28 +11,15 @@
 #include "contact/cycle_report.hpp"
 #include "contact/friction_cycle.hpp"
 #include "contact/linear_proof.hpp"
+#include "contact/mode_shape_check.hpp"
 #include "contact/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
 
-void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index rows,
-                   Eigen::Index columns) {
-  if (shape.rows() != rows || shape.cols() != columns) {
-    throw std::invalid_argument("PatchForce: mode shapes " + std::string(name) + " are " +
-                                std::to_string(shape.rows()) + " x " +
-                                std::to_string(shape.cols()) + ", expected " +
-                                std::to_string(rows) + " x " + std::to_string(columns));
-  }
-  if (!shape.allFinite()) {
-    throw std::invalid_argument("PatchForce: mode shapes " + std::string(name) +
-                                " have a value that is not finite");
-  }
-}
-
 ModalShapes checked(ModalShapes shapes, Eigen::Index n_points) {
-  require_shape("u", shapes.u, n_points, shapes.u.cols());
-  require_shape("v", shapes.v, n_points, shapes.u.cols());
+  require_mode_shape("PatchForce", "u", shapes.u, n_points, shapes.u.cols());
+  require_mode_shape("PatchForce", "v", shapes.v, n_points, shapes.u.cols());
   return shapes;
 }
 

@@ -7,22 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "contact/mode_shape_check.hpp"
+
 namespace microslip::contact {
 namespace {
-
-void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index rows,
-                   Eigen::Index columns) {
-  if (shape.rows() != rows || shape.cols() != columns) {
-    throw std::invalid_argument("PatchTransient: mode shapes " + std::string(name) + " are " +
-                                std::to_string(shape.rows()) + " x " +
-                                std::to_string(shape.cols()) + ", expected " +
-                                std::to_string(rows) + " x " + std::to_string(columns));
-  }
-  if (!shape.allFinite()) {
-    throw std::invalid_argument("PatchTransient: mode shapes " + std::string(name) +
-                                " have a value that is not finite");
-  }
-}
 
 double load_at_rest(const PointParameters& point) { return std::max(point.preload, 0.0); }
 
@@ -86,8 +74,8 @@ struct PatchTransient::Instant {
 
 PatchTransient::PatchTransient(ContactPatch patch, ModalShapes shapes)
     : patch_(std::move(patch)), shapes_(std::move(shapes)) {
-  require_shape("u", shapes_.u, patch_.n_points(), shapes_.u.cols());
-  require_shape("v", shapes_.v, patch_.n_points(), shapes_.u.cols());
+  require_mode_shape("PatchTransient", "u", shapes_.u, patch_.n_points(), shapes_.u.cols());
+  require_mode_shape("PatchTransient", "v", shapes_.v, patch_.n_points(), shapes_.u.cols());
   u_size_ = shapes_.u.rowwise().norm();
   v_size_ = shapes_.v.rowwise().norm();
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/mode_shape_check.hpp"
 #include "contact/planar_slip.hpp"
 
 namespace microslip::contact {
@@ -21,20 +22,6 @@ constexpr double wherever = -std::numeric_limits<double>::infinity();  // the la
 /// K₀ times the motion [Pa].
 double spring_size(const PlanarPoint& point, const GuardScale& scale) {
   return point.stiffness.maxCoeff() * point.tangential_size * scale.displacement;
-}
-
-void require_shape(const char* name, const Eigen::MatrixXd& shape, Eigen::Index rows,
-                   Eigen::Index columns) {
-  if (shape.rows() != rows || shape.cols() != columns) {
-    throw std::invalid_argument("PlanarTransient: mode shapes " + std::string(name) + " are " +
-                                std::to_string(shape.rows()) + " x " +
-                                std::to_string(shape.cols()) + ", expected " +
-                                std::to_string(rows) + " x " + std::to_string(columns));
-  }
-  if (!shape.allFinite()) {
-    throw std::invalid_argument("PlanarTransient: mode shapes " + std::string(name) +
-                                " have a value that is not finite");
-  }
 }
 
 void require_weights(const Eigen::VectorXd& weights, std::size_t n_laws) {
@@ -77,7 +64,7 @@ PlanarTransient::PlanarTransient(Eigen::VectorXd weights, std::vector<SurfaceLaw
   }
   for (const auto& [name, shape] :
        {std::pair{"u", &shapes_.u}, std::pair{"v", &shapes_.v}, std::pair{"w", &shapes_.w}}) {
-    require_shape(name, *shape, weights_.size(), shapes_.u.cols());
+    require_mode_shape("PlanarTransient", name, *shape, weights_.size(), shapes_.u.cols());
   }
   points_.reserve(laws.size());
   for (std::size_t i = 0; i < laws.size(); ++i) {
