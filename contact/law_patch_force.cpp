@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "contact/cycle_report.hpp"
 #include "contact/mode_shape_check.hpp"
-#include "contact/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -88,6 +89,93 @@ class JacobianSum {
   Eigen::MatrixXd sum_;
 };
 
+// Forces and their derivatives by ω of the points, in blocks like the Jacobian.
+class TractionSum {
+ public:
+  TractionSum(const std::vector<const Eigen::MatrixXd*>& shapes, int n_harmonics)
+      : shapes_(shapes),
+        force_(n_harmonics, shapes.front()->cols()),
+        derivative_(n_harmonics, shapes.front()->cols()),
+        phi_(signals() * block_size, shapes.front()->cols()),
+        tractions_(signals() * block_size, force_.rows().rows()),
+        by_frequency_(tractions_.rows(), tractions_.cols()) {}
+
+  void add(Eigen::Index point, double weight, double load_at_rest, const PointTraction& traction) {
+    double shape = 0.0;
+    const bool depends = !traction.frequency_derivative.isZero(0.0);
+    if (depends && !depends_) by_frequency_.setZero();
+    depends_ = depends_ || depends;
+    for (Eigen::Index s = 0; s < signals(); ++s) {
+      const Eigen::Index row = signals() * n_waiting_ + s;
+      phi_.row(row) = shapes_[static_cast<std::size_t>(s)]->row(point);
+      tractions_.row(row) = weight * traction.force.rows().col(s).transpose();
+      if (s == 1) tractions_(row, 0) -= weight * load_at_rest;
+      if (depends_) {
+        for (Eigen::Index k = 0; k < tractions_.cols(); ++k) {
+          by_frequency_(row, k) = weight * traction.frequency_derivative[n_point_signals * k + s];
+        }
+      }
+      shape += phi_.row(row).squaredNorm();
+    }
+    if (traction.defect > 0.0) defect_ += weight * traction.defect * std::sqrt(shape);
+    if (++n_waiting_ == block_size) flush();
+  }
+
+  /// All but the Jacobian. @param rows  of the derivative by ω.
+  [[nodiscard]] ForceAndJacobian take(const std::vector<Eigen::Index>& rows) {
+    flush();
+    const Eigen::Index n = force_.n_signals();
+    ForceAndJacobian result{std::move(force_), {}, {}, defect_};
+    result.frequency_derivative.resize(static_cast<Eigen::Index>(rows.size()) * n);
+    Eigen::Index at = 0;
+    for (const Eigen::Index row : rows) {
+      result.frequency_derivative.segment(at, n) = derivative_.rows().row(row).transpose();
+      at += n;
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index signals() const { return static_cast<Eigen::Index>(shapes_.size()); }
+
+  void flush() {
+    const Eigen::Index n = signals() * n_waiting_;
+    n_waiting_ = 0;
+    if (n == 0) return;
+    force_.rows().noalias() += tractions_.topRows(n).transpose() * phi_.topRows(n);
+    if (!depends_) return;
+    derivative_.rows().noalias() += by_frequency_.topRows(n).transpose() * phi_.topRows(n);
+  }
+
+  const std::vector<const Eigen::MatrixXd*>& shapes_;
+  Harmonics force_;
+  Harmonics derivative_;
+  Eigen::Index n_waiting_ = 0;
+  bool depends_ = false;
+  double defect_ = 0.0;
+  Eigen::MatrixXd phi_;
+  Eigen::MatrixXd tractions_;     // (signals · block) × (2H+1)
+  Eigen::MatrixXd by_frequency_;  // the same
+};
+
+void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harmonics& q,
+                  const std::vector<Eigen::Index>& rows) {
+  const Eigen::Index n = part.mean.size();
+  result.force.rows().noalias() += q.rows() * part.stiffness;  // symmetric
+  result.force.rows().row(0) += part.mean.transpose();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(rows.size()); ++k) {
+    result.jacobian.block(k * n, k * n, n, n) += part.stiffness;
+  }
+}
+
+// The one segment of a point asleep. Without friction the law says whether it calls that slip.
+std::optional<CycleSegment> asleep(const std::optional<LinearRange>& range, SleepState state) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  if (state == SleepState::open) return CycleSegment{ContactState::separated, 0.0, two_pi, 0.0};
+  if (state == SleepState::awake || !range->rubs()) return std::nullopt;
+  return CycleSegment{ContactState::stick, 0.0, two_pi, 0.0};
+}
+
 }  // namespace
 
 LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
@@ -104,6 +192,7 @@ LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
     require_mode_shape("LawPatchForce", "w", shapes_.w, n, shapes_.u.cols());
     shape_.push_back(&shapes_.w);
   }
+  sleep_ = SleepingLaws(weights_, laws_, shapes_);
 }
 
 ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) const {
@@ -114,65 +203,51 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
 
 ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequency,
                                               const std::vector<Eigen::Index>& rows) const {
-  const std::vector<Harmonics> motions = general_motions(shapes_, q);
-  const Eigen::Index n_rows = q.rows().rows();
-  const auto n_signals = static_cast<Eigen::Index>(shape_.size());
-  // Weighted tractions and their derivatives by ω of all points: n_points × n_rows for each signal.
-  std::vector<Eigen::MatrixXd> force(shape_.size(), Eigen::MatrixXd(weights_.size(), n_rows));
-  std::vector<Eigen::MatrixXd> by_frequency = force;
+  motion_.set(shapes_, q);
+  sleep_.look_at(motion_, frequency, shapes_);
+  TractionSum sum(shape_, q.n_harmonics());
   JacobianSum jacobian(shape_, rows);
-  PointTraction traction;
-  double defect = 0.0;
-  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
-    const auto point = static_cast<std::size_t>(i);
-    traction.defect = 0.0;  // a law that is exact does not mention it
-    laws_[point]->traction(motions[point], frequency, traction);
-    if (traction.defect > 0.0) {
-      double shape = 0.0;
-      for (const Eigen::MatrixXd* phi : shape_) shape += phi->row(i).squaredNorm();
-      defect += weights_[i] * traction.defect * std::sqrt(shape);
-    }
-    traction.force.rows()(0, 1) -= laws_[point]->load_at_rest();
-    for (Eigen::Index s = 0; s < n_signals; ++s) {
-      const auto signal = static_cast<std::size_t>(s);
-      force[signal].row(i) = weights_[i] * traction.force.rows().col(s).transpose();
-      for (Eigen::Index k = 0; k < n_rows; ++k) {
-        by_frequency[signal](i, k) =
-            weights_[i] * traction.frequency_derivative[n_point_signals * k + s];
-      }
-    }
-    if (traction.regime != CycleRegime::separated && !rows.empty()) {
-      jacobian.add(i, weights_[i], traction.jacobian);
+  for (const Eigen::Index i : sleep_.awake()) {
+    const PointLaw& law = *laws_[static_cast<std::size_t>(i)];
+    motion_.copy(i, point_motion_);
+    traction_.defect = 0.0;  // a law that is exact does not mention it
+    law.traction(point_motion_, frequency, traction_);
+    sum.add(i, weights_[i], law.load_at_rest(), traction_);
+    if (traction_.regime != CycleRegime::separated && !rows.empty()) {
+      jacobian.add(i, weights_[i], traction_.jacobian);
     }
   }
-  ForceAndJacobian result{Harmonics(q.n_harmonics(), n_modes()), {}, {}, defect};
-  Harmonics derivative(q.n_harmonics(), n_modes());
-  for (std::size_t s = 0; s < shape_.size(); ++s) {
-    result.force.rows() += force[s].transpose() * *shape_[s];
-    derivative.rows() += by_frequency[s].transpose() * *shape_[s];
-  }
+  ForceAndJacobian result = sum.take(rows);
   result.jacobian = jacobian.take();
-  result.frequency_derivative.resize(static_cast<Eigen::Index>(rows.size()) * n_modes());
-  Eigen::Index at = 0;
-  for (const Eigen::Index row : rows) {
-    result.frequency_derivative.segment(at, n_modes()) = derivative.rows().row(row).transpose();
-    at += n_modes();
-  }
+  if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, rows);
   return result;
 }
 
 CycleReport LawPatchForce::report(const Harmonics& q, double frequency) const {
-  const std::vector<Harmonics> motions = general_motions(shapes_, q);
+  PatchMotion motion;
+  motion.set(shapes_, q);
+  const std::vector<SleepState> states = sleep_.states(motion, frequency);
   ReportSum sum;
-  for (std::size_t point = 0; point < motions.size(); ++point) {
-    const double weight = weights_[static_cast<Eigen::Index>(point)];
-    if (weight == 0.0) {
+  Harmonics point_motion;
+  for (std::size_t point = 0; point < laws_.size(); ++point) {
+    const auto i = static_cast<Eigen::Index>(point);
+    if (weights_[i] == 0.0) continue;
+    if (const std::optional<CycleSegment> segment = asleep(sleep_.range(i), states[point])) {
+      sum.add({&*segment, 1}, 0.0, weights_[i]);
       continue;
     }
-    const PointHistory history = laws_[point]->history(motions[point], frequency, {}, 0);
-    sum.add(history.segments, history.dissipated_energy, weight);
+    motion.copy(i, point_motion);
+    const PointHistory history = laws_[point]->history(point_motion, frequency, {}, 0);
+    sum.add(history.segments, history.dissipated_energy, weights_[i]);
   }
-  return sum.result();
+  CycleReport report = sum.result();
+  const auto n_awake = std::count(states.begin(), states.end(), SleepState::awake);
+  report.awake_share = static_cast<double>(n_awake) / static_cast<double>(states.size());
+  return report;
+}
+
+LinearState LawPatchForce::linear_state(const Harmonics& centre, double radius) const {
+  return sleep_.linear_state(shapes_, centre, radius);
 }
 
 Eigen::MatrixXd LawPatchForce::stuck_stiffness() const {
