@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/contact_patch.hpp"
+#include "contact/law_projection.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/point_law.hpp"
 #include "contact/sleeping_laws.hpp"
@@ -54,6 +55,7 @@ class LawPatchForce final : public ModalForce {
   mutable PatchMotion motion_;
   mutable Harmonics point_motion_;
   mutable PointTraction traction_;
+  mutable LawProjection sum_;
 };
 
 }  // namespace microslip::contact
