@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <string>
+
+#include "contact/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -26,12 +26,7 @@ Eigen::Index n_groups(Eigen::Index n, Eigen::Index group) { return (n + group - 
 }  // namespace
 
 void PatchMotion::set(const ModalShapes& shapes, const Harmonics& q) {
-  if (q.n_harmonics() < 1 || q.n_signals() != shapes.u.cols()) {
-    throw std::invalid_argument("friction patch: motion with n_harmonics = " +
-                                std::to_string(q.n_harmonics()) + " of " +
-                                std::to_string(q.n_signals()) + " modes, expected at least 1 of " +
-                                std::to_string(shapes.u.cols()));
-  }
+  require_harmonics(q, shapes.u.cols());
   u.noalias() = shapes.u * q.rows().transpose();
   v.noalias() = shapes.v * q.rows().transpose();
   if (shapes.w.size() > 0) w.noalias() = shapes.w * q.rows().transpose();
