@@ -115,7 +115,8 @@ Eigen::MatrixXd LawPatchForce::stuck_stiffness() const {
   }
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n_modes(), n_modes());
   for (std::size_t s = 0; s < shape_.size(); ++s) {
-    stiffness += shape_[s]->transpose() * k.col(static_cast<Eigen::Index>(s)).asDiagonal() * *shape_[s];
+    stiffness +=
+        shape_[s]->transpose() * k.col(static_cast<Eigen::Index>(s)).asDiagonal() * *shape_[s];
   }
   return stiffness;
 }

@@ -37,8 +37,8 @@ class LawPatchForce final : public ModalForce {
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
   /// Points cost what all harmonics of q do, their sum over the patch what the rows do.
   /// @throws std::invalid_argument  as evaluate().
-  [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
-                                               const std::vector<Eigen::Index>& rows) const override;
+  [[nodiscard]] ForceAndJacobian evaluate_rows(
+      const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

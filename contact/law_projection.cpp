@@ -68,8 +68,10 @@ void LawProjection::add(Eigen::Index point, double weight, double load_at_rest,
   if (size_.n_rows > 0) {
     const bool touches = traction.regime != CycleRegime::separated;
     any_jacobian_ = any_jacobian_ || touches;
-    if (touches) gather(weight, traction.jacobian);
-    else std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
+    if (touches)
+      gather(weight, traction.jacobian);
+    else
+      std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
     projection_kernels().spread(size_, phi(n_waiting_), coefficients_.data(),
                                 spread_.data() + n_waiting_ * size_.stride);
   }

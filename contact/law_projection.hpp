@@ -40,8 +40,8 @@ class LawProjection {
   bool any_jacobian_ = false;  // in the block
   bool depends_on_frequency_ = false;
   double defect_ = 0.0;
-  std::vector<double> phi_;         // [row of the block][mode]
-  std::vector<double> force_;       // [row of the block][harmonic row], weighted
+  std::vector<double> phi_;    // [row of the block][mode]
+  std::vector<double> force_;  // [row of the block][harmonic row], weighted
   std::vector<double> by_frequency_;
   std::vector<double> coefficients_;  // weighted Jacobian of a point as `spread` reads it
   std::vector<double> spread_;

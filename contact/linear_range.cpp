@@ -8,7 +8,8 @@
 namespace microslip::contact {
 namespace {
 
-// Proofs are made in doubles: what is left after cancelling to this share of the terms proves nothing.
+// Proofs are made in doubles: what is left after cancelling to this share of the terms proves
+// nothing.
 constexpr double rounding = 1e-12;
 
 double dot(const Eigen::MatrixXd& basis, Eigen::Index j, const double* row) {
@@ -77,8 +78,8 @@ bool stays_open(const LinearRange& range, const PointRows& x, const PhaseTable& 
   const double scale = range.stiffness[1] / -mean_load;
   Amplitudes load;
   add_normal(x.v, scale, table.n_harmonics, load);
-  const double needed = reserve / -mean_load +
-                        rounding * (1.0 + load.sum + cancelled(range, x, mean_load));
+  const double needed =
+      reserve / -mean_load + rounding * (1.0 + load.sum + cancelled(range, x, mean_load));
   if (1.0 - load.sum > needed) return true;
   const double least = needed + table.rise * load.curve;
   for (Eigen::Index j = 0; j < table.basis.cols(); ++j) {
@@ -136,7 +137,8 @@ LinearReserve reserve_of_ball(const LinearRange& range, const Eigen::Vector3d& s
   const double reach = std::sqrt(1.0 + n_harmonics) * radius;
   const double load = range.stiffness[1] * sizes[1] * reach;
   if (!range.rubs()) return {load, load};
-  const double tangential = std::hypot(range.stiffness[0] * sizes[0], range.stiffness[2] * sizes[2]);
+  const double tangential =
+      std::hypot(range.stiffness[0] * sizes[0], range.stiffness[2] * sizes[2]);
   return {range.friction.at_rest() * load + tangential * reach, load};
 }
 

@@ -34,7 +34,8 @@ struct LinearRange {
   /// n₀' [Pa]. Where the point does not stick linearly its sign and that of n₀' + k_v v matter alone.
   double gap_load = 0.0;
   FrictionLaw friction = FrictionLaw::constant(0.0);  ///< μ(σ), monotone
-  bool sticks_linearly = true;  ///< false: stiffness depends on the load; only an open point is linear
+  bool sticks_linearly =
+      true;  ///< false: stiffness depends on the load; only an open point is linear
 
   [[nodiscard]] bool rubs() const { return stiffness[0] > 0.0 || stiffness[2] > 0.0; }
 };

@@ -99,17 +99,17 @@ MICROSLIP_INLINE void add(const ProjectionSizes& size, std::size_t n, const doub
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute cannot stand in parentheses.
 // One set of kernels per instruction set; the bodies above take on the target of the function they
 // are inlined into.
-#define MICROSLIP_KERNELS(name, width, attribute)                                              \
-  struct name {                                                                                \
-    attribute static void spread_point(const ProjectionSizes& size, const double* phi,         \
-                                       const double* a, double* y) {                           \
-      spread<width>(size, phi, a, y);                                                          \
-    }                                                                                          \
-    attribute static void add_block(const ProjectionSizes& size, std::size_t n,                \
-                                    const double* phi, const double* y, double* sum) {         \
-      add<width>(size, n, phi, y, sum);                                                        \
-    }                                                                                          \
-    static constexpr ProjectionKernels all{spread_point, add_block};                           \
+#define MICROSLIP_KERNELS(name, width, attribute)                                                  \
+  struct name {                                                                                    \
+    attribute static void spread_point(const ProjectionSizes& size, const double* phi,             \
+                                       const double* a, double* y) {                               \
+      spread<width>(size, phi, a, y);                                                              \
+    }                                                                                              \
+    attribute static void add_block(const ProjectionSizes& size, std::size_t n, const double* phi, \
+                                    const double* y, double* sum) {                                \
+      add<width>(size, n, phi, y, sum);                                                            \
+    }                                                                                              \
+    static constexpr ProjectionKernels all{spread_point, add_block};                               \
   };
 
 // NOLINTEND(bugprone-macro-parentheses)

@@ -9,8 +9,8 @@
 namespace microslip::contact {
 namespace {
 
-// More sums than this cost more memory than they save time; smaller ones are added up as fast as they are
-// looked up.
+// More sums than this cost more memory than they save time; smaller ones are added up as fast as
+// they are looked up.
 constexpr Eigen::Index largest_n_groups = 256;
 constexpr Eigen::Index smallest_group = 16;
 
@@ -69,9 +69,10 @@ void SleepingLaws::decide(const PatchMotion& motion, double frequency,
   const PhaseTable& table = phase_table(static_cast<int>(motion.u.cols() / 2));
   states.resize(range_.size());
   for (std::size_t i = 0; i < range_.size(); ++i) {
-    states[i] = range_[i].has_value() ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)),
-                                                    table, frequency)
-                                      : SleepState::awake;
+    states[i] =
+        range_[i].has_value()
+            ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)), table, frequency)
+            : SleepState::awake;
   }
 }
 
@@ -91,7 +92,8 @@ void SleepingLaws::look_at(const PatchMotion& motion, double frequency, const Mo
   for (Eigen::Index g = 0; g < n_groups(n, group_); ++g) {
     const Eigen::Index begin = g * group_;
     const Eigen::Index end = std::min(n, begin + group_);
-    if (!std::equal(state_.begin() + begin, state_.begin() + end, next_.begin() + begin)) add_up(g, shapes);
+    if (!std::equal(state_.begin() + begin, state_.begin() + end, next_.begin() + begin))
+      add_up(g, shapes);
     const SleepingPart& part = part_[static_cast<std::size_t>(g)];
     if (part.mean.size() == 0) continue;
     sum_.stiffness += part.stiffness;

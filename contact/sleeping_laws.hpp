@@ -78,7 +78,7 @@ class SleepingLaws {
   std::vector<Eigen::Index> awake_;
   std::vector<SleepingPart> part_;  // of each group
   SleepingPart sum_;
-  Eigen::MatrixXd rows_;      // √(w k) φ of one group
+  Eigen::MatrixXd rows_;     // √(w k) φ of one group
   Eigen::Index n_rows_ = 0;  // of them in use
 };
 

@@ -60,7 +60,9 @@ PointParameters point_of(Eigen::Index i, int awake) {
 ModalShapes shapes_of(Eigen::Index n, bool second_direction) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
-  const auto shape = [&] { return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); }); };
+  const auto shape = [&] {
+    return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
+  };
   ModalShapes shapes{shape(), shape(), {}};
   if (second_direction) shapes.w = shape();
   return shapes;
@@ -79,7 +81,8 @@ Harmonics motion_of(int n_harmonics) {
 
 Laws event_laws(Eigen::Index n, int awake) {
   Laws laws;
-  for (Eigen::Index i = 0; i < n; ++i) laws.push_back(std::make_shared<EventLaw>(point_of(i, awake)));
+  for (Eigen::Index i = 0; i < n; ++i)
+    laws.push_back(std::make_shared<EventLaw>(point_of(i, awake)));
   return laws;
 }
 
@@ -123,7 +126,8 @@ void event_patch(benchmark::State& state) {
 }
 BENCHMARK(event_patch)->Arg(1)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
 
-void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shapes, const Harmonics& q) {
+void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shapes,
+             const Harmonics& q) {
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(shapes.u.rows());
   const LawPatchForce force(weights, laws, shapes);
   const LawPatchForce all(weights, sleepless(laws), shapes);
@@ -149,13 +153,15 @@ void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shape
 
 void sleeping_event(benchmark::State& state) {
   constexpr Eigen::Index n = 488;
-  compare(state, event_laws(n, static_cast<int>(state.range(0))), shapes_of(n, false), motion_of(5));
+  compare(state, event_laws(n, static_cast<int>(state.range(0))), shapes_of(n, false),
+          motion_of(5));
 }
 BENCHMARK(sleeping_event)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 void sleeping_planar(benchmark::State& state) {
   constexpr Eigen::Index n = 300;
-  compare(state, planar_laws(n, static_cast<int>(state.range(0))), shapes_of(n, true), motion_of(1));
+  compare(state, planar_laws(n, static_cast<int>(state.range(0))), shapes_of(n, true),
+          motion_of(1));
 }
 BENCHMARK(sleeping_planar)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 

@@ -21,7 +21,8 @@ Eigen::MatrixXd noise(Eigen::Index rows, Eigen::Index columns) {
 // Sums of up to 60 products of three numbers of size one, in another order.
 constexpr double rounding = 1e-13;
 
-// Numbers of modes around the widths of the machine's vectors; blocks whole and broken; some rows only.
+// Numbers of modes around the widths of the machine's vectors; blocks whole and broken; some rows
+// only.
 TEST(LawProjection, IsTheSumByItsDefinition) {
   for (const Eigen::Index n_modes : {1, 2, 3, 4, 7, 8, 10, 17}) {
     for (const std::size_t n_signals : {2U, 3U}) {
@@ -46,7 +47,8 @@ TEST(LawProjection, IsTheSumByItsDefinition) {
           t.force = Harmonics(H, n_point_signals);
           t.force.rows() = noise(R, n_point_signals);
           t.jacobian = noise(3 * R, 3 * R);
-          t.frequency_derivative = i % 3 == 0 ? Eigen::VectorXd(noise(3 * R, 1)) : Eigen::VectorXd::Zero(3 * R);
+          t.frequency_derivative =
+              i % 3 == 0 ? Eigen::VectorXd(noise(3 * R, 1)) : Eigen::VectorXd::Zero(3 * R);
           t.regime = i % 5 == 1 ? CycleRegime::separated : CycleRegime::stick_slip;
           t.defect = i == 2 ? 0.5 : 0.0;
           const double weight = 0.1 * static_cast<double>(i);
@@ -59,14 +61,15 @@ TEST(LawProjection, IsTheSumByItsDefinition) {
             for (Eigen::Index k = 0; k < R; ++k) {
               const double load = s == 1 && k == 0 ? at_rest : 0.0;
               force.row(k) += weight * (t.force.rows()(k, signal) - load) * phi[s].row(i);
-              by_frequency.row(k) += weight * t.frequency_derivative[3 * k + signal] * phi[s].row(i);
+              by_frequency.row(k) +=
+                  weight * t.frequency_derivative[3 * k + signal] * phi[s].row(i);
             }
             for (std::size_t r = 0; r < n_signals && t.regime != CycleRegime::separated; ++r) {
               for (Eigen::Index k = 0; k < n; ++k) {
                 for (Eigen::Index l = 0; l < n; ++l) {
-                  const double a = t.jacobian(3 * rows[static_cast<std::size_t>(k)] + signal,
-                                              3 * rows[static_cast<std::size_t>(l)] +
-                                                  static_cast<Eigen::Index>(r));
+                  const double a = t.jacobian(
+                      3 * rows[static_cast<std::size_t>(k)] + signal,
+                      3 * rows[static_cast<std::size_t>(l)] + static_cast<Eigen::Index>(r));
                   jacobian.block(k * n_modes, l * n_modes, n_modes, n_modes) +=
                       weight * a * phi[s].row(i).transpose() * phi[r].row(i);
                 }
@@ -80,7 +83,8 @@ TEST(LawProjection, IsTheSumByItsDefinition) {
         EXPECT_LE((result.jacobian - jacobian).cwiseAbs().maxCoeff(), rounding);
         EXPECT_NEAR(result.defect, defect, rounding);
         for (Eigen::Index k = 0; k < n; ++k) {
-          const Eigen::VectorXd expected = by_frequency.row(rows[static_cast<std::size_t>(k)]).transpose();
+          const Eigen::VectorXd expected =
+              by_frequency.row(rows[static_cast<std::size_t>(k)]).transpose();
           EXPECT_LE((result.frequency_derivative.segment(k * n_modes, n_modes) - expected)
                         .cwiseAbs()
                         .maxCoeff(),

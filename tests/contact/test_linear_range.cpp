@@ -12,10 +12,11 @@
 namespace microslip::contact {
 namespace {
 
-SleepState state_of(const LinearRange& range, const Harmonics& u, const Harmonics& v, const Harmonics& w,
-                    const LinearReserve& reserve = {}) {
+SleepState state_of(const LinearRange& range, const Harmonics& u, const Harmonics& v,
+                    const Harmonics& w, const LinearReserve& reserve = {}) {
   const PhaseTable table(u.n_harmonics());
-  return sleep_state(range, {u.rows().data(), v.rows().data(), w.rows().data()}, table, 1.0, reserve);
+  return sleep_state(range, {u.rows().data(), v.rows().data(), w.rows().data()}, table, 1.0,
+                     reserve);
 }
 
 Harmonics random_signal(int n_harmonics, double size, std::mt19937_64& random) {
@@ -26,7 +27,8 @@ Harmonics random_signal(int n_harmonics, double size, std::mt19937_64& random) {
 }
 
 // max over the period of what (1) forbids: |K x| − μ n where pressed, n where open.
-double worst(const LinearRange& r, const Harmonics& u, const Harmonics& v, const Harmonics& w, bool open) {
+double worst(const LinearRange& r, const Harmonics& u, const Harmonics& v, const Harmonics& w,
+             bool open) {
   double worst = -std::numeric_limits<double>::infinity();
   for (int j = 0; j < 1000; ++j) {
     const double phase = 2.0 * std::numbers::pi * j / 1000.0;
@@ -46,7 +48,8 @@ TEST(LinearRange, ProofIsSoundAndSharp) {
   for (int trial = 0; trial < 1500; ++trial) {
     const int H = 1 + trial % 5;
     const LinearRange range{{u01(random), u01(random), trial % 2 == 0 ? 0.0 : u01(random)},
-                            8.0 * u01(random) - 4.0, FrictionLaw::constant(0.1 + u01(random))};
+                            8.0 * u01(random) - 4.0,
+                            FrictionLaw::constant(0.1 + u01(random))};
     const Harmonics u = random_signal(H, 0.6, random);
     const Harmonics v = random_signal(H, 0.6, random);
     const Harmonics w = random_signal(H, 0.6, random);
@@ -76,9 +79,9 @@ TEST(LinearRange, NothingSleepsAtALimit) {
   sine.rows() << 0.0, 1.0, 0.0;
   const FrictionLaw half = FrictionLaw::constant(0.5);
   EXPECT_EQ(state_of({{1, 1, 1}, 0.0, half}, none, none, none), SleepState::awake);
-  EXPECT_EQ(state_of({{0, 1, 0}, 1.0, half}, none, sine, none), SleepState::awake);   // n₀ = B
+  EXPECT_EQ(state_of({{0, 1, 0}, 1.0, half}, none, sine, none), SleepState::awake);  // n₀ = B
   EXPECT_EQ(state_of({{0, 1, 0}, -1.0, half}, none, sine, none), SleepState::awake);
-  EXPECT_EQ(state_of({{1, 0, 1}, 2.0, half}, sine, none, none), SleepState::awake);   // k_u a = μ n₀
+  EXPECT_EQ(state_of({{1, 0, 1}, 2.0, half}, sine, none, none), SleepState::awake);  // k_u a = μ n₀
   EXPECT_EQ(state_of({{1, 0, 1}, 2.0 + 1e-9, half}, sine, none, none), SleepState::stuck);
   EXPECT_EQ(state_of({{1, 0, 1}, 2.0 + 1e-9, half, false}, sine, none, none), SleepState::awake);
   // A mean force at the end of its interval.
@@ -109,10 +112,12 @@ TEST(LinearRange, HoldsAtEverySizeOfItsUnits) {
     EXPECT_EQ(state_of({{1, 1, 1}, 2.1 * unit, half}, sine, none, sine), SleepState::awake) << unit;
     EXPECT_EQ(state_of({{1, 1, 1}, 2.1 * unit, half}, sine, none, none), SleepState::stuck) << unit;
     EXPECT_EQ(state_of({{1, 1, 1}, -1.1 * unit, half}, none, sine, none), SleepState::open) << unit;
-    EXPECT_EQ(state_of({{1, 1, 1}, -0.9 * unit, half}, none, sine, none), SleepState::awake) << unit;
+    EXPECT_EQ(state_of({{1, 1, 1}, -0.9 * unit, half}, none, sine, none), SleepState::awake)
+        << unit;
   }
   sine.rows() << 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0;
-  EXPECT_EQ(state_of({{1, 1, 1}, 9.0, FrictionLaw::constant(0.5)}, sine, sine, sine), SleepState::awake);
+  EXPECT_EQ(state_of({{1, 1, 1}, 9.0, FrictionLaw::constant(0.5)}, sine, sine, sine),
+            SleepState::awake);
 }
 
 TEST(LinearRange, ReserveIsLeftOver) {
@@ -122,8 +127,8 @@ TEST(LinearRange, ReserveIsLeftOver) {
   const LinearRange range{{1, 0, 0}, 4.0, FrictionLaw::constant(0.5)};
   EXPECT_EQ(state_of(range, sine, none, none, {0.99, 0.0}), SleepState::stuck);
   EXPECT_EQ(state_of(range, sine, none, none, {1.01, 0.0}), SleepState::awake);
-  const LinearReserve ball = reserve_of_ball({{3, 2, 4}, 1.0, FrictionLaw::constant(0.5)},
-                                             {1.0, 1.0, 1.0}, 3, 0.5);
+  const LinearReserve ball =
+      reserve_of_ball({{3, 2, 4}, 1.0, FrictionLaw::constant(0.5)}, {1.0, 1.0, 1.0}, 3, 0.5);
   EXPECT_DOUBLE_EQ(ball.stuck, 6.0);  // (½·2 + 5) · √4 · ½
   EXPECT_DOUBLE_EQ(ball.open, 2.0);
 }

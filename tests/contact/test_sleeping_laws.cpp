@@ -38,7 +38,8 @@ class Sleepless final : public PointLaw {
 };
 
 using Laws = std::vector<std::shared_ptr<const PointLaw>>;
-using MakeLaw = std::function<std::shared_ptr<const PointLaw>(const PointParameters&, double second)>;
+using MakeLaw =
+    std::function<std::shared_ptr<const PointLaw>(const PointParameters&, double second)>;
 
 struct Patch {
   LawPatchForce sleeping;
@@ -53,7 +54,8 @@ Patch patch_of(const Eigen::VectorXd& weights, const Laws& laws, const ModalShap
 
 enum class Directions : std::uint8_t { one, two };
 
-// Preloads from gaps to loads that hold everything; points without friction, without normal stiffness.
+// Preloads from gaps to loads that hold everything; points without friction, without normal
+// stiffness.
 Patch random_patch(Eigen::Index n, const MakeLaw& make, Directions directions,
                    std::mt19937_64& random) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -61,11 +63,14 @@ Patch random_patch(Eigen::Index n, const MakeLaw& make, Directions directions,
   Laws laws;
   for (Eigen::Index i = 0; i < n; ++i) {
     weights[i] = i % 11 == 3 ? 0.0 : 1.1 + u(random);
-    const PointParameters point{i % 13 == 0 ? 0.0 : 1.1 + u(random), i % 7 == 1 ? 0.0 : 1.1 + u(random),
+    const PointParameters point{i % 13 == 0 ? 0.0 : 1.1 + u(random),
+                                i % 7 == 1 ? 0.0 : 1.1 + u(random),
                                 i % 5 == 0 ? 0.0 : 0.5 + 0.4 * u(random), 6.0 * u(random) + 2.0};
     laws.push_back(make(point, i % 9 == 0 ? 0.0 : 1.1 + u(random)));
   }
-  const auto shape = [&] { return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); }); };
+  const auto shape = [&] {
+    return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
+  };
   ModalShapes shapes{shape(), shape(), {}};
   if (directions == Directions::two) shapes.w = shape();
   return patch_of(weights, laws, shapes);
@@ -87,9 +92,10 @@ struct Seen {
   double most = 0.0;
 };
 
-// Motions of every size up to one that wakes nearly everything. @param accuracy  of the law, in shares of
-// the forces; sums of n terms of size 10 come on top.
-void expect_same(const Patch& p, int n_harmonics, double accuracy, std::mt19937_64& random, Seen& seen) {
+// Motions of every size up to one that wakes nearly everything. @param accuracy  of the law, in
+// shares of the forces; sums of n terms of size 10 come on top.
+void expect_same(const Patch& p, int n_harmonics, double accuracy, std::mt19937_64& random,
+                 Seen& seen) {
   for (const double size : {0.02, 0.1, 0.3, 0.6, 1.2}) {
     const Harmonics q = random_motion(n_harmonics, size, random);
     const ForceAndJacobian a = p.sleeping.evaluate(q, 2.0);
@@ -160,7 +166,8 @@ TEST(SleepingLaws, SampledPointsGiveWhatEvaluationGives) {
   EXPECT_LT(seen.least, 0.2);
 }
 
-// Friction falls and rises with the speed: sleep is judged by the smallest coefficient that is reached.
+// Friction falls and rises with the speed: sleep is judged by the smallest coefficient that is
+// reached.
 TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
   const auto make = [](const FrictionLaw& friction) -> MakeLaw {
     return [friction](const PointParameters& point, double second) {
@@ -184,19 +191,19 @@ TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
       PointParameters stiff = point;
       stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
       return std::make_shared<SampledLaw>(
-          SurfaceLaw(stiff, second, FrictionLaw::constant(point.friction_coefficient),
-                     surface),
+          SurfaceLaw(stiff, second, FrictionLaw::constant(point.friction_coefficient), surface),
           64);
     };
   };
   std::mt19937_64 random(5);
   Seen cubic;
-  expect_same(random_patch(150, make(RoughSurface::cubic(0.5)), Directions::one, random), 2, rounding, random, cubic);
+  expect_same(random_patch(150, make(RoughSurface::cubic(0.5)), Directions::one, random), 2,
+              rounding, random, cubic);
   EXPECT_LT(cubic.least, 0.9);
   EXPECT_GT(cubic.least, 0.5);  // two thirds are pressed
   Seen gaussian;
-  expect_same(random_patch(50, make(RoughSurface::matching_gaussian(0.5)), Directions::one, random), 2, rounding, random,
-              gaussian);
+  expect_same(random_patch(50, make(RoughSurface::matching_gaussian(0.5)), Directions::one, random),
+              2, rounding, random, gaussian);
   EXPECT_EQ(gaussian.least, 1.0);
 }
 
@@ -225,7 +232,8 @@ TEST(SleepingLaws, SomeRowsAreThoseOfAll) {
   const std::vector<Eigen::Index> rows{1, 2, 4};
   const ForceAndJacobian some = p.sleeping.evaluate_rows(q, 1.0, rows);
   const ForceAndJacobian all = p.sleepless.evaluate(q, 1.0);
-  EXPECT_LE((some.force.vector() - all.force.vector()).norm(), rounding * all.force.vector().norm());
+  EXPECT_LE((some.force.vector() - all.force.vector()).norm(),
+            rounding * all.force.vector().norm());
   for (Eigen::Index k = 0; k < 3; ++k) {
     for (Eigen::Index l = 0; l < 3; ++l) {
       const Eigen::MatrixXd block =
