@@ -1,7 +1,6 @@
 #include "contact/law_patch_force.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
