@@ -112,7 +112,9 @@ ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solutio
   curve.iterations += settled.iterations;
   curve.contact_evaluations += settled.evaluations;
   if (!settled.settled) curve.log.push_back({frequency, "quadrature-kept"});
-  const auto stability = assess_stability(balance, solution.evaluation.jacobian, frequency);
+  const auto stability = stability_in_time(
+      balance, balance.harmonics(solution.point.x), frequency,
+      assess_stability(balance, solution.evaluation.jacobian, frequency));
   ResponsePoint point = certified_point(balance, solution, frequency, stability);
   point.quadrature_change = settled.change;
   return point;

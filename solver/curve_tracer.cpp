@@ -80,8 +80,12 @@ Scaling CurveTracer::scaling_at(const NewtonResult& at) {
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  const StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
-                                                   at.point.parameter, stability_at(at));
+  StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
+                                             at.point.parameter, stability_at(at));
+  if (mark != PointMark::fold) {
+    stability = stability_in_time(*balance_, balance_->harmonics(at.point.x), at.point.parameter,
+                                  std::move(stability));
+  }
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
   point.harmonics_left_out = left_out_;
