@@ -27,6 +27,11 @@ void check_range(const ContinuationOptions& options) {
         "continuation: frequencies " + std::to_string(options.frequency_begin) + " and " +
         std::to_string(options.frequency_end) + " rad/s; both must be finite and above 0");
   }
+  if (bad(options.residual_tolerance)) {
+    throw std::invalid_argument("continuation: residual_tolerance " +
+                                std::to_string(options.residual_tolerance) +
+                                "; it must be finite and above 0");
+  }
 }
 
 class Stopwatch {

@@ -238,7 +238,7 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   return {system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start),
-          forward};
+          forward, options_.residual_tolerance};
 }
 
 /// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies

@@ -232,6 +232,7 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
   const Scene& scene = balance.scene();
   if (balance.set().highest() == 1 || !scene.transient) return hill;
   if (hill.stability == Stability::unstable) return hill;
+  if (2 * scene.n_modes() + scene.transient->n_points() > most_multipliers) return hill;
   const FloquetMultipliers floquet = floquet_multipliers(scene, frequency, q, most_multipliers);
   if (!floquet.known()) return hill;
   const double beyond = floquet.largest_oscillating() - 1.0;

@@ -48,7 +48,7 @@ struct StabilityReport {
 /// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the
 /// multipliers of the period map that are not real and positive. Within `distance` of the unit circle, and at
 /// least 1e-4, they tell nothing and the point is not assessed. Real positive ones are those of the
-/// determinant. Left as it is: one harmonic, and more than 16 states.
+/// determinant. Left as it is: one harmonic, and more than 16 states of modes (two each) and points.
 /// @param hill  hill_stability() of the same point.
 /// @param q     its harmonics.
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
