@@ -124,7 +124,7 @@ Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,
     tractions(i, 1) += now.normal;
     if (!point.rubs) continue;
     const Vector2d force = now.ratio * returned_force(spring_force(point, now, slider_of(memory, i)),
-                                                      point.stiffness, now.radius);
+                                                      now.stiffness, now.radius);
     tractions(i, 0) = force[0];
     tractions(i, 2) = force[1];
   }
@@ -149,8 +149,8 @@ double PlanarTransient::commit(const ModalMotion& motion, TransientMemory& memor
       const Vector2d trial = spring_force(point, now, before);
       state = trial.norm() <= now.radius ? ContactState::stick : ContactState::slip;
       if (state == ContactState::stick) continue;
-      const Vector2d force = returned_force(trial, point.stiffness, now.radius);
-      const Vector2d after = now.position - point.compliance.cwiseProduct(force);
+      const Vector2d force = returned_force(trial, now.stiffness, now.radius);
+      const Vector2d after = now.position - force.cwiseQuotient(now.stiffness);
       set_slider(memory, i, after);
       memory.internal[i] = std::atan2(force[1], force[0]);
       work += weights_[i] * now.ratio * force.dot(after - before);
@@ -231,11 +231,13 @@ TransientForce::Guards PlanarTransient::guards_at(Eigen::Index i, const PlanarPo
     return {(now.radius - spring_force(point, now, slider).norm()) / std::max(smallest, size),
             now.load / load_size};
   }
+  const double softest = (point.active.array() > 0.0)
+                             .select(point.stiffness.array(), std::numeric_limits<double>::infinity())
+                             .minCoeff();
   const double rate_size =
-      (point.tangential_size +
-       point.compliance.maxCoeff() * p.friction_coefficient * normal_stiffness) *
+      (point.tangential_size + p.friction_coefficient * normal_stiffness / softest) *
       scale.velocity;
-  return {slip_speed(point, now, memory.internal[i]) / std::max(smallest, rate_size),
+  return {slip_speed(now, memory.internal[i]) / std::max(smallest, rate_size),
           now.load / load_size};
 }
 
@@ -262,13 +264,13 @@ void PlanarTransient::touch_down(Eigen::Index i, const ModalMotion& motion,
                                  TransientMemory& memory) const {
   const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
   const PlanarPointInstant now = instant_at(i, motion, just_inside(point));
-  const Vector2d pull = point.stiffness.cwiseProduct(now.velocity);
+  const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
   const bool slips = !point.slides || (point.rubs && pull.norm() > now.radius_rate);
   memory.state[static_cast<std::size_t>(i)] = slips ? ContactState::slip : ContactState::stick;
   set_slider(memory, i, now.position);  // f = 0 where contact begins
   if (!slips || !point.rubs) return;
   const Vector2d along = now.radius_rate > 0.0
-                             ? returned_force(pull, point.stiffness, now.radius_rate)
+                             ? returned_force(pull, now.stiffness, now.radius_rate)
                              : now.velocity;
   memory.internal[i] = std::atan2(along[1], along[0]);
 }
@@ -284,11 +286,12 @@ void PlanarTransient::switch_state(Eigen::Index i, const ModalMotion& motion,
     set_slider(memory, i, now.position);
   } else if (state == ContactState::stick) {
     const Vector2d force = spring_force(point, now, slider_of(memory, i));
-    memory.internal[i] = std::atan2(force[1], force[0]);
+    const GuardScale here{motion.q.norm(), motion.velocity.norm()};
+    memory.internal[i] = starting_angle(point, now, force, edge * spring_size(point, here));
     state = ContactState::slip;
   } else {
     const Vector2d force = now.radius * slip_direction(memory.internal[i]);
-    set_slider(memory, i, now.position - point.compliance.cwiseProduct(force));
+    set_slider(memory, i, now.position - force.cwiseQuotient(now.stiffness));
     state = ContactState::stick;
   }
 }
@@ -301,7 +304,7 @@ double PlanarTransient::slip_power(const ModalMotion& motion, const TransientMem
     if (memory.state[static_cast<std::size_t>(i)] != ContactState::slip || !point.rubs) continue;
     const PlanarPointInstant now = instant_of(point, all.of(i));
     power += weights_[i] * now.ratio * now.radius *
-             slip_speed(point, now, memory.internal[i]);
+             slip_speed(now, memory.internal[i]);
   }
   return power;
 }
