@@ -71,6 +71,9 @@ PlanarTransient::PlanarTransient(Eigen::VectorXd weights, std::vector<SurfaceLaw
     const auto row = static_cast<Eigen::Index>(i);
     points_.emplace_back(laws[i], shapes_.u.row(row).norm() + shapes_.w.row(row).norm(),
                          shapes_.v.row(row).norm(), !shapes_.w.row(row).isZero(0.0));
+    const std::vector<double> kinks = laws[i].kinks();
+    if (kinks.size() < 2 || weights_[row] == 0.0) continue;
+    kinks_.push_back({row, kinks[1], kinks[1] - kinks[0]});
   }
 }
 
@@ -258,6 +261,15 @@ TransientForce::Guards PlanarTransient::guards_of(Eigen::Index i, const ModalMot
                                                   const TransientMemory& memory,
                                                   const GuardScale& scale) const {
   return guards_at(i, instant_at(i, motion, wherever), memory, scale);
+}
+
+Eigen::VectorXd PlanarTransient::kink_distances(const ModalMotion& motion) const {
+  Eigen::VectorXd distances(static_cast<Eigen::Index>(kinks_.size()));
+  for (Eigen::Index i = 0; i < distances.size(); ++i) {
+    const Kink& kink = kinks_[static_cast<std::size_t>(i)];
+    distances[i] = (shapes_.v.row(kink.point).dot(motion.q) - kink.approach) / kink.width;
+  }
+  return distances;
 }
 
 void PlanarTransient::touch_down(Eigen::Index i, const ModalMotion& motion,

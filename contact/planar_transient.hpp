@@ -54,6 +54,8 @@ class PlanarTransient final : public TransientForce {
   [[nodiscard]] Guards guards_of(Eigen::Index point, const ModalMotion& motion,
                                  const TransientMemory& memory,
                                  const GuardScale& scale) const override;
+  /// Of cubic heights: the approach beyond which all are in contact, over their height.
+  [[nodiscard]] Eigen::VectorXd kink_distances(const ModalMotion& motion) const override;
   void switch_state(Eigen::Index point, const ModalMotion& motion,
                     TransientMemory& memory) const override;
   [[nodiscard]] double slip_power(const ModalMotion& motion,
@@ -72,9 +74,17 @@ class PlanarTransient final : public TransientForce {
   void touch_down(Eigen::Index point, const ModalMotion& motion, TransientMemory& memory) const;
   [[nodiscard]] Eigen::VectorXd modal_force(Eigen::MatrixX3d tractions) const;
 
+  /// A kink of the law of a point that is not an end of its contact.
+  struct Kink {
+    Eigen::Index point;
+    double approach;  ///< [m]
+    double width;     ///< from first touch to there [m]
+  };
+
   Eigen::VectorXd weights_;
   ModalShapes shapes_;
   std::vector<PlanarPoint> points_;
+  std::vector<Kink> kinks_;
 };
 
 }  // namespace microslip::contact
