@@ -170,8 +170,8 @@ TEST(Refit, PeakIsFollowedToAnotherPreload) {
   const auto there = follow_peak(other, *here, here->point, range(), work);
   ASSERT_TRUE(there);
   ContinuationOptions around = range();  // the peak, with room to spare
-  around.frequency_begin = 0.9 * there->frequency;
-  around.frequency_end = 1.1 * there->frequency;
+  around.frequency_begin = 0.9 * there->point.parameter;
+  around.frequency_end = 1.1 * there->point.parameter;
   const auto expected =
       marked(trace_response(scene_with(on_lines(63.0, {})), around), PointMark::peak);
   ASSERT_FALSE(expected.empty());
