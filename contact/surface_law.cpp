@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -159,6 +160,13 @@ SurfaceState SurfaceLaw::at(double approach, double rate) const {
   state.load_per_ratio_by_approach = state.second_load_per_ratio_by_approach =
       state.load_by_approach;
   return state;
+}
+
+double SurfaceLaw::vanishing_approach() const {
+  const bool gaussian = roughness_.has_value() && roughness_->law() == HeightLaw::gaussian;
+  constexpr double deviations = 9.0;
+  return gaussian ? roughness_->mean() - deviations * roughness_->deviation() - rest_
+                  : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::optional<LinearRange> SurfaceLaw::linear_range() const {

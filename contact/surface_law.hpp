@@ -107,6 +107,10 @@ class SurfaceLaw {
   /// Approaches at which (1) has a kink: where contact begins, and where cubic heights are all in
   /// contact [m]; ascending, none for Gaussian heights.
   [[nodiscard]] std::vector<double> kinks() const;
+  /// Gaussian heights: the approach nine deviations before the mean height, where what still touches carries
+  /// 1e-20 of k_v times a deviation, less than rounding: nearer to it a point is as good as separated, and
+  /// farther off its load leaves the range of numbers. NaN for other surfaces, which kinks() tells. [m]
+  [[nodiscard]] double vanishing_approach() const;
   /// Smooth surfaces of the same stiffness, bodies included, μ that of rest.
   [[nodiscard]] const PointParameters& point() const { return point_; }
   [[nodiscard]] const FrictionLaw& friction() const { return friction_; }
