@@ -12,23 +12,29 @@
 namespace microslip::contact {
 namespace {
 
-using Points = Eigen::Matrix<double, n_gauss, 1>;
+constexpr int n_nodes = 12;
+using Points = Eigen::Matrix<double, n_nodes, 1>;
 
-/// On [−1, 1], with the shares of the two highest Legendre polynomials: one alone would miss functions
-/// that are even or odd about the middle.
+/// On [−1, 1].
 struct Panel {
-  Points node, weight, sixth, seventh;
+  Points node, weight;
+  /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less. One degree
+  /// alone would miss functions that are even or odd about the middle.
+  Eigen::Matrix<double, 4, n_nodes> top;
 };
 
 Panel make_panel() {
-  const LineRule rule = gauss_legendre(n_gauss);
+  const LineRule rule = gauss_legendre(n_nodes);
   Panel panel;
-  for (int i = 0; i < n_gauss; ++i) {
+  for (int i = 0; i < n_nodes; ++i) {
     const double x = 2.0 * rule.nodes[i] - 1.0;
     panel.node[i] = x;
     panel.weight[i] = 2.0 * rule.weights[i];
-    panel.sixth[i] = 6.5 * panel.weight[i] * std::legendre(6, x);
-    panel.seventh[i] = 7.5 * panel.weight[i] * std::legendre(7, x);
+    for (int k = 0; k < 4; ++k) {
+      const double counted = std::pow(0.1, 3 - k);
+      panel.top(k, i) = counted * (k + n_nodes - 3.5) * panel.weight[i] *
+                        std::legendre(static_cast<unsigned>(k + n_nodes - 4), x);
+    }
   }
   return panel;
 }
@@ -38,52 +44,84 @@ const Panel& panel() {
   return rule;
 }
 
-double top_term(const Points& values) {
-  return std::max(std::abs(panel().sixth.dot(values)), std::abs(panel().seventh.dot(values)));
-}
+double top_term(const Points& values) { return (panel().top * values).cwiseAbs().maxCoeff(); }
 
-/// Nodes of one panel if forces are resolved there, else those of its halves.
+/// What a panel knows at its nodes.
+struct PanelNodes {
+  std::array<BandInstant, n_nodes> instant;
+  Points friction;
+  Points load;
+  Eigen::Matrix<double, Eigen::Dynamic, n_nodes> basis;
+};
+
+/// Calls visit(instant, friction, basis, weight) at the nodes of a piece.
 template <typename Visit>
-void visit_panel(SliderBand& band, const BandPiece& piece, double begin, double end, int depth,
-                 const Visit& visit) {
-  std::array<BandInstant, n_gauss> instant;
-  Points friction, load;
-  const double half = 0.5 * (end - begin);
-  for (int i = 0; i < n_gauss; ++i) {
-    BandInstant& now = instant[static_cast<std::size_t>(i)];
-    now = band.at(begin + half * (1.0 + panel().node[i]));
-    friction[i] = band_friction(band, piece, now);
-    load[i] = now.surface.load;
-  }
-  // The rule is exact to degree 15: what is left out is about the square of the term of degree 7.
-  constexpr double resolved = 1e-8;
-  const bool smooth = band.law().is_smooth() && !band.law().is_rate_dependent();
-  const bool done = smooth || depth == 0 ||
-                    (top_term(friction) <= resolved * band.friction_size() &&
-                     top_term(load) <= resolved * band.load_size());
-  if (!done) {
-    visit_panel(band, piece, begin, begin + half, depth - 1, visit);
-    visit_panel(band, piece, begin + half, end, depth - 1, visit);
-    return;
-  }
-  for (int i = 0; i < n_gauss; ++i) {
-    visit(instant[static_cast<std::size_t>(i)], friction[i], half * panel().weight[i]);
-  }
-}
+class PieceVisitor {
+ public:
+  PieceVisitor(SliderBand& band, const BandPiece& piece, const Visit& visit)
+      : band_(band), piece_(piece), visit_(visit), nodes_(storage()) {}
 
-/// Calls visit(instant, friction, weight) at the nodes of a piece, for products with harmonics up to
-/// `highest`.
+  /// For products with harmonics up to `highest`.
+  void visit(int highest) {
+    // A wave of k oscillations per 2π over a panel of length h errs by 1e-31 (kh/2)²⁴.
+    const double longest = 4.4 / (band_.n_harmonics() + highest);
+    const double length = piece_.end - piece_.begin;
+    const int n = static_cast<int>(std::ceil(length / longest));
+    constexpr int deepest = 30;  // of a layer that depends on the rate: to 1e-9 of a panel
+    for (int i = 0; i < n; ++i) {
+      cover(piece_.begin + length * i / n, piece_.begin + length * (i + 1) / n, deepest);
+    }
+  }
+
+ private:
+  static PanelNodes& storage() {
+    thread_local PanelNodes nodes;
+    return nodes;
+  }
+
+  /// Nodes of one panel if forces are resolved there, else those of its halves.
+  void cover(double begin, double end, int depth) {
+    const double half = 0.5 * (end - begin);
+    evaluate(begin, half);
+    if (depth > 0 && !resolved()) {
+      cover(begin, begin + half, depth - 1);
+      cover(begin + half, end, depth - 1);
+      return;
+    }
+    for (int i = 0; i < n_nodes; ++i) {
+      visit_(nodes_.instant[static_cast<std::size_t>(i)], nodes_.friction[i], nodes_.basis.col(i),
+             half * panel().weight[i]);
+    }
+  }
+
+  void evaluate(double begin, double half) {
+    nodes_.basis.resize(band_.basis_size(), n_nodes);
+    for (int i = 0; i < n_nodes; ++i) {
+      BandInstant& now = nodes_.instant[static_cast<std::size_t>(i)];
+      now = band_.at(begin + half * (1.0 + panel().node[i]));
+      nodes_.basis.col(i) = band_.basis();
+      nodes_.friction[i] = band_friction(band_, piece_, now);
+      nodes_.load[i] = now.surface.load;
+    }
+  }
+
+  /// The rule is exact to degree 23: what is left out is about the square of the term of degree 11.
+  [[nodiscard]] bool resolved() const {
+    if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return true;
+    constexpr double small = 1e-10;
+    return top_term(nodes_.friction) <= small * band_.friction_size() &&
+           top_term(nodes_.load) <= small * band_.load_size();
+  }
+
+  SliderBand& band_;
+  const BandPiece& piece_;
+  const Visit& visit_;
+  PanelNodes& nodes_;
+};
+
 template <typename Visit>
 void visit_piece(SliderBand& band, const BandPiece& piece, int highest, const Visit& visit) {
-  // A wave of k oscillations per 2π over a panel of length h errs by 2e-18 (kh/2)¹⁶.
-  const double longest = 3.0 / (band.n_harmonics() + highest);
-  const double length = piece.end - piece.begin;
-  const int n = static_cast<int>(std::ceil(length / longest));
-  constexpr int deepest = 30;  // of a layer that depends on the rate: to 1e-9 of a panel
-  for (int i = 0; i < n; ++i) {
-    visit_panel(band, piece, piece.begin + length * i / n, piece.begin + length * (i + 1) / n,
-                deepest, visit);
-  }
+  PieceVisitor<Visit>(band, piece, visit).visit(highest);
 }
 
 double sign_of(const BandPiece& piece) {
@@ -108,7 +146,7 @@ BandWork band_work(SliderBand& band, const BandCycle& cycle) {
     if (piece.state == ContactState::separated || piece.state == ContactState::stick) continue;
     const double sign = sign_of(piece);
     visit_piece(band, piece, band.n_harmonics(),
-                [&](const BandInstant& now, double friction, double weight) {
+                [&](const BandInstant& now, double friction, const auto&, double weight) {
                   const double way = weight * std::abs(now.velocity - sign * now.reach_rate);
                   work.slip_distance += way;
                   work.normal_slip += way * now.surface.load;
@@ -120,14 +158,13 @@ BandWork band_work(SliderBand& band, const BandCycle& cycle) {
 
 Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics) {
   Harmonics force(n_harmonics, n_point_signals);
-  Eigen::VectorXd basis;
+  const Eigen::Index n = force.rows().rows();
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state == ContactState::separated) continue;
     visit_piece(band, piece, n_harmonics,
-                [&](const BandInstant& now, double friction, double weight) {
-                  trigonometric_basis(n_harmonics, now.phase, basis);
-                  force.rows().col(0) += (weight * friction) * basis;
-                  force.rows().col(1) += (weight * now.surface.load) * basis;
+                [&](const BandInstant& now, double friction, const auto& basis, double weight) {
+                  force.rows().col(0) += (weight * friction) * basis.head(n);
+                  force.rows().col(1) += (weight * now.surface.load) * basis.head(n);
                 });
   }
   force.rows() /= std::numbers::pi;
@@ -137,103 +174,118 @@ Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics) 
 
 void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& result) {
   const Eigen::Index n = 2 * band.n_harmonics() + 1;
-  for (Eigen::VectorXd* sum : {&friction_, &load_, &by_frequency_, &virgin_}) sum->setZero(n);
-  for (Eigen::MatrixXd* sum : {&by_u_, &by_v_, &load_by_v_}) sum->setZero(n, n);
+  sums_.setZero(2 * n - 1, n_sums);
+  virgin_.setZero(n);
+  frequency_memory_.setZero(n);
+  memory_by_u_.setZero(n, n);
+  memory_by_v_.setZero(n, n);
   for (const BandPiece& piece : cycle.pieces) {
     if (piece.state != ContactState::separated) add_piece(band, piece);
   }
-  by_u_.col(0) = virgin_;
   result.regime = cycle.regime;
   result.defect = 0.0;
   write(result);
 }
 
 void BandTraction::add_piece(SliderBand& band, const BandPiece& piece) {
-  held_.setZero(friction_.size());
-  const int H = band.n_harmonics();
-  visit_piece(band, piece, H, [&](const BandInstant& now, double friction, double weight) {
-    trigonometric_basis(H, now.phase, basis_);
-    load_ += (weight * now.surface.load) * basis_;
-    load_by_v_.noalias() += (weight * now.surface.load_by_approach * basis_) * basis_.transpose();
-    if (!band.has_spring()) return;
-    friction_ += (weight * friction) * basis_;
-    if (piece.state == ContactState::stick) {
-      add_stick(band, now, piece.slider, weight);
-    } else {
-      add_slip(band, now, sign_of(piece), weight);
-    }
-  });
-  if (piece.state == ContactState::stick && band.has_spring()) add_memory(band, piece);
-}
-
-void BandTraction::add_stick(const SliderBand& band, const BandInstant& now, double slider,
-                             double weight) {
-  const SurfaceState& y = now.surface;
-  const double stiffness = weight * band.law().first_stiffness() * y.stiffness_ratio;
-  held_ += stiffness * basis_;
-  by_u_.noalias() += (stiffness * basis_) * basis_.transpose();
-  if (y.stiffness_ratio_by_approach == 0.0) return;
-  const double by_v = weight * band.law().first_stiffness() * y.stiffness_ratio_by_approach *
-                      (now.position - slider);
-  by_v_.noalias() += (by_v * basis_) * basis_.transpose();
-}
-
-void BandTraction::add_slip(const SliderBand& band, const BandInstant& now, double sign,
-                            double weight) {
-  const SurfaceState& y = now.surface;
-  const double by_v = sign * weight * y.friction_coefficient * y.load_by_approach;
-  by_v_.noalias() += (by_v * basis_) * basis_.transpose();
-  if (!band.law().is_rate_dependent()) return;
-  const double by_rate = sign * weight * y.load * y.friction_coefficient_by_rate;
-  basis_rate(basis_, basis_rate_);
-  const double by_velocity = by_rate * band.frequency() * std::copysign(1.0, now.velocity);
-  by_u_.noalias() += (by_velocity * basis_) * basis_rate_.transpose();
-  by_frequency_ += (by_rate * std::abs(now.velocity)) * basis_;
+  piece_.setZero(sums_.rows(), n_sums);
+  const double k_u = band.law().first_stiffness();
+  const bool rate_dependent = band.law().is_rate_dependent();
+  const bool sticks = piece.state == ContactState::stick;
+  const double sign = sign_of(piece);
+  Eigen::Matrix<double, 1, n_sums> row = Eigen::Matrix<double, 1, n_sums>::Zero();
+  visit_piece(band, piece, band.n_harmonics(),
+              [&](const BandInstant& now, double force, const auto& basis, double weight) {
+                const SurfaceState& y = now.surface;
+                row[friction] = force;
+                row[load] = y.load;
+                row[load_by_v] = y.load_by_approach;
+                if (sticks && band.has_spring()) {
+                  row[by_u] = k_u * y.stiffness_ratio;
+                  row[by_v] = k_u * y.stiffness_ratio_by_approach * (now.position - piece.slider);
+                } else if (!sticks) {
+                  row[by_v] = sign * y.friction_coefficient * y.load_by_approach;
+                }
+                if (!sticks && rate_dependent) {
+                  const double by_rate = sign * y.load * y.friction_coefficient_by_rate;
+                  row[by_velocity] = by_rate * band.frequency() * std::copysign(1.0, now.velocity);
+                  row[by_frequency] = by_rate * std::abs(now.velocity);
+                }
+                for (Eigen::Index j = 0; j < n_sums; ++j) {
+                  if (row[j] != 0.0) piece_.col(j) += (weight * row[j]) * basis;
+                }
+              });
+  sums_ += piece_;
+  if (sticks && band.has_spring()) add_memory(band, piece);
 }
 
 void BandTraction::add_memory(SliderBand& band, const BandPiece& piece) {
+  const auto held = piece_.col(by_u).head(virgin_.size());
   if (piece.origin == SliderOrigin::virgin) {
-    virgin_ += held_;
+    virgin_ += held;
     return;
   }
   const BandInstant now = piece.stood ? band.at_turn(piece.memory) : band.at(piece.memory);
-  trigonometric_basis(band.n_harmonics(), piece.memory, basis_);
-  basis_rate(basis_, basis_rate_);
-  slider_by_u_ = basis_;
-  double by_v = 0.0;
+  const Eigen::VectorXd basis = band.basis().head(virgin_.size());
+  basis_rate(basis, basis_rate_);
+  double from_velocity = 0.0;
+  double from_v = 0.0;
   if (piece.origin == SliderOrigin::touch_down) {
-    if (now.approach_rate > 0.0) by_v = -now.velocity / now.approach_rate;
+    if (now.approach_rate > 0.0) from_v = -now.velocity / now.approach_rate;
   } else {
     const double sign = piece.origin == SliderOrigin::positive_slip ? 1.0 : -1.0;
-    by_v = -sign * now.reach_by_approach;
+    from_v = -sign * now.reach_by_approach;
     if (!piece.stood) {
-      const double heading = std::copysign(1.0, now.velocity);
-      slider_by_u_ -= (sign * now.reach_by_rate * band.frequency() * heading) * basis_rate_;
-      by_frequency_ += (sign * now.reach_by_rate * std::abs(now.velocity)) * held_;
+      const double by_rate = sign * now.reach_by_rate;
+      from_velocity = -by_rate * band.frequency() * std::copysign(1.0, now.velocity);
+      frequency_memory_ += (by_rate * std::abs(now.velocity)) * held;
     } else if (now.acceleration != 0.0) {
-      const double drift = now.reach_by_approach * now.approach_rate / now.acceleration;
-      slider_by_u_ += (sign * drift) * basis_rate_;
+      from_velocity = sign * now.reach_by_approach * now.approach_rate / now.acceleration;
     }
   }
-  by_u_.noalias() -= held_ * slider_by_u_.transpose();
-  by_v_.noalias() -= held_ * (by_v * basis_).transpose();
+  memory_by_u_.noalias() -= held * (basis + from_velocity * basis_rate_).transpose();
+  memory_by_v_.noalias() -= held * (from_v * basis).transpose();
 }
 
-void BandTraction::write(PointTraction& result) const {
-  const Eigen::Index n = friction_.size();
+void BandTraction::write(PointTraction& result) {
+  const Eigen::Index n = virgin_.size();
   const int H = static_cast<int>(n / 2);
   result.force = Harmonics(H, n_point_signals);
   result.jacobian.setZero(n_point_signals * n, n_point_signals * n);
   result.frequency_derivative.setZero(n_point_signals * n);
+  const auto norm = [](Eigen::Index i) { return (i == 0 ? 0.5 : 1.0) / std::numbers::pi; };
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double scale = (i == 0 ? 0.5 : 1.0) / std::numbers::pi;
-    result.force.rows()(i, 0) = scale * friction_[i];
-    result.force.rows()(i, 1) = scale * load_[i];
-    result.frequency_derivative[3 * i] = scale * by_frequency_[i];
+    result.force.rows()(i, 0) = norm(i) * sums_(i, friction);
+    result.force.rows()(i, 1) = norm(i) * sums_(i, load);
+    result.frequency_derivative[3 * i] = norm(i) * (sums_(i, by_frequency) + frequency_memory_[i]);
+    for (Eigen::Index j = 1; j < n; ++j)
+      result.jacobian(3 * i, 3 * j) = norm(i) * memory_by_u_(i, j);
+    result.jacobian(3 * i, 0) = norm(i) * virgin_[i];
     for (Eigen::Index j = 0; j < n; ++j) {
-      result.jacobian(3 * i, 3 * j) = scale * by_u_(i, j);
-      result.jacobian(3 * i, 3 * j + 1) = scale * by_v_(i, j);
-      result.jacobian(3 * i + 1, 3 * j + 1) = scale * load_by_v_(i, j);
+      result.jacobian(3 * i, 3 * j + 1) = norm(i) * memory_by_v_(i, j);
+    }
+  }
+  moments_.reset(2 * H);
+  const auto add = [&](Sum sum, Eigen::Index row, Eigen::Index column, Eigen::Index first) {
+    moments_.set_sums(sums_.col(sum).data());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = first; j < n; ++j) {
+        result.jacobian(3 * i + row, 3 * j + column) +=
+            norm(i) * moments_.product(static_cast<int>(i), static_cast<int>(j));
+      }
+    }
+  };
+  add(load_by_v, 1, 1, 0);
+  add(by_u, 0, 0, 1);
+  add(by_v, 0, 1, 0);
+  if (sums_.col(by_velocity).isZero(0.0)) return;
+  moments_.set_sums(sums_.col(by_velocity).data());
+  for (int i = 0; i < static_cast<int>(n); ++i) {
+    for (int j = 1; j < static_cast<int>(n); ++j) {
+      const int h = (j + 1) / 2;  // the derivative of the basis is the basis, turned and scaled
+      const double product =
+          j % 2 == 1 ? h * moments_.product(i, j + 1) : -h * moments_.product(i, j - 1);
+      result.jacobian(3 * i, 3 * j) += norm(i) * product;
     }
   }
 }

@@ -13,7 +13,7 @@
 ///   touch-down     ∂s = ∂u + u' ∂θ_e,                    ∂θ_e = −∂v/v'
 ///   virgin         ∂s = −∂u₀ (u is counted without its mean)
 ///
-/// Gauss–Legendre panels of eight points, halved until the highest terms are resolved.
+/// Gauss–Legendre panels of twelve points, halved until the highest terms are resolved.
 ///
 /// Source: theory sections 5, 6, 7, 10, 11.
 #pragma once
@@ -22,6 +22,7 @@
 
 #include "contact/band_walk.hpp"
 #include "contact/point_law.hpp"
+#include "contact/trigonometric_moments.hpp"
 
 namespace microslip::contact {
 
@@ -47,18 +48,30 @@ class BandTraction {
   void set(SliderBand& band, const BandCycle& cycle, PointTraction& result);
 
  private:
-  void add_piece(SliderBand& band, const BandPiece& piece);
-  void add_stick(const SliderBand& band, const BandInstant& now, double slider, double weight);
-  void add_slip(const SliderBand& band, const BandInstant& now, double sign, double weight);
-  void add_memory(SliderBand& band, const BandPiece& piece);
-  void write(PointTraction& result) const;
+  /// Weighted sums over the nodes; one column each.
+  enum Sum : Eigen::Index {
+    friction,
+    load,
+    load_by_v,
+    by_u,          // ∂f/∂u
+    by_v,          // ∂f/∂v
+    by_velocity,   // ∂f/∂u'
+    by_frequency,  // ∂f/∂ω
+    n_sums
+  };
+  using Sums = Eigen::Matrix<double, Eigen::Dynamic, n_sums>;
 
-  Eigen::VectorXd basis_, basis_rate_;
-  Eigen::VectorXd friction_, load_, by_frequency_;
+  void add_piece(SliderBand& band, const BandPiece& piece);
+  void add_memory(SliderBand& band, const BandPiece& piece);
+  void write(PointTraction& result);
+
+  Sums piece_;  // with the functions of the basis up to harmonic 2H
+  Sums sums_;
+  Eigen::VectorXd basis_rate_;
   Eigen::VectorXd virgin_;  // ∂f/∂u₀
-  Eigen::VectorXd held_;    // ∫ k_u g b over one piece
-  Eigen::MatrixXd by_u_, by_v_, load_by_v_;
-  Eigen::VectorXd slider_by_u_, slider_by_v_;
+  Eigen::VectorXd frequency_memory_;
+  Eigen::MatrixXd memory_by_u_, memory_by_v_;  // ∂f by way of s
+  TrigonometricMoments moments_;
 };
 
 }  // namespace microslip::contact

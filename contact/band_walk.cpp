@@ -118,9 +118,9 @@ Slider pushed(double virgin, const BandNode& highest, const BandNode& lowest) {
 
 void walk_period(SliderBand& band, const std::vector<BandNode>& run, BandCycle& cycle) {
   const std::vector<BandNode> nodes = from_highest(run);
-  const BandNode& lowest = *std::min_element(
-      nodes.begin(), nodes.end(),
-      [](const BandNode& a, const BandNode& b) { return a.upper < b.upper; });
+  const BandNode& lowest =
+      *std::min_element(nodes.begin(), nodes.end(),
+                        [](const BandNode& a, const BandNode& b) { return a.upper < b.upper; });
   const bool stuck = nodes.front().lower <= lowest.upper || !band.has_spring();
   cycle.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
   Slider slider = stuck ? pushed(-band.position_mean(), nodes.front(), lowest)
@@ -150,8 +150,8 @@ void walk_band(SliderBand& band, BandCycle& cycle) {
     Slider slider = left_by(SliderOrigin::touch_down, nodes.front());
     for (std::size_t j = 0; j + 1 < nodes.size(); ++j) walk.cross(nodes[j], nodes[j + 1], slider);
     const bool last = i + 1 == runs.size();
-    const double next = last ? runs.front().nodes.front().phase + two_pi
-                             : runs[i + 1].nodes.front().phase;
+    const double next =
+        last ? runs.front().nodes.front().phase + two_pi : runs[i + 1].nodes.front().phase;
     cycle.pieces.push_back({ContactState::separated, nodes.back().phase, next});
   }
 }

@@ -27,7 +27,7 @@ struct BandPiece {
   ContactState state = ContactState::stick;
   double begin = 0.0;  ///< [rad], in [0, 4π)
   double end = 0.0;
-  double slider = 0.0;  ///< stick: s, with u counted without its mean [m]
+  double slider = 0.0;                       ///< stick: s, with u counted without its mean [m]
   SliderOrigin origin = SliderOrigin::none;  ///< stick
   double memory = 0.0;                       ///< stick: phase at which the slider was left [rad]
   bool stood = false;                        ///< and whether this was the kink of |u'|

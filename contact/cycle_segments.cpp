@@ -16,8 +16,8 @@ std::vector<CycleSegment> joined_segments(const std::vector<CycleSegment>& phase
                                           double shortest) {
   std::vector<CycleSegment> segments;
   for (const CycleSegment& next : phases) {
-    const bool joins = segments.size() > 0 &&
-                       (segments.back().state == next.state || next.length < shortest);
+    const bool joins =
+        segments.size() > 0 && (segments.back().state == next.state || next.length < shortest);
     if (joins) {
       segments.back().length += next.length;
     } else if (next.length >= shortest) {

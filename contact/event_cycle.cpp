@@ -45,8 +45,7 @@ std::vector<CycleSegment> event_segments(const PointParameters& point, const Eve
   const bool has_spring = point.tangential_stiffness > 0.0;
   std::vector<CycleSegment> segments;
   for (const EventPhase& phase : phases.phases) {
-    CycleSegment segment{phase.state, phase.begin, phase.length,
-                         phase.offset / guards.scale};
+    CycleSegment segment{phase.state, phase.begin, phase.length, phase.offset / guards.scale};
     if (!has_spring && segment.state != ContactState::separated) {
       segment.state = ContactState::stick;
     }

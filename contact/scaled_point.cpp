@@ -16,8 +16,8 @@ int exponent_of(const SurfaceLaw& surface, const Harmonics& x) {
   const double load = std::max(std::abs(point.preload),
                                point.normal_stiffness * x.rows().col(1).cwiseAbs().maxCoeff());
   const double force =
-      std::max({surface.first_stiffness() * amplitude(0),
-                surface.second_stiffness() * amplitude(2), point.friction_coefficient * load});
+      std::max({surface.first_stiffness() * amplitude(0), surface.second_stiffness() * amplitude(2),
+                point.friction_coefficient * load});
   constexpr int largest = 1000;  // both the factor and its inverse are normal numbers
   if (!(force > 0.0) || !std::isfinite(force)) return 0;
   return std::clamp(std::ilogb(force), -largest, largest);

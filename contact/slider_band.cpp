@@ -33,7 +33,9 @@ void add_between(const std::vector<double>& phases, double begin, double end, bo
 
 }  // namespace
 
-void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency) {
+void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency,
+                     int n_basis) {
+  n_basis_ = n_basis;
   law_ = &law;
   frequency_ = frequency;
   position_mean_ = motion.mean()[0];
@@ -63,20 +65,16 @@ void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double freq
   }
 }
 
-const Eigen::VectorXd& SliderBand::basis_rate() {
-  microslip::contact::basis_rate(basis_, basis_rate_);
-  return basis_rate_;
-}
-
 BandInstant SliderBand::at_speed(double phase, bool moves) {
-  trigonometric_basis(n_harmonics(), phase, basis_);
+  trigonometric_basis(n_basis_, phase, basis_);
+  const auto basis = basis_.head(u_.size());
   BandInstant now;
   now.phase = phase;
-  now.position = u_.dot(basis_);
-  now.velocity = u_rate_.dot(basis_);
-  now.approach_rate = v_rate_.dot(basis_);
+  now.position = u_.dot(basis);
+  now.velocity = u_rate_.dot(basis);
+  now.approach_rate = v_rate_.dot(basis);
   const double speed = moves ? std::abs(now.velocity) : 0.0;
-  now.surface = law_->at(v_.dot(basis_), frequency_ * speed);
+  now.surface = law_->at(v_.dot(basis), frequency_ * speed);
   if (!has_spring()) return now;
   const SurfaceState& y = now.surface;
   const double mu = y.friction_coefficient / law_->first_stiffness();
@@ -84,10 +82,9 @@ BandInstant SliderBand::at_speed(double phase, bool moves) {
   now.reach_by_approach = mu * y.load_per_ratio_by_approach;
   now.reach_rate = now.reach_by_approach * now.approach_rate;
   if (!law_->is_rate_dependent()) return now;
-  now.reach_by_rate =
-      y.friction_coefficient_by_rate * y.load_per_ratio / law_->first_stiffness();
+  now.reach_by_rate = y.friction_coefficient_by_rate * y.load_per_ratio / law_->first_stiffness();
   const double heading = moves ? std::copysign(1.0, now.velocity) : 0.0;
-  now.acceleration = u_second_.dot(basis_);
+  now.acceleration = u_second_.dot(basis);
   now.reach_rate += now.reach_by_rate * frequency_ * heading * now.acceleration;
   return now;
 }
@@ -169,15 +166,14 @@ void SliderBand::add_run(double begin, double end, bool touches_down) {
   runs_.push_back(std::move(run));
 }
 
-void SliderBand::add_turns(const BandNode& from, const BandNode& to,
-                           std::vector<BandNode>& nodes) {
+void SliderBand::add_turns(const BandNode& from, const BandNode& to, std::vector<BandNode>& nodes) {
   const auto rates = [this](double phase) -> std::array<double, 2> {
     const BandInstant now = at(phase);
     return {now.velocity - now.reach_rate, now.velocity + now.reach_rate};
   };
   signs_.clear();
-  // A wave of order H is resolved to 1e-13 on this length by the polynomials of the search.
-  const double cell = 1.6 / n_harmonics();
+  // A wave of order H is resolved to 1e-11 on this length by the polynomials of the search.
+  const double cell = 2.1 / n_harmonics();
   add_smooth_signs(rates, from.phase, to.phase, cell, size_, signs_);
   std::sort(signs_.begin(), signs_.end(),
             [](const SmoothSign& a, const SmoothSign& b) { return a.phase < b.phase; });

@@ -7,7 +7,7 @@
 /// s moves only where a rising w_P or a falling w_N takes it along. (1) is smooth between edges: touch-down
 /// and lift-off, kinks of a rough law, and with a coefficient that depends on the rate where u' = 0; edges
 /// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Between edges w_P' and
-/// w_N' are polynomials in Chebyshev form to 1e-12, whose sign changes are isolated, not looked for
+/// w_N' are polynomials in Chebyshev form to 1e-10, whose sign changes are isolated, not looked for
 /// (smooth_signs.hpp). What remains are stretches on which both ends of the band are monotone.
 #pragma once
 
@@ -42,10 +42,10 @@ struct BandInstant {
 /// Where a stretch begins or ends.
 struct BandNode {
   double phase = 0.0;
-  double lower = 0.0;   ///< w_P [m]
-  double upper = 0.0;   ///< w_N [m]
-  bool edge = false;    ///< (1) has a kink
-  bool turns = false;   ///< the kink of |u'|: u' = 0
+  double lower = 0.0;  ///< w_P [m]
+  double upper = 0.0;  ///< w_N [m]
+  bool edge = false;   ///< (1) has a kink
+  bool turns = false;  ///< the kink of |u'|: u' = 0
 };
 
 /// Contact from one node to the last.
@@ -57,16 +57,18 @@ struct ContactRun {
 /// Motion and law of one point; keeps its storage for the next motion.
 class SliderBand {
  public:
-  /// @param motion  u and v in columns 0 and 1; column 2 is not seen.   @param law  outlives the use.
-  void set(const SurfaceLaw& law, const Harmonics& motion, double frequency);
+  /// @param law      outlives the use.
+  /// @param motion   u and v in columns 0 and 1; column 2 is not seen.
+  /// @param n_basis  harmonics of basis(), at least those of the motion.
+  void set(const SurfaceLaw& law, const Harmonics& motion, double frequency, int n_basis);
 
   /// @param phase  any [rad].
   [[nodiscard]] BandInstant at(double phase) { return at_speed(phase, true); }
   /// The same where |u'| has its kink: u' = 0 to the last bit for the law.
   [[nodiscard]] BandInstant at_turn(double phase) { return at_speed(phase, false); }
-  /// 1, sin θ, cos θ, … of the last instant, and its derivative, of as many harmonics as the motion.
+  /// 1, sin θ, cos θ, … of the last instant.
   [[nodiscard]] const Eigen::VectorXd& basis() const { return basis_; }
-  [[nodiscard]] const Eigen::VectorXd& basis_rate();
+  [[nodiscard]] Eigen::Index basis_size() const { return 2 * n_basis_ + 1; }
 
   /// Runs of contact in order of time, found again with every call.
   [[nodiscard]] const std::vector<ContactRun>& find_runs();
@@ -95,7 +97,8 @@ class SliderBand {
   double friction_size_ = 0.0;
   double load_size_ = 0.0;
   Eigen::VectorXd u_, u_rate_, u_second_, v_, v_rate_;
-  Eigen::VectorXd basis_, basis_rate_;
+  int n_basis_ = 0;
+  Eigen::VectorXd basis_;
   TrigonometricPolynomial polynomial_;
   std::vector<SignChange> changes_;
   std::vector<SignChange> contact_;

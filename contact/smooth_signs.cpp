@@ -18,9 +18,9 @@ using Square = Eigen::Matrix<double, n, n>;
 
 /// What does not depend on the functions.
 struct Tables {
-  Series node;         // zeros of T_n
-  Square coefficients; // values → c
-  Square left;         // c → those on [−1, 0], scaled to [−1, 1]
+  Series node;          // zeros of T_n
+  Square coefficients;  // values → c
+  Square left;          // c → those on [−1, 0], scaled to [−1, 1]
   Square right;
 };
 
@@ -81,8 +81,10 @@ class Search {
       values(i, 0) = f[0];
       values(i, 1) = f[1];
     }
-    const Eigen::Matrix<double, n, 2> c = tables().coefficients * values;
-    constexpr double tolerance = 1e-12;
+    const Eigen::Matrix<double, n, 2> c = tables().coefficients.lazyProduct(values);
+    // Integrals of f between its sign changes, which is what a slider moves by, err by its power
+    // 3/2.
+    constexpr double tolerance = 1e-10;
     constexpr double noise = 1e-14;  // of the values themselves, large in thin layers
     const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
     const double allowed = std::max(tolerance * size_, noise * values.cwiseAbs().maxCoeff());
@@ -110,8 +112,8 @@ class Search {
       return;
     }
     const double middle = 0.5 * (begin + end);
-    isolate(tables().left * c, begin, middle, function);
-    isolate(tables().right * c, middle, end, function);
+    isolate(tables().left.lazyProduct(c), begin, middle, function);
+    isolate(tables().right.lazyProduct(c), middle, end, function);
   }
 
   /// One change at most.
@@ -140,9 +142,10 @@ class Search {
 
 }  // namespace
 
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell, double size,
-                      std::vector<SmoothSign>& found) {
-  constexpr double narrowest = 1e-9;  // of a layer that is not resolved: all it holds is smaller still
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found) {
+  constexpr double narrowest =
+      1e-9;  // of a layer that is not resolved: all it holds is smaller still
   const double length = end - begin;
   if (!(length > narrowest)) return;
   Search search(functions, size, found);

@@ -26,9 +26,9 @@ using SmoothPair = std::function<std::array<double, 2>(double phase)>;
 
 /// @param functions  smooth inside (begin, end).
 /// @param cell       longest cell, as long as the functions are expected to be resolved on.
-/// @param size       of the functions: tolerance is 1e-12, rounding 1e-15 of it.
+/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it.
 /// @param found      sign changes are added, function by function and cell by cell; not sorted.
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell, double size,
-                      std::vector<SmoothSign>& found);
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found);
 
 }  // namespace microslip::contact

@@ -81,7 +81,7 @@ void SurfaceEventLaw::traction(const Harmonics& motion, double frequency,
                                PointTraction& result) const {
   const ScaledPoint point(law_, along_p(motion), frequency);
   Workshop& shop = workshop();
-  shop.band.set(point.law, point.motion, point.frequency);
+  shop.band.set(point.law, point.motion, point.frequency, 2 * motion.n_harmonics());
   walk_band(shop.band, shop.cycle);
   shop.traction.set(shop.band, shop.cycle, result);
   result.force.rows() *= point.unit;
@@ -93,7 +93,8 @@ PointHistory SurfaceEventLaw::history(const Harmonics& motion, double frequency,
                                       const Eigen::VectorXd& phases, int n_harmonics) const {
   const ScaledPoint point(law_, along_p(motion), frequency);
   Workshop& shop = workshop();
-  shop.band.set(point.law, point.motion, point.frequency);
+  const int n_basis = std::max(n_harmonics, motion.n_harmonics());
+  shop.band.set(point.law, point.motion, point.frequency, n_basis);
   walk_band(shop.band, shop.cycle);
   const BandWork work = band_work(shop.band, shop.cycle);
   PointHistory result;
