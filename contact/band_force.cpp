@@ -21,6 +21,7 @@ struct Panel {
   /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less. One degree
   /// alone would miss functions that are even or odd about the middle.
   Eigen::Matrix<double, 4, n_nodes> top;
+  Points at_begin, at_end;  ///< values → the polynomial through them at −1 and 1
 };
 
 Panel make_panel() {
@@ -34,6 +35,12 @@ Panel make_panel() {
       const double counted = std::pow(0.1, 3 - k);
       panel.top(k, i) = counted * (k + n_nodes - 3.5) * panel.weight[i] *
                         std::legendre(static_cast<unsigned>(k + n_nodes - 4), x);
+    }
+    panel.at_begin[i] = panel.at_end[i] = 0.0;
+    for (int k = 0; k < n_nodes; ++k) {
+      const double share = (k + 0.5) * panel.weight[i] * std::legendre(static_cast<unsigned>(k), x);
+      panel.at_end[i] += share;
+      panel.at_begin[i] += k % 2 == 0 ? share : -share;
     }
   }
   return panel;
@@ -51,6 +58,7 @@ struct PanelNodes {
   std::array<BandInstant, n_nodes> instant;
   Points friction;
   Points load;
+  Points coefficient;  // μ
   Eigen::Matrix<double, Eigen::Dynamic, n_nodes> basis;
 };
 
@@ -69,7 +77,8 @@ class PieceVisitor {
     const int n = static_cast<int>(std::ceil(length / longest));
     constexpr int deepest = 30;  // of a layer that depends on the rate: to 1e-9 of a panel
     for (int i = 0; i < n; ++i) {
-      cover(piece_.begin + length * i / n, piece_.begin + length * (i + 1) / n, deepest);
+      cover(piece_.begin + length * i / n, piece_.begin + length * (i + 1) / n, deepest,
+            {i == 0 && piece_.begins_at_turn, i + 1 == n && piece_.ends_at_turn});
     }
   }
 
@@ -79,13 +88,19 @@ class PieceVisitor {
     return nodes;
   }
 
+  /// Whether u' = 0 at the ends of a panel.
+  struct Turns {
+    bool begin;
+    bool end;
+  };
+
   /// Nodes of one panel if forces are resolved there, else those of its halves.
-  void cover(double begin, double end, int depth) {
+  void cover(double begin, double end, int depth, Turns turns) {
     const double half = 0.5 * (end - begin);
     evaluate(begin, half);
-    if (depth > 0 && !resolved()) {
-      cover(begin, begin + half, depth - 1);
-      cover(begin + half, end, depth - 1);
+    if (depth > 0 && !(resolved() && sees_layers(turns))) {
+      cover(begin, begin + half, depth - 1, {turns.begin, false});
+      cover(begin + half, end, depth - 1, {false, turns.end});
       return;
     }
     for (int i = 0; i < n_nodes; ++i) {
@@ -102,7 +117,21 @@ class PieceVisitor {
       nodes_.basis.col(i) = band_.basis();
       nodes_.friction[i] = band_friction(band_, piece_, now);
       nodes_.load[i] = now.surface.load;
+      nodes_.coefficient[i] = now.surface.friction_coefficient;
     }
+  }
+
+  /// Whether the coefficient between the nodes and u' = 0 is the one that the nodes foretell: else it has a
+  /// layer there that is too thin for them.
+  [[nodiscard]] bool sees_layers(Turns turns) const {
+    if (piece_.state == ContactState::stick) return true;
+    const double at_rest = band_.law().friction().at_rest();
+    constexpr double foretold = 1e-8;  // a layer of that height adds less
+    const double allowed = foretold * std::max(at_rest, nodes_.coefficient.maxCoeff());
+    const auto misses = [&](const Points& row) {
+      return std::abs(row.dot(nodes_.coefficient) - at_rest) > allowed;
+    };
+    return !(turns.begin && misses(panel().at_begin)) && !(turns.end && misses(panel().at_end));
   }
 
   /// The rule is exact to degree 23: what is left out is about the square of the term of degree 11.

@@ -47,6 +47,14 @@ class Walk {
   Walk(SliderBand& band, BandCycle& cycle) : band_(band), cycle_(cycle) {}
 
   void cross(const BandNode& from, const BandNode& to, Slider& slider) {
+    const std::size_t first = cycle_.pieces.size();
+    move(from, to, slider);
+    if (from.turns && first < cycle_.pieces.size()) cycle_.pieces[first].begins_at_turn = true;
+    if (to.turns) cycle_.pieces.back().ends_at_turn = true;
+  }
+
+ private:
+  void move(const BandNode& from, const BandNode& to, Slider& slider) {
     if (!band_.has_spring()) {
       stick(from.phase, to.phase, from.edge, slider);
     } else if (slider.position < to.lower) {
@@ -60,7 +68,6 @@ class Walk {
     }
   }
 
- private:
   void slip(double sign, bool sticks_first, const BandNode& from, const BandNode& to,
             const Slider& slider) {
     double begin = from.phase;
@@ -70,12 +77,17 @@ class Walk {
     }
     const ContactState state =
         sign > 0.0 ? ContactState::positive_slip : ContactState::negative_slip;
-    add({state, begin, to.phase, 0.0, SliderOrigin::none, 0.0, false}, from.edge && !sticks_first);
+    add({.state = state, .begin = begin, .end = to.phase}, from.edge && !sticks_first);
   }
 
   void stick(double begin, double end, bool at_edge, const Slider& slider) {
-    add({ContactState::stick, begin, end, slider.position, slider.origin, slider.memory,
-         slider.stood},
+    add({.state = ContactState::stick,
+         .begin = begin,
+         .end = end,
+         .slider = slider.position,
+         .origin = slider.origin,
+         .memory = slider.memory,
+         .stood = slider.stood},
         at_edge);
   }
 
@@ -136,7 +148,7 @@ void walk_band(SliderBand& band, BandCycle& cycle) {
   cycle.regime = CycleRegime::separated;
   const std::vector<ContactRun>& runs = band.find_runs();
   if (runs.empty()) {
-    cycle.pieces.push_back({ContactState::separated, 0.0, two_pi});
+    cycle.pieces.push_back({.state = ContactState::separated, .begin = 0.0, .end = two_pi});
     return;
   }
   if (!runs.front().touches_down) {
@@ -152,7 +164,8 @@ void walk_band(SliderBand& band, BandCycle& cycle) {
     const bool last = i + 1 == runs.size();
     const double next =
         last ? runs.front().nodes.front().phase + two_pi : runs[i + 1].nodes.front().phase;
-    cycle.pieces.push_back({ContactState::separated, nodes.back().phase, next});
+    cycle.pieces.push_back(
+        {.state = ContactState::separated, .begin = nodes.back().phase, .end = next});
   }
 }
 

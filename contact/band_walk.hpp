@@ -31,6 +31,8 @@ struct BandPiece {
   SliderOrigin origin = SliderOrigin::none;  ///< stick
   double memory = 0.0;                       ///< stick: phase at which the slider was left [rad]
   bool stood = false;                        ///< and whether this was the kink of |u'|
+  bool begins_at_turn = false;               ///< next to that kink
+  bool ends_at_turn = false;
 };
 
 struct BandCycle {

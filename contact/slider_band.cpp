@@ -171,10 +171,20 @@ void SliderBand::add_turns(const BandNode& from, const BandNode& to, std::vector
     const BandInstant now = at(phase);
     return {now.velocity - now.reach_rate, now.velocity + now.reach_rate};
   };
+  // Next to u' = 0 the speed is as much as u'' moves away from there.
+  const auto limit = [this](const BandNode& node, double side) {
+    const BandInstant now = at_turn(node.phase);
+    const double rate =
+        now.reach_rate + side * now.reach_by_rate * frequency_ * std::abs(now.acceleration);
+    return std::array<double, 2>{now.velocity - rate, now.velocity + rate};
+  };
+  SmoothEnds ends;
+  if (from.turns) ends.begin = limit(from, 1.0);
+  if (to.turns) ends.end = limit(to, -1.0);
   signs_.clear();
   // A wave of order H is resolved to 1e-11 on this length by the polynomials of the search.
   const double cell = 2.1 / n_harmonics();
-  add_smooth_signs(rates, from.phase, to.phase, cell, size_, signs_);
+  add_smooth_signs(rates, from.phase, to.phase, ends, cell, size_, signs_);
   std::sort(signs_.begin(), signs_.end(),
             [](const SmoothSign& a, const SmoothSign& b) { return a.phase < b.phase; });
   for (const SmoothSign& sign : signs_) {

@@ -73,7 +73,8 @@ class Search {
   Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
       : functions_(functions), size_(size), found_(found) {}
 
-  void cover(double begin, double end, double narrowest) {
+  /// @param ends  limits known at the ends of the cell.
+  void cover(double begin, double end, const SmoothEnds& ends) {
     const double half = 0.5 * (end - begin);
     Eigen::Matrix<double, n, 2> values;
     for (int i = 0; i < n; ++i) {
@@ -86,17 +87,32 @@ class Search {
     // 3/2.
     constexpr double tolerance = 1e-10;
     constexpr double noise = 1e-14;  // of the values themselves, large in thin layers
-    const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
     const double allowed = std::max(tolerance * size_, noise * values.cwiseAbs().maxCoeff());
-    if (tail > allowed && end - begin > narrowest) {
-      cover(begin, begin + half, narrowest);
-      cover(begin + half, end, narrowest);
+    const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
+    const bool meets =
+        misses(c, -1.0, ends.begin) <= n * allowed && misses(c, 1.0, ends.end) <= n * allowed;
+    constexpr double narrowest =
+        1e-9;  // of a layer that is not resolved: all it holds is smaller still
+    if ((tail > allowed || !meets) && end - begin > narrowest) {
+      cover(begin, begin + half, {ends.begin, std::nullopt});
+      cover(begin + half, end, {std::nullopt, ends.end});
       return;
     }
     for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, i);
+    for (std::size_t i = 0; i < 2 && ends.end.has_value(); ++i) {
+      pass(begin, (*ends.end)[i] > 0.0, static_cast<int>(i));  // turned somewhere in the last layer
+    }
   }
 
  private:
+  /// By how much the series misses a known limit at x = ±1.
+  static double misses(const Eigen::Matrix<double, n, 2>& c, double x,
+                       const std::optional<std::array<double, 2>>& limit) {
+    if (!limit.has_value()) return 0.0;
+    return std::max(std::abs(value(c.col(0), x) - (*limit)[0]),
+                    std::abs(value(c.col(1), x) - (*limit)[1]));
+  }
+
   void isolate(const Series& c, double begin, double end, int function) {
     const double spread = variation(c);
     constexpr double rounding = 1e-15;
@@ -142,16 +158,18 @@ class Search {
 
 }  // namespace
 
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
-                      double size, std::vector<SmoothSign>& found) {
-  constexpr double narrowest =
-      1e-9;  // of a layer that is not resolved: all it holds is smaller still
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
+                      double cell, double size, std::vector<SmoothSign>& found) {
   const double length = end - begin;
-  if (!(length > narrowest)) return;
+  constexpr double nothing = 1e-12;  // between two events that all but meet
+  if (!(length > nothing)) return;
   Search search(functions, size, found);
   const int n_cells = static_cast<int>(std::ceil(length / cell));
   for (int i = 0; i < n_cells; ++i) {
-    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, narrowest);
+    SmoothEnds own;
+    if (i == 0) own.begin = ends.begin;
+    if (i + 1 == n_cells) own.end = ends.end;
+    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, own);
   }
 }
 

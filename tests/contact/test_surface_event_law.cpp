@@ -99,7 +99,7 @@ TEST_P(SurfaceEventLaws, AgreeWithThePlanarLawAlongALine) {
 
 // The sampled law converges to this one in second order (theory section 8).
 TEST_P(SurfaceEventLaws, AreTheLimitOfTheSampledLaw) {
-  const auto cases = motions(40, 33);
+  const auto cases = motions(120, 33);
   std::vector<double> rms;
   for (const int n_samples : {256, 1024, 4096}) {
     double sum = 0.0;
@@ -355,17 +355,40 @@ TEST(SurfaceEventLaw, DoesNotSeeTheSecondDirection) {
   }
 }
 
-// A layer 1e-8 of the motion wide, in which the coefficient falls: its area is all that it adds.
+// A layer around u' = 0 in which the coefficient falls to what it is elsewhere, thinner than any
+// cell or panel: a force of the layer's own area. Where contact sticks throughout the layer has its
+// say.
 TEST(SurfaceEventLaw, AThinLayerOfTheRateIsTheLawWithoutIt) {
-  for (const MotionCase& c : motions(40, 42)) {
-    const double mu = c.point.friction_coefficient;
-    const double k_u = c.point.tangential_stiffness;
-    const double decay = 1e9 * k_u / (frequency * friction_scale(c));
-    const SurfaceLaw layered(c.point, 0.0, FrictionLaw::exponential(2.0 * mu, mu, decay));
-    const PointTraction now = traction(SurfaceEventLaw(layered), c.motion);
-    const PointTraction exact = traction(EventLaw(c.point), c.motion);
-    if (exact.regime == CycleRegime::full_stick) continue;
-    ASSERT_LE(error(now.force, exact.force, c), 1e-6);
+  for (const double thinness : {1e2, 1e4, 1e6, 1e9, 1e13, 1e100}) {
+    for (const MotionCase& c : motions(40, 42)) {
+      const double mu = c.point.friction_coefficient;
+      const double decay =
+          thinness * c.point.tangential_stiffness / (frequency * friction_scale(c));
+      const SurfaceLaw layered(c.point, 0.0, FrictionLaw::exponential(2.0 * mu, mu, decay));
+      const PointTraction exact = traction(EventLaw(c.point), c.motion);
+      if (exact.regime == CycleRegime::full_stick) continue;
+      const PointTraction now = traction(SurfaceEventLaw(layered), c.motion);
+      ASSERT_TRUE(now.jacobian.allFinite());
+      // |u''| is of the size of u; the layer lasts as long as λ|u'| is of order one, up to 1e-9 of
+      // a panel, which is where panels end.
+      ASSERT_LE(error(now.force, exact.force, c), 20.0 / thinness + 1e-9) << thinness;
+    }
+  }
+}
+
+// In layers of any thickness the planar law along a line agrees.
+TEST(SurfaceEventLaw, LayersOfTheRateAreThoseOfThePlanarLaw) {
+  for (const double thinness : {10.0, 100.0, 1000.0}) {
+    for (MotionCase c : motions(20, 43)) {
+      c.motion.rows().col(2).setZero();
+      const double mu = c.point.friction_coefficient;
+      const double decay =
+          thinness * c.point.tangential_stiffness / (frequency * friction_scale(c));
+      const SurfaceLaw layered(c.point, 0.0, FrictionLaw::exponential(mu, 1.5 * mu, decay));
+      const PointTraction planar = traction(PlanarLaw(layered, 1e-13), c.motion);
+      const PointTraction now = traction(SurfaceEventLaw(layered), c.motion);
+      ASSERT_LE(error(now.force, planar.force, c), 1e-9) << thinness;
+    }
   }
 }
 
