@@ -73,8 +73,9 @@ class Search {
   Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
       : functions_(functions), size_(size), found_(found) {}
 
-  /// @param ends  limits known at the ends of the cell.
-  void cover(double begin, double end, const SmoothEnds& ends) {
+  /// @param ends    limits known at the ends of the cell.
+  /// @param before  tail of the cell twice as long.
+  void cover(double begin, double end, const SmoothEnds& ends, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
     Eigen::Matrix<double, n, 2> values;
     for (int i = 0; i < n; ++i) {
@@ -86,16 +87,18 @@ class Search {
     // Integrals of f between its sign changes, which is what a slider moves by, err by its power
     // 3/2.
     constexpr double tolerance = 1e-10;
-    constexpr double noise = 1e-14;  // of the values themselves, large in thin layers
-    const double allowed = std::max(tolerance * size_, noise * values.cwiseAbs().maxCoeff());
+    const double largest = values.cwiseAbs().maxCoeff();
+    const double allowed = std::max(tolerance * size_, 1e-14 * largest);
     const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
-    const bool meets =
-        misses(c, -1.0, ends.begin) <= n * allowed && misses(c, 1.0, ends.end) <= n * allowed;
-    constexpr double narrowest =
-        1e-9;  // of a layer that is not resolved: all it holds is smaller still
-    if ((tail > allowed || !meets) && end - begin > narrowest) {
-      cover(begin, begin + half, {ends.begin, std::nullopt});
-      cover(begin + half, end, {std::nullopt, ends.end});
+    const double missed = std::max(misses(c, -1.0, ends.begin), misses(c, 1.0, ends.end));
+    // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
+    const bool rounded = tail > 0.25 * before && tail <= 1e-6 * largest;
+    const bool resolved = rounded || tail <= allowed;
+    const bool meets = missed <= n * std::max(allowed, tail);
+    constexpr double narrowest = 1e-9;  // of a layer that is not resolved: it holds even less
+    if (!(resolved && meets) && end - begin > narrowest) {
+      cover(begin, begin + half, {ends.begin, std::nullopt}, tail);
+      cover(begin + half, end, {std::nullopt, ends.end}, tail);
       return;
     }
     for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, i);
