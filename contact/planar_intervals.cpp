@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contact/bracketed_root.hpp"
+#include "contact/sign_changes.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -12,29 +13,21 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr int cells_per_harmonic = 24;
 
-/// Phases in [0, 2π) at which f, with derivative `rate`, changes sign.
-template <typename Function, typename Rate>
-void add_crossings(const Function& f, const Rate& rate, int n_cells, std::vector<double>& found) {
-  double low = 0.0;
-  double f_low = f(low);
-  double rate_low = rate(low);
-  for (int i = 1; i <= n_cells; ++i) {
-    const double high = two_pi * i / n_cells;
-    const double f_high = f(high);
-    const double rate_high = rate(high);
-    if ((f_low > 0.0) != (f_high > 0.0)) {
-      found.push_back(bracketed_root(f, low, high, f_low, f_high));
-    } else if ((f_low > 0.0) == (rate_high > 0.0) && (rate_low > 0.0) != (rate_high > 0.0)) {
-      const double extremum = bracketed_root(rate, low, high, rate_low, rate_high);
-      const double f_extremum = f(extremum);
-      if ((f_extremum > 0.0) != (f_low > 0.0)) {
-        found.push_back(bracketed_root(f, low, extremum, f_low, f_extremum));
-        found.push_back(bracketed_root(f, extremum, high, f_extremum, f_high));
-      }
+/// Phases at which the load has a kink.
+void add_kinks(const PlanarMotion& motion, std::vector<double>& found) {
+  const auto& rows = motion.harmonics().rows();
+  TrigonometricPolynomial distance;
+  distance.reset(motion.n_harmonics());
+  for (int h = 1; h <= motion.n_harmonics(); ++h) {
+    distance.set(h, rows(2 * h - 1, 1), rows(2 * h, 1));
+  }
+  std::vector<SignChange> changes;
+  for (const double kink : motion.law().kinks()) {
+    distance.set_mean(rows(0, 1) - kink);
+    find_sign_changes(distance, changes);
+    for (const SignChange& change : changes) {
+      found.push_back(change.phase < two_pi ? change.phase : 0.0);
     }
-    low = high;
-    f_low = f_high;
-    rate_low = rate_high;
   }
 }
 
@@ -66,11 +59,7 @@ void add_slowest(const PlanarMotion& motion, int n_cells, std::vector<double>& f
 std::vector<double> breakpoints(const PlanarMotion& motion) {
   std::vector<double> found;
   const int n_cells = cells_per_harmonic * motion.n_harmonics();
-  const auto rate = [&](double phase) { return motion.approach_rate(phase); };
-  for (const double kink : motion.law().kinks()) {
-    add_crossings([&](double phase) { return motion.approach(phase) - kink; }, rate, n_cells,
-                  found);
-  }
+  add_kinks(motion, found);
   if (motion.law().is_rate_dependent()) add_slowest(motion, n_cells, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -95,6 +84,37 @@ std::vector<PlanarInterval> between(const PlanarMotion& motion, const std::vecto
   return intervals;
 }
 
+/// Instants between a minimum of the radius and the end of its cell, ever closer to the minimum as long as
+/// the radius still falls: the force may turn there on any of these lengths.
+void add_approach(const PlanarMotion& motion, double minimum, double end, double least,
+                  std::vector<PlanarInstant>& added) {
+  for (double aside = 0.5 * (end - minimum); std::abs(aside) > 1e-8; aside *= 0.5) {
+    added.push_back(motion.at(minimum + aside));
+    if (added.back().radius <= 2.0 * least) break;
+  }
+}
+
+/// Where the load nearly vanishes the point may slip for less than a cell of the grid.
+void refine_minima(const PlanarMotion& motion, std::vector<PlanarInstant>& grid) {
+  std::vector<PlanarInstant> added;
+  const auto rate = [&](double phase) { return motion.at(phase).radius_rate; };
+  for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+    const PlanarInstant& low = grid[i];
+    const PlanarInstant& high = grid[i + 1];
+    if (!(low.radius_rate < 0.0 && high.radius_rate > 0.0)) continue;
+    const PlanarInstant minimum =
+        motion.at(bracketed_root(rate, low.phase, high.phase, low.radius_rate, high.radius_rate));
+    if (!(minimum.radius < 0.5 * std::max(low.radius, high.radius))) continue;
+    added.push_back(minimum);
+    add_approach(motion, minimum.phase, low.phase, minimum.radius, added);
+    add_approach(motion, minimum.phase, high.phase, minimum.radius, added);
+  }
+  if (added.empty()) return;
+  grid.insert(grid.end(), added.begin(), added.end());
+  std::sort(grid.begin(), grid.end(),
+            [](const PlanarInstant& a, const PlanarInstant& b) { return a.phase < b.phase; });
+}
+
 void set_grid(const PlanarMotion& motion, PlanarInterval& interval) {
   const double length = interval.end - interval.begin;
   const double cells = std::ceil(length * cells_per_harmonic * motion.n_harmonics() / two_pi);
@@ -105,6 +125,7 @@ void set_grid(const PlanarMotion& motion, PlanarInterval& interval) {
     interval.grid.push_back(motion.at(interval.begin + length * i / n));
   }
   interval.grid.push_back(motion.at(interval.end, -interval.nudge()));
+  refine_minima(motion, interval.grid);
 }
 
 }  // namespace

@@ -128,14 +128,6 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   return now;
 }
 
-double PlanarMotion::approach(double phase) const {
-  return harmonics_.mean()[1] + signals(harmonics_, phase).value[1];
-}
-
-double PlanarMotion::approach_rate(double phase) const {
-  return signals(harmonics_, phase).rate[1];
-}
-
 Eigen::Vector2d PlanarMotion::virgin_slider() const {
   const Eigen::Vector2d mean(harmonics_.mean()[0], harmonics_.mean()[2]);
   // Farther away only the direction counts, and squares would overflow.

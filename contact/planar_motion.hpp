@@ -68,8 +68,6 @@ class PlanarMotion {
   /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where the
   /// law has a kink.
   [[nodiscard]] PlanarInstant at(double phase, double nudge) const;
-  [[nodiscard]] double approach(double phase) const;
-  [[nodiscard]] double approach_rate(double phase) const;
 
   /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
