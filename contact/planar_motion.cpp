@@ -114,6 +114,9 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   PlanarInstant now = at(phase);
   if (nudge == 0.0) return now;
   const PlanarInstant beside = at(phase + nudge);
+  // Gaussian heights begin to touch with a load of nothing, but not with a radius of nothing.
+  const bool jumps = now.radius == 0.0 && !law_.is_smooth();
+  if (jumps) now.radius = std::max(0.0, beside.radius - nudge * beside.radius_rate);
   now.radius_rate = beside.radius_rate;
   now.radius_by_approach = beside.radius_by_approach;
   now.stiffness_rate = beside.stiffness_rate;

@@ -100,7 +100,10 @@ class Walk {
       entry_ = PlanarEntry::touch_down;
       const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
       slipping_ = pull.norm() > now.radius_rate;
-      if (slipping_) heading_ = returned_force(pull, now.stiffness, now.radius_rate);
+      if (!slipping_) return;
+      heading_ = returned_force(pull, now.stiffness, now.radius_rate);
+      const double size = heading_.norm();
+      if (now.radius > stick_slack && size > 0.0) slider_ = now.edge(heading_ / size);
       return;
     }
     if (first) return_slider(now);
@@ -167,15 +170,32 @@ class Walk {
     return found <= left.phase ? found : breach_between(right, high);
   }
 
+  /// Whether the cubic through two guards and their rates comes closer to 0 than half of what it varies by:
+  /// then a peak between them may pass it.
+  static bool may_peak(const Guard& a, const Guard& b, double length) {
+    const auto [low, high] = std::minmax(
+        {a.value, a.value + a.rate * length / 3.0, b.value - b.rate * length / 3.0, b.value});
+    return high > 0.5 * (low - high);
+  }
+
   /// The same where the force has no minimum inside.
-  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high) const {
+  /// @param depth  how often the cell may be halved.
+  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high,
+                                      int depth = 5) const {
     const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
     const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
     const Guard before = guard(low);
     const Guard after = guard(high);
+    const bool peaks = before.rate > 0.0 && after.rate < 0.0;
+    if (after.value <= stick_slack && !peaks && depth > 0 &&
+        may_peak(before, after, high.phase - low.phase)) {
+      const PlanarInstant middle = motion_.at(0.5 * (low.phase + high.phase));
+      const double found = breach_between(low, middle, depth - 1);
+      return found <= middle.phase ? found : breach_between(middle, high, depth - 1);
+    }
     double end = high.phase;
     double value = after.value - stick_slack;
-    if (value <= 0.0 && before.rate > 0.0 && after.rate < 0.0) {
+    if (value <= 0.0 && peaks) {
       const auto rate = [&](double phase) { return guard(motion_.at(phase)).rate; };
       end = bracketed_root(rate, low.phase, end, before.rate, after.rate);
       value = excess(end);
