@@ -114,7 +114,7 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   PlanarInstant now = at(phase);
   if (nudge == 0.0) return now;
   const PlanarInstant beside = at(phase + nudge);
-  // Gaussian heights begin to touch with a load of nothing, but not with a radius of nothing.
+  // The radius of Gaussian heights is not zero where contact begins, nor is it on both sides.
   const bool jumps = now.radius == 0.0 && !law_.is_smooth();
   if (jumps) now.radius = std::max(0.0, beside.radius - nudge * beside.radius_rate);
   now.radius_rate = beside.radius_rate;

@@ -98,12 +98,12 @@ class Walk {
     if (interval_->touches_down || (!first && now.radius <= stick_slack)) {
       slider_ = now.position;
       entry_ = PlanarEntry::touch_down;
+      // Gaussian heights begin to touch with a load of nothing, but not with a radius of nothing.
+      slipping_ = false;
+      if (now.radius > stick_slack) return;
       const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
       slipping_ = pull.norm() > now.radius_rate;
-      if (!slipping_) return;
-      heading_ = returned_force(pull, now.stiffness, now.radius_rate);
-      const double size = heading_.norm();
-      if (now.radius > stick_slack && size > 0.0) slider_ = now.edge(heading_ / size);
+      if (slipping_) heading_ = returned_force(pull, now.stiffness, now.radius_rate);
       return;
     }
     if (first) return_slider(now);

@@ -119,12 +119,6 @@ void OrbitVariation::touch_down(const PlanarPiece& piece) {
   slider_.leftCols(n_parameters_) = position_;
   if (n_parameters_ == 0 || now.approach_rate <= 0.0) return;
   Vector2d moved = now.velocity;
-  const Vector2d force = now.force(piece.slider);
-  if (piece.state == ContactState::slip && force.norm() > 0.0) {
-    // Gaussian heights: the slider is on its edge, wherever contact begins.
-    slider_.leftCols(n_parameters_) -= force.normalized().asDiagonal() * reach_;
-    return;
-  }
   if (piece.state == ContactState::slip) {
     // x' − ρe = r' C e, with e from the regular solution at r = 0.
     const Vector2d& k = now.stiffness;
