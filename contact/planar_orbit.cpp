@@ -44,6 +44,7 @@ class Walk {
  public:
   Walk(const PlanarMotion& motion, const OrbitOptions& options, PlanarOrbit& orbit)
       : motion_(motion),
+        tolerance_(options.tolerance),
         allowed_(allowed_top_term(options.tolerance)),
         longest_(longest_step_length(options)),
         next_length_(std::min(0.6 / motion.n_harmonics(), longest_)),
@@ -235,6 +236,13 @@ class Walk {
     return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step, before);
   }
 
+  /// How much longer a step may be.
+  [[nodiscard]] double growth_of(const SlipStep& step) const {
+    const double by_top = std::pow(allowed_ / std::max(step.top_term, 1e-300), 0.2);
+    if (step.rest <= tolerance_) return 0.9 * by_top;
+    return 0.9 * std::min(by_top, std::pow(tolerance_ / step.rest, 1.0 / 9.0));
+  }
+
   /// The longest step from here within the tolerance.
   SlipStep longest_step() {
     SlipStep step;
@@ -243,9 +251,9 @@ class Walk {
     if (length < left && length > 0.6 * left) length = 0.6 * left;
     for (;;) {
       const bool solved = solve(step, length) && turns_slowly(step);
-      const double factor =
-          solved ? 0.9 * std::pow(allowed_ / std::max(step.top_term, 1e-300), 0.2) : 0.25;
-      if ((solved && step.top_term <= allowed_) || length <= shortest_step) {
+      const double factor = solved ? growth_of(step) : 0.25;
+      const bool good = solved && step.top_term <= allowed_ && step.rest <= tolerance_;
+      if (good || length <= shortest_step) {
         next_length_ = std::min(longest_, length * std::clamp(factor, 0.3, 4.0));
         return step;
       }
@@ -351,6 +359,7 @@ class Walk {
   }
 
   const PlanarMotion& motion_;
+  double tolerance_;
   double allowed_;
   double longest_;
   double next_length_;

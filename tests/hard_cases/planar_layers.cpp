@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "contact/planar_cycle.hpp"
+#include "contact/surface_event_law.hpp"
+#include "support/motion_cases.hpp"
 
 namespace microslip::test {
 namespace {
@@ -63,6 +66,52 @@ TEST(PlanarLayers, ContactLostForAMomentIsLost) {
   EXPECT_NEAR(traction.force.mean()[1], 0.11503068952, 1e-11);
   EXPECT_NEAR(traction.force.sine(1)[1], -0.0915037544, 1e-10);
   EXPECT_NEAR(traction.force.sine(1)[2], -0.00687214670, 1e-10);
+}
+
+/// Largest difference of the friction of a straight motion turned by an angle from that of one direction.
+double turned_difference(const SurfaceLaw& surface, const Harmonics& motion, double frequency) {
+  constexpr double angle = 0.7;
+  Harmonics turned = motion;
+  turned.rows().col(2) = std::sin(angle) * motion.rows().col(0);
+  turned.rows().col(0) *= std::cos(angle);
+  PointTraction planar;
+  PointTraction exact;
+  PlanarLaw(surface, 1e-11).traction(turned, frequency, planar);
+  contact::SurfaceEventLaw(surface).traction(motion, frequency, exact);
+  const Eigen::VectorXd f = exact.force.rows().col(0);
+  return ((planar.force.rows().col(0) - std::cos(angle) * f).cwiseAbs() +
+          (planar.force.rows().col(2) - std::sin(angle) * f).cwiseAbs())
+      .maxCoeff();
+}
+
+// Layers from the whole period down to 1e-5 of it.
+TEST(PlanarLayers, SteepRatesAlongALineAreThoseOfOneDirection) {
+  std::mt19937_64 random(71);
+  for (int i = 0; i < 120; ++i) {
+    const MotionCase c = motion_strata()[static_cast<std::size_t>(i % 6)].draw(random);
+    const double rate = std::pow(10.0, std::uniform_real_distribution<double>(-1.0, 5.0)(random));
+    const double mu = c.point.friction_coefficient;
+    const FrictionLaw friction = i % 2 == 0 ? FrictionLaw::exponential(mu, 0.4 * mu, rate)
+                                            : FrictionLaw::hyperbolic(mu, rate);
+    const SurfaceLaw surface(c.point, c.point.tangential_stiffness, friction);
+    EXPECT_LE(turned_difference(surface, c.motion, 1.0), 1e-9 * friction_scale(c)) << i;
+  }
+}
+
+// Amplitudes of up to a thousand deviations of the heights, over gaps and under preload.
+TEST(PlanarLayers, LowGaussianHeightsAlongALineAreThoseOfOneDirection) {
+  std::mt19937_64 random(72);
+  for (int i = 0; i < 120; ++i) {
+    const MotionCase c = motion_strata()[static_cast<std::size_t>(i % 6)].draw(random);
+    if (!(c.point.normal_stiffness > 0.0)) continue;
+    const double size = normal_scale(c) / c.point.normal_stiffness;
+    if (!(size > 0.0)) continue;
+    const double share = std::pow(10.0, std::uniform_real_distribution<double>(-4.0, 1.0)(random));
+    const SurfaceLaw surface(c.point, c.point.tangential_stiffness,
+                             FrictionLaw::constant(c.point.friction_coefficient),
+                             contact::RoughSurface::matching_gaussian(share * size));
+    EXPECT_LE(turned_difference(surface, c.motion, 1.0), 1e-9 * friction_scale(c)) << i;
+  }
 }
 
 }  // namespace
