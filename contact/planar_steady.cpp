@@ -40,6 +40,32 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
+/// What a period does to the slider, summed over its slip: of little slip this has all digits, which the
+/// difference of two positions has not.
+struct PeriodMove {
+  Vector2d change = Vector2d::Zero();
+  double path = 0.0;
+};
+
+PeriodMove period_move(const PlanarOrbit& orbit) {
+  const RadauNodes& rule = radau_nodes();
+  PeriodMove move;
+  for (const PlanarPiece& piece : orbit.pieces) {
+    if (piece.entry == PlanarEntry::returned) {
+      move.change += piece.slider - piece.before;
+      move.path += (piece.slider - piece.before).norm();
+    }
+    for (const SlipStep& step : piece.steps) {
+      for (int i = 0; i < n_stages; ++i) {
+        const double way = step.length * rule.weight[static_cast<std::size_t>(i)] * step.rate(i);
+        move.change += way * step.direction.col(i);
+        move.path += std::abs(way);
+      }
+    }
+  }
+  return move;
+}
+
 /// Phases at which slip ends, once for every window of the period that pushes the slider.
 std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
   std::vector<double> found;
@@ -78,7 +104,7 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    const bool stuck = !steady.orbit.slips;
+    const bool stuck = !steady.orbit.slips || rests_;
     if (stuck && helped_) steady = march();
     steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
     return steady;
@@ -97,14 +123,19 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
       steady.closes = true;
+      rests_ = false;
       if (!steady.orbit.slips) break;
       if (period + 1 == patience && rest_in_corner(steady)) break;
-      const Vector2d moved = steady.orbit.end - slider;
-      const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      const PeriodMove moved = period_move(steady.orbit);
+      const Vector2d newton =
+          solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
       steady.defect = force_of(motion_, newton);
-      const double size = force_of(motion_, moved);
+      const double size = force_of(motion_, moved.change);
       steady.closes = size <= rounding;
-      if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
+      const double path = force_of(motion_, Vector2d::Constant(moved.path));
+      rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
+      const bool met = size <= rounding * path || steady.defect <= 0.1 * options_.tolerance;
+      if (rests_ || met) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
       failures += tried && !improved ? 1 : 0;
@@ -163,6 +194,7 @@ class FixedPoint {
   const std::vector<PlanarInterval>& intervals_;
   const OrbitOptions& options_;
   bool helped_ = false;
+  bool rests_ = false;  // the last period slipped by no more than rounding
 };
 
 bool any_contact(const std::vector<PlanarInterval>& intervals) {
