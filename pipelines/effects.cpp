@@ -81,7 +81,10 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   const ContactFacts facts = facts_of(scene);
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   const ResidualKind residual = modal != nullptr ? modal->residual : scene.modes.residual;
-  const bool normal = facts.has_normal_stiffness;
+  const bool left_out = setting_of(scene, "normal_motion") == "off";
+  const bool normal = facts.has_normal_stiffness && !left_out;
+  const std::string constant_load = left_out ? "effects.normal_motion = \"off\": the load stays that of rest"
+                                             : "no normal stiffness: the load is constant";
   std::vector<EffectRecord> effects;
   const auto add = [&](const char* name, bool simulated, const std::string& why,
                        const std::string& why_not) {
@@ -90,9 +93,9 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   add("friction", facts.has_friction, "friction coefficient and tangential stiffness are positive",
       facts.has_contact ? "no point has friction" : "the scene has no contact");
   add("normal_motion", normal, "the contact has normal stiffness: its load varies with the approach",
-      "no normal stiffness: the load is constant");
-  add("separation", normal, "the contact is one-sided", "the load is constant");
-  add("mean_coupling", normal, "the mean approach changes the load", "the load is constant");
+      constant_load);
+  add("separation", normal, "the contact is one-sided", constant_load);
+  add("mean_coupling", normal, "the mean approach changes the load", constant_load);
   add("residual", facts.has_contact && residual == ResidualKind::stiffness,
       "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"

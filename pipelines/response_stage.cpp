@@ -115,7 +115,8 @@ std::vector<contact::PointParameters> point_parameters(const ReducedModel& model
   }
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(preload.size()));
   for (Eigen::Index i = 0; i < preload.size(); ++i) {
-    points[static_cast<std::size_t>(i)] = {tangential[i], stiffness[i], friction[i], preload[i]};
+    points[static_cast<std::size_t>(i)] = {
+        tangential[i], model.effects.normal_stiffness(stiffness[i]), friction[i], preload[i]};
   }
   return points;
 }

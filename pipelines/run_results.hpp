@@ -26,6 +26,7 @@ class PatchFields;
 /// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
 struct ContactEffects {
   int n_harmonics = 1;  ///< highest that may occur
+  bool normal_motion = true;  ///< false: the load stays that of rest, whatever the approach
   bool second_direction = false;
   double motion_ratio = 0.0;  ///< motion along r against that along p in the linear limits [-]
   std::optional<contact::FrictionLaw> friction_law;
@@ -33,6 +34,8 @@ struct ContactEffects {
   /// With rough surfaces: stiffness of the surfaces in full contact, bodies not included [N/m³].
   std::optional<double> local_tangential_stiffness, local_normal_stiffness;
 
+  /// The normal stiffness that is simulated. @param given  [N/m³].
+  [[nodiscard]] double normal_stiffness(double given) const { return normal_motion ? given : 0.0; }
   /// One direction, constant friction, smooth surfaces.
   [[nodiscard]] bool simple_laws() const {
     return !second_direction && !friction_law && !roughness;

@@ -232,6 +232,25 @@ void check_effect_of_key(const SectionReader& s, std::string_view name, const st
   }
 }
 
+/// Effects that may be left out, each alone.
+void check_off(const SectionReader& s, std::string_view name, const SceneDescription& scene,
+               bool has_residual) {
+  if (name == "separation" || name == "mean_coupling") {
+    s.fail(name, "is part of the normal motion: switch effects.normal_motion off", s.node(name));
+  }
+  if (name == "stability") {
+    s.fail(name, "cannot be switched off: the steps along a curve use it; expected auto or on",
+           s.node(name));
+  }
+  if (name == "residual" && has_residual) {
+    s.fail(name, "contradicts modes.residual: give modes.residual = \"none\"", s.node(name));
+  }
+  if (name == "normal_motion" && scene.laws.roughness) {
+    s.fail(name, "contradicts contact.roughness: rough surfaces are felt by normal motion",
+           s.node(name));
+  }
+}
+
 /// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
 std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
                                                               const SceneDescription& scene,
@@ -245,9 +264,8 @@ std::vector<std::pair<std::string, std::string>> read_effects(const SectionReade
     const std::string setting = s.word(key.name, settings);
     if (std::find(by_key.begin(), by_key.end(), key.name) != by_key.end()) {
       check_effect_of_key(s, key.name, setting, scene);
-    } else if (key.name != "second_direction" && setting == "off") {
-      s.fail(key.name, "cannot be switched off in this version; expected auto or on",
-             s.node(key.name));
+    } else if (setting == "off") {
+      check_off(s, key.name, scene, has_residual);
     }
     if (key.name == "residual" && setting == "on" && !has_residual) {
       s.fail(key.name, "cannot be on: modal scenes and modes.residual = \"none\" have no residual",

@@ -409,10 +409,13 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   }
   expect_complaint(complaint(modal_text, {"effects.higher_harmonics=off", "response.harmonics=3"}),
                    {"contradicts response.harmonics"});
-  for (const char* effect : {"normal_motion", "separation", "mean_coupling", "stability"}) {
+  for (const char* effect : {"separation", "mean_coupling"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=off"}),
-                     {"cannot be switched off in this version"});
+                     {effect, "switch effects.normal_motion off"});
   }
+  expect_complaint(complaint(modal_text, {"effects.stability=off"}), {"cannot be switched off"});
+  expect_complaint(complaint(blade_text, {"effects.residual=off"}), {"modes.residual = \"none\""});
+  EXPECT_EQ(parse(blade_text, {"effects.residual=off", "modes.residual=none"}).effects.size(), 9U);
   expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
   for (const char* harmonics : {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
