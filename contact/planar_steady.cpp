@@ -131,11 +131,10 @@ class FixedPoint {
           solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved.change);
-      steady.closes = size <= rounding;
       const double path = force_of(motion_, Vector2d::Constant(moved.path));
       rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
-      const bool met = size <= rounding * path || steady.defect <= 0.1 * options_.tolerance;
-      if (rests_ || met) break;
+      steady.closes = rests_ || size <= rounding * path;
+      if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
       failures += tried && !improved ? 1 : 0;
