@@ -61,14 +61,15 @@ std::vector<MotionCase> motions(int n, unsigned seed) {
 
 class SmoothLimit : public testing::TestWithParam<MotionStratum> {};
 
-// Smooth surfaces with a constant coefficient have an exact law. Both sum over their pieces.
+// Smooth surfaces with a constant coefficient have an exact law. Sums over a hundred
+// nodes of a few panels.
 TEST_P(SmoothLimit, IsTheEventLaw) {
   Random random(31);
   for (int i = 0; i < 300; ++i) {
     const MotionCase c = GetParam().draw(random);
     const PointTraction exact = traction(EventLaw(c.point), c.motion);
     const PointTraction now = traction(SurfaceEventLaw(test::smooth_surface(c)), c.motion);
-    constexpr double rounding = 2e-15;
+    constexpr double rounding = 5e-15;
     ASSERT_LE(difference(now.force, exact.force, 0), rounding * friction_scale(c) + smallest) << i;
     ASSERT_LE(difference(now.force, exact.force, 1), rounding * normal_scale(c) + smallest) << i;
     ASSERT_TRUE(now.jacobian.allFinite());
