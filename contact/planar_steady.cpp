@@ -63,6 +63,10 @@ PeriodMove period_move(const PlanarOrbit& orbit) {
       }
     }
   }
+  // Of much slip the steps know the end to their tolerance and no better, and the difference is as
+  // good.
+  constexpr double little = 1e-3;
+  if (move.path > little) move.change = orbit.end - orbit.begin;
   return move;
 }
 
@@ -133,7 +137,7 @@ class FixedPoint {
       const double size = force_of(motion_, moved.change);
       const double path = force_of(motion_, Vector2d::Constant(moved.path));
       rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
-      steady.closes = rests_ || size <= rounding * path;
+      steady.closes = rests_ || size <= rounding * std::min(1.0, 1e3 * path);
       if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
