@@ -45,7 +45,8 @@ CycleReport AnyHarmonicsForce::report(const Harmonics& q, double frequency) cons
 Eigen::MatrixXd AnyHarmonicsForce::stuck_stiffness() const { return closed_.stuck_stiffness(); }
 
 LinearState AnyHarmonicsForce::linear_state(const Harmonics& centre, double radius) const {
-  return centre.n_harmonics() == 1 ? closed_.linear_state(centre, radius) : LinearState::unknown;
+  return centre.n_harmonics() == 1 ? closed_.linear_state(centre, radius)
+                                   : events_.linear_state(centre, radius);
 }
 
 }  // namespace microslip::contact

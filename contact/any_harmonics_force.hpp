@@ -26,7 +26,6 @@ class AnyHarmonicsForce final : public ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
-  /// Of motions with one harmonic; unknown of others.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:

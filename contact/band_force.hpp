@@ -37,10 +37,6 @@ struct BandWork {
 /// f_p and n; f_r is 0. @param n_harmonics  of the forces, ≥ 0.
 [[nodiscard]] Harmonics band_force(SliderBand& band, const BandCycle& cycle, int n_harmonics);
 
-/// f at one instant of a piece [Pa].
-[[nodiscard]] double band_friction(const SliderBand& band, const BandPiece& piece,
-                                   const BandInstant& now);
-
 /// Force with its derivatives; keeps its storage.
 class BandTraction {
  public:

@@ -33,6 +33,11 @@ struct BandPiece {
   bool stood = false;                        ///< and whether this was the kink of |u'|
   bool begins_at_turn = false;               ///< next to that kink
   bool ends_at_turn = false;
+
+  /// Of the friction in slip.
+  [[nodiscard]] double slip_sign() const {
+    return state == ContactState::positive_slip ? 1.0 : -1.0;
+  }
 };
 
 struct BandCycle {

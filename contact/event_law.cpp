@@ -57,6 +57,11 @@ Eigen::Vector3d EventLaw::stuck_stiffness() const {
   return {has_friction ? point_.tangential_stiffness : 0.0, point_.normal_stiffness, 0.0};
 }
 
+std::optional<LinearRange> EventLaw::linear_range() const {
+  return LinearRange{stuck_stiffness(), point_.preload,
+                     FrictionLaw::constant(point_.friction_coefficient)};
+}
+
 double EventLaw::load_at_rest() const { return std::max(point_.preload, 0.0); }
 
 }  // namespace microslip::contact

@@ -31,6 +31,7 @@ class EventLaw final : public PointLaw {
   /// (k_u or 0, k_v, 0).
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override;
+  [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 
  private:
   PointParameters point_;

@@ -131,6 +131,10 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   return now;
 }
 
+Eigen::Vector2d PlanarMotion::tangential_acceleration(double phase) const {
+  return tangential(signals(harmonics_, phase).second);
+}
+
 Eigen::Vector2d PlanarMotion::virgin_slider() const {
   const Eigen::Vector2d mean(harmonics_.mean()[0], harmonics_.mean()[2]);
   // Farther away only the direction counts, and squares would overflow.

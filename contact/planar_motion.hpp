@@ -68,6 +68,8 @@ class PlanarMotion {
   /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where the
   /// law has a kink.
   [[nodiscard]] PlanarInstant at(double phase, double nudge) const;
+  /// x'' of both directions, whether they carry friction or not [m].
+  [[nodiscard]] Eigen::Vector2d tangential_acceleration(double phase) const;
 
   /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }

@@ -20,10 +20,6 @@ constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
 constexpr int longest_march = 300;
 
-/// Slip of a period that may be what is left of a search that ends at the tolerance, whatever the angle
-/// between the edges it is pushed by: their corner loses the root of it at the most.
-constexpr double hardly_any = 1e-4;
-
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
 
@@ -44,16 +40,34 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
-/// Way of the slider in a period, as a force.
-double slip_way(const PlanarMotion& motion, const PlanarOrbit& orbit) {
-  double way = 0.0;
+/// What a period does to the slider, summed over its slip: of little slip this has all digits, which the
+/// difference of two positions has not.
+struct PeriodMove {
+  Vector2d change = Vector2d::Zero();
+  double path = 0.0;
+};
+
+PeriodMove period_move(const PlanarOrbit& orbit) {
+  const RadauNodes& rule = radau_nodes();
+  PeriodMove move;
   for (const PlanarPiece& piece : orbit.pieces) {
-    if (piece.entry == PlanarEntry::returned) way += force_of(motion, piece.slider - piece.before);
+    if (piece.entry == PlanarEntry::returned) {
+      move.change += piece.slider - piece.before;
+      move.path += (piece.slider - piece.before).norm();
+    }
     for (const SlipStep& step : piece.steps) {
-      way += force_of(motion, step.end_slider() - step.slider);
+      for (int i = 0; i < n_stages; ++i) {
+        const double way = step.length * rule.weight[static_cast<std::size_t>(i)] * step.rate(i);
+        move.change += way * step.direction.col(i);
+        move.path += std::abs(way);
+      }
     }
   }
-  return way;
+  // Of much slip the steps know the end to their tolerance and no better, and the difference is as
+  // good.
+  constexpr double little = 1e-3;
+  if (move.path > little) move.change = orbit.end - orbit.begin;
+  return move;
 }
 
 /// Phases at which slip ends, once for every window of the period that pushes the slider.
@@ -94,14 +108,8 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    bool stuck = !steady.orbit.slips;
-    if (helped_ && slip_way(motion_, steady.orbit) <= hardly_any) {
-      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips still is
-      // the little it has not converged by. Where the march rests is told by the march alone.
-      SteadyOrbit marched = march();
-      stuck = stuck || !marched.orbit.slips;
-      if (stuck) steady = std::move(marched);
-    }
+    const bool stuck = !steady.orbit.slips || rests_;
+    if (stuck && helped_) steady = march();
     steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
     return steady;
   }
@@ -119,13 +127,17 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
       steady.closes = true;
+      rests_ = false;
       if (!steady.orbit.slips) break;
       if (period + 1 == patience && rest_in_corner(steady)) break;
-      const Vector2d moved = steady.orbit.end - slider;
-      const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      const PeriodMove moved = period_move(steady.orbit);
+      const Vector2d newton =
+          solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
       steady.defect = force_of(motion_, newton);
-      const double size = force_of(motion_, moved);
-      steady.closes = size <= rounding;
+      const double size = force_of(motion_, moved.change);
+      const double path = force_of(motion_, Vector2d::Constant(moved.path));
+      rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
+      steady.closes = rests_ || size <= rounding * std::min(1.0, 1e3 * path);
       if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
@@ -185,6 +197,7 @@ class FixedPoint {
   const std::vector<PlanarInterval>& intervals_;
   const OrbitOptions& options_;
   bool helped_ = false;
+  bool rests_ = false;  // the last period slipped by no more than rounding
 };
 
 bool any_contact(const std::vector<PlanarInterval>& intervals) {

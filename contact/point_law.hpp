@@ -12,12 +12,14 @@
 /// Harmonics::vector(): [u₀ v₀ w₀ u_s1 v_s1 w_s1 u_c1 …].
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/linear_range.hpp"
 
 namespace microslip::contact {
 
@@ -77,6 +79,8 @@ class PointLaw {
   [[nodiscard]] virtual Eigen::Vector3d stuck_stiffness() const = 0;
   /// n_ref: the load that is in balance before vibration begins [Pa].
   [[nodiscard]] virtual double load_at_rest() const = 0;
+  /// Where traction() is linear and need not be asked; none: unknown, evaluate.
+  [[nodiscard]] virtual std::optional<LinearRange> linear_range() const { return std::nullopt; }
 };
 
 }  // namespace microslip::contact

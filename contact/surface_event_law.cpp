@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contact/band_force.hpp"
+#include "contact/band_quadrature.hpp"
 #include "contact/band_walk.hpp"
 #include "contact/cycle_segments.hpp"
 #include "contact/scaled_point.hpp"

@@ -28,6 +28,7 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/friction_law.hpp"
+#include "contact/linear_range.hpp"
 #include "contact/rough_surface.hpp"
 
 namespace microslip::contact {
@@ -105,6 +106,8 @@ class SurfaceLaw {
   [[nodiscard]] bool is_rate_dependent() const { return friction_.is_rate_dependent(); }
   /// Whether g is 1 and N is piecewise linear.
   [[nodiscard]] bool is_smooth() const { return !roughness_.has_value(); }
+  /// Where (1) is linear. Rough surfaces: only where open.
+  [[nodiscard]] std::optional<LinearRange> linear_range() const;
   /// Approaches at which (1) has a kink: where contact begins, and where rough surfaces are all in
   /// contact [m]; ascending.
   [[nodiscard]] std::vector<double> kinks() const;

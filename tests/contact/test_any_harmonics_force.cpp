@@ -81,7 +81,7 @@ TEST(AnyHarmonicsForce, BothRoadsMeetWhereHigherHarmonicsVanish) {
   EXPECT_GT(more.force.rows().bottomRows(6).norm(), 0.01);  // what one harmonic cannot see
 }
 
-TEST(AnyHarmonicsForce, LinearityIsProvedOfOneHarmonicOnly) {
+TEST(AnyHarmonicsForce, LinearityIsUnknownOfPointsThatSeparate) {
   const AnyHarmonicsForce force(some_patch(), some_shapes());
   EXPECT_EQ(force.linear_state(Harmonics(1, n_modes), 1e9), LinearState::unknown);
   const PatchForce closed(some_patch(), some_shapes());
