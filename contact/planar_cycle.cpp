@@ -64,6 +64,12 @@ SteadyOrbit cycle_of(const PlanarMotion& motion, const Intervals& intervals,
   return steady;
 }
 
+/// Of an orbit, whose forces are counted in k a + max μn, for friction of the size of the smaller of both.
+double tolerance_of(const PlanarMotion& motion, double tolerance) {
+  constexpr double rounding = 1e-15;  // of a slider of order one
+  return std::max(tolerance * motion.friction_share(), rounding);
+}
+
 /// In units of force; 0 where the search met its tolerance or has nothing left to do.
 double defect_of(const PlanarMotion& motion, const SteadyOrbit& steady, double tolerance) {
   const bool met = steady.closes || steady.defect <= tolerance;
@@ -110,11 +116,11 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
-  const OrbitOptions options{tolerance_, static_cast<double>(H)};
+  const OrbitOptions options{tolerance_of(planar, tolerance_), static_cast<double>(H)};
   const SteadyOrbit steady = cycle_of(planar, intervals, options);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
-  result.defect = defect_of(planar, steady, tolerance_) * point.unit;
+  result.defect = defect_of(planar, steady, options.tolerance) * point.unit;
   result.force = planar_force(planar, intervals, steady.orbit, H);
   result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
@@ -142,10 +148,11 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const double highest = std::max(n_harmonics, motion.n_harmonics());
-  const SteadyOrbit steady = cycle_of(planar, intervals, {tolerance_, highest});
+  const OrbitOptions options{tolerance_of(planar, tolerance_), highest};
+  const SteadyOrbit steady = cycle_of(planar, intervals, options);
   PointHistory result;
   result.regime = steady.regime;
-  result.defect = defect_of(planar, steady, tolerance_);
+  result.defect = defect_of(planar, steady, options.tolerance);
   result.segments = planar_segments(steady.orbit);
   result.force = planar_force(planar, intervals, steady.orbit, n_harmonics);
   if (planar.has_friction()) {

@@ -67,11 +67,13 @@ void PlanarMotion::set_scales() {
   for (int i = 0; i < n_samples; ++i) {
     radius = std::max(radius, at(2.0 * std::numbers::pi * i / n_samples).radius);
   }
-  const double scale = radius + k.cwiseProduct(amplitude).sum();
+  const double spring = k.cwiseProduct(amplitude).sum();
+  const double scale = radius + spring;
   // Below this, products of scaled numbers would be subnormal; the force is zero to 1e-290.
   constexpr double smallest = 1e-290;
   force_scale_ = scale > smallest && std::isfinite(scale) ? scale : 0.0;
   if (force_scale_ == 0.0) return;
+  friction_share_ = 2.0 * std::min(radius, spring) / scale;
   length_scale_ = force_scale_ / largest;
   active_ = (k.array() > 0.0).cast<double>();
   stiffness_ = (k.array() > 0.0).select(k / largest, 1.0);

@@ -20,6 +20,10 @@ constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
 constexpr int longest_march = 300;
 
+/// Slip of a period that may be what is left of a search that ends at the tolerance, whatever the angle
+/// between the edges it is pushed by: their corner loses the root of it at the most.
+constexpr double hardly_any = 1e-4;
+
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
 
@@ -108,13 +112,23 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    const bool stuck = !steady.orbit.slips || rests_;
-    if (stuck && helped_) steady = march();
+    bool stuck = !steady.orbit.slips || rests_;
+    if (helped_ && (stuck || hardly_slips(steady.orbit))) {
+      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips still is
+      // the little it has not converged by. Where the march rests is told by the march alone.
+      SteadyOrbit marched = march();
+      stuck = stuck || !marched.orbit.slips;
+      if (stuck) steady = std::move(marched);
+    }
     steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
     return steady;
   }
 
  private:
+  [[nodiscard]] bool hardly_slips(const PlanarOrbit& orbit) const {
+    return force_of(motion_, Vector2d::Constant(period_move(orbit).path)) <= hardly_any;
+  }
+
   SteadyOrbit iterate() {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
