@@ -26,6 +26,9 @@ class EventLaw final : public PointLaw {
   explicit EventLaw(const PointParameters& point) : point_(point) {}
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
+  /// Events are those of the motion: its harmonics are paid for, not those of the force.
+  [[nodiscard]] Harmonics force_up_to(const Harmonics& motion, double frequency,
+                                int n_harmonics) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   /// (k_u or 0, k_v, 0).

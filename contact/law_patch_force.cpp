@@ -80,6 +80,26 @@ ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequen
   return result;
 }
 
+Harmonics LawPatchForce::force_up_to(const Harmonics& q, double frequency, int n_harmonics) const {
+  motion_.set(shapes_, q);
+  sleep_.look_at(motion_, frequency, shapes_);
+  Harmonics sum(n_harmonics, n_modes());
+  for (const Eigen::Index i : sleep_.awake()) {
+    const PointLaw& law = *laws_[static_cast<std::size_t>(i)];
+    motion_.copy(i, point_motion_);
+    Harmonics force = law.force_up_to(point_motion_, frequency, n_harmonics);
+    force.rows()(0, 1) -= law.load_at_rest();
+    for (std::size_t s = 0; s < shape_.size(); ++s) {
+      sum.rows() += weights_[i] * force.rows().col(static_cast<Eigen::Index>(s)) * shape_[s]->row(i);
+    }
+  }
+  if (const SleepingPart* part = sleep_.part()) {
+    sum.rows().topRows(q.rows().rows()).noalias() += q.rows() * part->stiffness;  // symmetric
+    sum.rows().row(0) += part->mean.transpose();
+  }
+  return sum;
+}
+
 CycleReport LawPatchForce::report(const Harmonics& q, double frequency) const {
   PatchMotion motion;
   motion.set(shapes_, q);

@@ -40,6 +40,9 @@ class LawPatchForce final : public ModalForce {
   [[nodiscard]] ForceAndJacobian evaluate_rows(
       const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] Harmonics force_up_to(const Harmonics& q, double frequency,
+                                int n_harmonics) const override;
+  /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
   /// Of any number of harmonics; unknown where a law does not know its linear range. See linear_proof.hpp.

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,6 +70,16 @@ class PointLaw {
   /// @param frequency  ω [rad/s]; matters to laws that depend on the slip rate.
   /// @param result     written whole; storage of the right size is used again.
   virtual void traction(const Harmonics& motion, double frequency, PointTraction& result) const = 0;
+  /// Forces alone, with harmonics that the motion does not have.
+  /// @param n_harmonics  of the result, those of the motion at least.
+  [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& motion, double frequency,
+                                        int n_harmonics) const {
+    Harmonics wide(n_harmonics, n_point_signals);
+    wide.rows().topRows(motion.rows().rows()) = motion.rows();
+    PointTraction result;
+    traction(wide, frequency, result);
+    return std::move(result.force);
+  }
   /// @param phases       instants asked for [rad], any.
   /// @param n_harmonics  of `force` in the result, ≥ 0.
   [[nodiscard]] virtual PointHistory history(const Harmonics& motion, double frequency,
