@@ -38,7 +38,8 @@ void add_speed_rate(const Eigen::VectorXd& signal, std::vector<std::complex<doub
   const auto rate = [&](int h) -> std::complex<double> {  // of x' = Σ c_h z^h
     const int k = std::abs(h);
     if (k == 0) return 0.0;
-    const std::complex<double> positive = 0.5 * k * std::complex<double>(signal[2 * k - 1], signal[2 * k]);
+    const std::complex<double> positive =
+        0.5 * k * std::complex<double>(signal[2 * k - 1], signal[2 * k]);
     return h > 0 ? positive : std::conj(positive);
   };
   for (int m = 1; m <= 2 * H; ++m) {

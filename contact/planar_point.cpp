@@ -101,8 +101,7 @@ PlanarPointInstant instant_of(const PlanarPoint& point, const PlanarPointMotion&
   const SurfaceState y = law.at(approach, speed);
   now.stiffness = point.stiffness;
   now.stiffness[1] *= y.ratio_of_stiffness;
-  now.stiffness_rate[1] =
-      point.stiffness[1] * y.ratio_of_stiffness_by_approach * motion.rate[1];
+  now.stiffness_rate[1] = point.stiffness[1] * y.ratio_of_stiffness_by_approach * motion.rate[1];
   const bool smooth = law.is_smooth();
   const bool never_apart = std::isnan(point.touch);
   now.normal = smooth ? y.gap_load : y.load;

@@ -38,9 +38,9 @@ struct RadauNodes {
   std::array<double, n_stages> node{};    ///< c_i, the last is 1
   std::array<double, n_stages> weight{};  ///< of ∫₀¹
   Eigen::Matrix<double, n_stages, n_stages + 1>
-      derivative;                              ///< D: at c_i from values at 0, c_1 … c_5
-  Eigen::Matrix<double, 1, n_stages + 1> top;  ///< share of the highest Legendre polynomial
-  Eigen::Matrix<double, 1, n_stages> tail;     ///< the same from the values at c_1 … c_5 alone
+      derivative;                                 ///< D: at c_i from values at 0, c_1 … c_5
+  Eigen::Matrix<double, 1, n_stages + 1> top;     ///< share of the highest Legendre polynomial
+  Eigen::Matrix<double, 1, n_stages> tail;        ///< the same from the values at c_1 … c_5 alone
   Eigen::Matrix<double, 1, n_stages> below_tail;  ///< and of the polynomial below it
 };
 [[nodiscard]] const RadauNodes& radau_nodes();

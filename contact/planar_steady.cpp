@@ -114,8 +114,9 @@ class FixedPoint {
     SteadyOrbit steady = iterate();
     bool stuck = !steady.orbit.slips || rests_;
     if (helped_ && (stuck || hardly_slips(steady.orbit))) {
-      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips still is
-      // the little it has not converged by. Where the march rests is told by the march alone.
+      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips
+      // still is the little it has not converged by. Where the march rests is told by the march
+      // alone.
       SteadyOrbit marched = march();
       stuck = stuck || !marched.orbit.slips;
       if (stuck) steady = std::move(marched);

@@ -15,8 +15,9 @@ namespace {
   throw std::invalid_argument(message.str());
 }
 
-// Deviations from the mean within which Gaussian heights count. φ(9)/81 = 1.3e-20: where contact begins
-// the load is nothing, of k_v s, and the share in contact 1.1e-19; on the other side 1 to the last bit.
+// Deviations from the mean within which Gaussian heights count. φ(9)/81 = 1.3e-20: where contact
+// begins the load is nothing, of k_v s, and the share in contact 1.1e-19; on the other side 1 to
+// the last bit.
 constexpr double farthest_height = 9.0;
 
 // c k, after a check that 1/k + c > 0.
@@ -173,8 +174,10 @@ std::optional<LinearRange> SurfaceLaw::linear_range() const {
     return LinearRange{{0.0, k_v, 0.0}, -k_v * kinks().front(), friction_, false};
   }
   const bool rubs = friction_.is_rate_dependent() || friction_.at_rest() > 0.0;
-  return LinearRange{{rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
-                     point_.preload, friction_};
+  return LinearRange{
+      {rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
+      point_.preload,
+      friction_};
 }
 
 std::vector<double> SurfaceLaw::kinks() const {

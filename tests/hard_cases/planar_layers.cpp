@@ -32,13 +32,13 @@ PointHistory history_of(const PlanarLaw& law, const Harmonics& motion) {
   return law.history(motion, omega, Eigen::VectorXd(), motion.n_harmonics());
 }
 
-// Where the motion is slowest μ rises to its value at rest and the point sticks; before and after, it
-// slips for a hundredth of a radian. Phases from 2²⁰ steps of implicit returns.
+// Where the motion is slowest μ rises to its value at rest and the point sticks; before and after,
+// it slips for a hundredth of a radian. Phases from 2²⁰ steps of implicit returns.
 TEST(PlanarLayers, SlipOnEitherSideOfTheSlowestPhaseIsThere) {
   Harmonics motion(1, 3);
   motion.rows() << 1.3424046010932618e-05, 0.0, 7.868121592385793e-07,  //
-      -0.004122253914124401, 0.00018716850230972857, 3.153639968678628e-05,
-      -0.0011171170710556724, 4.9701360214217237e-05, 3.9760212371149026e-05;
+      -0.004122253914124401, 0.00018716850230972857, 3.153639968678628e-05, -0.0011171170710556724,
+      4.9701360214217237e-05, 3.9760212371149026e-05;
   const double k = 40527.21635712456;
   const PlanarLaw law(
       SurfaceLaw({k, 3e4, 0.6, 10.0}, k, FrictionLaw::hyperbolic(0.6, 22.589156413277653)));
@@ -52,13 +52,13 @@ TEST(PlanarLayers, SlipOnEitherSideOfTheSlowestPhaseIsThere) {
   }
 }
 
-// Nearly rigid along r and soft along p: friction is seven digits smaller than k a. It is known to what
-// rounding of the slider, 1e-15 of k a, leaves of it.
+// Nearly rigid along r and soft along p: friction is seven digits smaller than k a. It is known to
+// what rounding of the slider, 1e-15 of k a, leaves of it.
 TEST(PlanarLayers, FrictionOfARigidPointHasTheDigitsOfItsLimit) {
   Harmonics motion(2, 3);
-  motion.rows() << 0.0, 0.0, 0.0,  //
-      -0.6152718847161129, -0.02703430124837775, -2.441485314800169,  //
-      -0.05208585127062094, -0.017530897499907556, 3.3498874178834686,  //
+  motion.rows() << 0.0, 0.0, 0.0,                                        //
+      -0.6152718847161129, -0.02703430124837775, -2.441485314800169,     //
+      -0.05208585127062094, -0.017530897499907556, 3.3498874178834686,   //
       -0.31098971643996504, 0.0069324294202068515, -1.3877872968152443,  //
       -1.303072881278316, -0.003684510100480665, -0.29346055902668244;
   const SurfaceLaw surface({0.10398449861900015, 1.0, 0.9206879295782183, 0.09346776669679172},
@@ -76,10 +76,10 @@ TEST(PlanarLayers, FrictionOfARigidPointHasTheDigitsOfItsLimit) {
 // The load has three zeros within a fortieth of the period.
 TEST(PlanarLayers, ContactLostForAMomentIsLost) {
   Harmonics motion(2, 3);
-  motion.rows() << 0.0, 0.0, 0.0,                                     //
-      0.0, -0.4481310771220178, 0.0010463607786834913,                //
-      0.0, 0.2914837927854719, -0.10539320784222622,                  //
-      0.0, -0.000405441803525197, -0.07127489093254999,               //
+  motion.rows() << 0.0, 0.0, 0.0,                        //
+      0.0, -0.4481310771220178, 0.0010463607786834913,   //
+      0.0, 0.2914837927854719, -0.10539320784222622,     //
+      0.0, -0.000405441803525197, -0.07127489093254999,  //
       0.0, 0.25997968828898527, 0.05575020670222891;
   const PlanarLaw law(SurfaceLaw({1.0, 1.0, 0.8185837886747866, -0.11038665088185172}, 1.0));
   PointTraction traction;
