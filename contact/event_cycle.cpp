@@ -4,40 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+
+#include "contact/cycle_segments.hpp"
 
 namespace microslip::contact {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
-double wrapped(double phase) {
-  const double turned = phase - two_pi * std::floor(phase / two_pi);
-  return turned >= 0.0 && turned < two_pi ? turned : 0.0;
-}
-
 // As short as the rounding of its angles, a few units in the last place of 2π: none.
 constexpr double shortest = 4e-15;
-
-void add(std::vector<CycleSegment>& segments, const CycleSegment& next) {
-  if (!segments.empty() && (segments.back().state == next.state || next.length < shortest)) {
-    segments.back().length += next.length;
-  } else if (next.length >= shortest) {
-    segments.push_back(next);
-  }
-}
-
-// Neighbours across the end of the list become one; the earliest start first.
-void close(std::vector<CycleSegment>& segments) {
-  if (segments.size() > 1 && segments.front().state == segments.back().state) {
-    segments.back().length += segments.front().length;
-    segments.erase(segments.begin());
-  }
-  const auto earliest = std::min_element(
-      segments.begin(), segments.end(),
-      [](const CycleSegment& a, const CycleSegment& b) { return a.start < b.start; });
-  std::rotate(segments.begin(), earliest, segments.end());
-}
 
 // Gauss–Legendre on [−1, 1], exact for polynomials of degree 15.
 constexpr std::array<double, 4> nodes{0.18343464249564980494, 0.52553240991632898582,
@@ -71,22 +45,20 @@ std::vector<CycleSegment> event_segments(const PointParameters& point, const Eve
   const bool has_spring = point.tangential_stiffness > 0.0;
   std::vector<CycleSegment> segments;
   for (const EventPhase& phase : phases.phases) {
-    CycleSegment segment{phase.state, wrapped(phase.begin), phase.length,
-                         phase.offset / guards.scale};
+    CycleSegment segment{phase.state, phase.begin, phase.length, phase.offset / guards.scale};
     if (!has_spring && segment.state != ContactState::separated) {
       segment.state = ContactState::stick;
     }
     if (segment.state != ContactState::stick || !has_spring || point.friction_coefficient == 0.0) {
       segment.offset = 0.0;
     }
-    add(segments, segment);
+    segments.push_back(segment);
   }
-  close(segments);
-  return segments;
+  return joined_segments(segments, shortest);
 }
 
 const CycleSegment& segment_at(const std::vector<CycleSegment>& segments, double phase) {
-  const double now = wrapped(phase);
+  const double now = wrapped_phase(phase);
   const auto after = std::find_if(segments.begin(), segments.end(),
                                   [&](const CycleSegment& s) { return s.start > now; });
   return after == segments.begin() ? segments.back() : *std::prev(after);

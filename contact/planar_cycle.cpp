@@ -10,6 +10,7 @@
 #include "contact/planar_integrals.hpp"
 #include "contact/planar_quadrature.hpp"
 #include "contact/planar_steady.hpp"
+#include "contact/scaled_point.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -21,59 +22,6 @@ CycleRegime regime_of_contact(const Intervals& intervals) {
   if (std::none_of(intervals.begin(), intervals.end(), touches)) return CycleRegime::separated;
   return std::all_of(intervals.begin(), intervals.end(), touches) ? CycleRegime::full_stick
                                                                   : CycleRegime::separation;
-}
-
-/// A point in units of force near its own forces, a power of two away from those of the caller: nothing
-/// under- or overflows on the way, and results are the same to the last bit in any such unit. Rough
-/// surfaces, which have a length of their own, are left as they are.
-struct ScaledPoint {
-  ScaledPoint(const SurfaceLaw& surface, const Harmonics& x, double omega)
-      : law(surface), motion(x), frequency(omega) {
-    if (!surface.is_smooth()) return;
-    const int exponent = exponent_of(surface, x);
-    if (exponent == 0) return;
-    const double factor = std::ldexp(1.0, -exponent);
-    unit = std::ldexp(1.0, exponent);
-    law = surface.in_units(factor);
-    motion.rows() *= factor;
-    frequency *= unit;  // speeds stay what they are
-  }
-
-  /// Of two of the largest force.
-  static int exponent_of(const SurfaceLaw& surface, const Harmonics& x) {
-    const Eigen::Index moving = x.rows().rows() - 1;
-    const auto amplitude = [&](Eigen::Index i) {
-      return x.rows().col(i).tail(moving).cwiseAbs().maxCoeff();
-    };
-    const PointParameters& point = surface.point();
-    const double load = std::max(std::abs(point.preload),
-                                 point.normal_stiffness * x.rows().col(1).cwiseAbs().maxCoeff());
-    const double force =
-        std::max({surface.first_stiffness() * amplitude(0),
-                  surface.second_stiffness() * amplitude(2), point.friction_coefficient * load});
-    constexpr int largest = 1000;  // both the factor and its inverse are normal numbers
-    if (!(force > 0.0) || !std::isfinite(force)) return 0;
-    return std::clamp(std::ilogb(force), -largest, largest);
-  }
-
-  double unit = 1.0;  ///< in those of the caller, lengths and forces alike
-  SurfaceLaw law;
-  Harmonics motion;
-  double frequency;
-};
-
-/// Back to the units of the caller.
-void count_in(double unit, PointHistory& history) {
-  history.force.rows() *= unit;
-  history.defect *= unit;
-  history.slip_distance *= unit;
-  history.dissipated_energy = history.dissipated_energy * unit * unit;
-  history.normal_slip = history.normal_slip * unit * unit;
-  for (PointInstant& instant : history.instants) {
-    instant.motion *= unit;
-    instant.traction *= unit;
-    instant.slider *= unit;
-  }
 }
 
 /// Whether the point would slide if nothing held it: μ = 0 with stiffness and tangential motion.
@@ -114,6 +62,12 @@ SteadyOrbit cycle_of(const PlanarMotion& motion, const Intervals& intervals,
     steady.regime = CycleRegime::stick_slip;
   }
   return steady;
+}
+
+/// Of an orbit, whose forces are counted in k a + max μn, for friction of the size of the smaller of both.
+double tolerance_of(const PlanarMotion& motion, double tolerance) {
+  constexpr double rounding = 1e-15;  // of a slider of order one
+  return std::max(tolerance * motion.friction_share(), rounding);
 }
 
 /// In units of force; 0 where the search met its tolerance or has nothing left to do.
@@ -162,11 +116,11 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
-  const OrbitOptions options{tolerance_, static_cast<double>(H)};
+  const OrbitOptions options{tolerance_of(planar, tolerance_), static_cast<double>(H)};
   const SteadyOrbit steady = cycle_of(planar, intervals, options);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
-  result.defect = defect_of(planar, steady, tolerance_) * point.unit;
+  result.defect = defect_of(planar, steady, options.tolerance) * point.unit;
   result.force = planar_force(planar, intervals, steady.orbit, H);
   result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
@@ -194,10 +148,11 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   const PlanarMotion planar(point.law, point.motion, point.frequency);
   const Intervals intervals = planar_intervals(planar);
   const double highest = std::max(n_harmonics, motion.n_harmonics());
-  const SteadyOrbit steady = cycle_of(planar, intervals, {tolerance_, highest});
+  const OrbitOptions options{tolerance_of(planar, tolerance_), highest};
+  const SteadyOrbit steady = cycle_of(planar, intervals, options);
   PointHistory result;
   result.regime = steady.regime;
-  result.defect = defect_of(planar, steady, tolerance_);
+  result.defect = defect_of(planar, steady, options.tolerance);
   result.segments = planar_segments(steady.orbit);
   result.force = planar_force(planar, intervals, steady.orbit, n_harmonics);
   if (planar.has_friction()) {
@@ -212,7 +167,7 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   for (const double phase : phases) {
     result.instants.push_back(planar_instant(planar, steady.orbit, phase));
   }
-  count_in(point.unit, result);
+  point.count_back(result);
   return result;
 }
 

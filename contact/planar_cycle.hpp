@@ -29,8 +29,9 @@ class PlanarLaw final : public PointLaw {
   /// Small enough that Newton's method on a structure converges to the accuracy of its own tolerances.
   static constexpr double default_tolerance = 1e-9;
 
-  /// @param tolerance  of force coefficients, relative to the force scale k a + max μn of the cycle;
-  ///                   1e-13 to 1e-2. Cost doubles at most from 1e-6 to 1e-10.
+  /// @param tolerance  of force coefficients, relative to twice the smaller of k a and max μn, both summed
+  ///                   over directions and harmonics; 1e-13 to 1e-2. Rounding leaves 1e-14 of the larger.
+  ///                   Cost doubles at most from 1e-6 to 1e-10.
   /// @throws std::invalid_argument  tolerance out of its range.
   explicit PlanarLaw(SurfaceLaw law, double tolerance = default_tolerance);
 

@@ -1,19 +1,11 @@
 #include "contact/planar_history.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "contact/cycle_segments.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
-/// In [0, 2π).
-double wrapped(double phase) {
-  const double turn = phase - two_pi * std::floor(phase / two_pi);
-  return turn < two_pi ? turn : 0.0;
-}
 
 const PlanarPiece& piece_at(const PlanarOrbit& orbit, double phase) {
   const auto covers = [phase](const PlanarPiece& piece) {
@@ -41,31 +33,17 @@ Eigen::Vector2d slider_at(const PlanarMotion& motion, const PlanarPiece& piece, 
 }  // namespace
 
 std::vector<CycleSegment> planar_segments(const PlanarOrbit& orbit) {
-  std::vector<CycleSegment> segments;
-  constexpr double shortest = 1e-11;  // the shortest step of a walk
+  std::vector<CycleSegment> phases;
   for (const PlanarPiece& piece : orbit.pieces) {
-    const double length = piece.end - piece.begin;
-    if (!segments.empty() && (segments.back().state == piece.state || length <= shortest)) {
-      segments.back().length += length;
-    } else if (length > shortest) {
-      segments.push_back({piece.state, wrapped(piece.begin), length, 0.0});
-    }
+    phases.push_back({piece.state, piece.begin, piece.end - piece.begin, 0.0});
   }
-  if (segments.size() > 1 && segments.front().state == segments.back().state) {
-    segments.back().length += segments.front().length;
-    segments.erase(segments.begin());
-  }
-  const auto earlier = [](const CycleSegment& a, const CycleSegment& b) {
-    return a.start < b.start;
-  };
-  std::rotate(segments.begin(), std::min_element(segments.begin(), segments.end(), earlier),
-              segments.end());
-  return segments;
+  constexpr double shortest = 1e-11;  // the shortest step of a walk
+  return joined_segments(phases, shortest);
 }
 
 PointInstant planar_instant(const PlanarMotion& motion, const PlanarOrbit& orbit, double phase) {
   const double begin = orbit.pieces.front().begin;
-  const double turn = begin + wrapped(phase - begin);
+  const double turn = begin + wrapped_phase(phase - begin);
   const PlanarPiece& piece = piece_at(orbit, turn);
   const PlanarInstant now = motion.at(turn);
   const Eigen::VectorXd signals = motion.harmonics().at(phase);

@@ -2,8 +2,8 @@
 /// The period of a planar cycle cut where the load, and with it the limit of friction, has a kink:
 /// touch-down, lift-off and the kinks of a rough law. None of this depends on the slider.
 ///
-/// Crossings of v(θ) with a kink are found from samples, 24 per harmonic, and from the extremum inside a
-/// cell whose ends lie on the same side, so that two crossings in one cell are not missed.
+/// Crossings of v(θ) with a kink are sign changes of a trigonometric polynomial (sign_changes.hpp): none is
+/// missed. Instants are 24 per harmonic, and ever closer where the load nearly vanishes.
 ///
 /// Source: theory sections 3, 8.
 #pragma once

@@ -67,11 +67,13 @@ void PlanarMotion::set_scales() {
   for (int i = 0; i < n_samples; ++i) {
     radius = std::max(radius, at(2.0 * std::numbers::pi * i / n_samples).radius);
   }
-  const double scale = radius + k.cwiseProduct(amplitude).sum();
+  const double spring = k.cwiseProduct(amplitude).sum();
+  const double scale = radius + spring;
   // Below this, products of scaled numbers would be subnormal; the force is zero to 1e-290.
   constexpr double smallest = 1e-290;
   force_scale_ = scale > smallest && std::isfinite(scale) ? scale : 0.0;
   if (force_scale_ == 0.0) return;
+  friction_share_ = 2.0 * std::min(radius, spring) / scale;
   length_scale_ = force_scale_ / largest;
   active_ = (k.array() > 0.0).cast<double>();
   stiffness_ = (k.array() > 0.0).select(k / largest, 1.0);
@@ -114,6 +116,9 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   PlanarInstant now = at(phase);
   if (nudge == 0.0) return now;
   const PlanarInstant beside = at(phase + nudge);
+  // The radius of Gaussian heights is not zero where contact begins, nor is it on both sides.
+  const bool jumps = now.radius == 0.0 && !law_.is_smooth();
+  if (jumps) now.radius = std::max(0.0, beside.radius - nudge * beside.radius_rate);
   now.radius_rate = beside.radius_rate;
   now.radius_by_approach = beside.radius_by_approach;
   now.stiffness_rate = beside.stiffness_rate;
@@ -128,12 +133,8 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   return now;
 }
 
-double PlanarMotion::approach(double phase) const {
-  return harmonics_.mean()[1] + signals(harmonics_, phase).value[1];
-}
-
-double PlanarMotion::approach_rate(double phase) const {
-  return signals(harmonics_, phase).rate[1];
+Eigen::Vector2d PlanarMotion::tangential_acceleration(double phase) const {
+  return tangential(signals(harmonics_, phase).second);
 }
 
 Eigen::Vector2d PlanarMotion::virgin_slider() const {

@@ -68,12 +68,14 @@ class PlanarMotion {
   /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where the
   /// law has a kink.
   [[nodiscard]] PlanarInstant at(double phase, double nudge) const;
-  [[nodiscard]] double approach(double phase) const;
-  [[nodiscard]] double approach_rate(double phase) const;
+  /// x'' of both directions, whether they carry friction or not [m].
+  [[nodiscard]] Eigen::Vector2d tangential_acceleration(double phase) const;
 
   /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
   [[nodiscard]] double force_scale() const { return force_scale_; }    ///< F₀ [Pa]
+  /// Twice the smaller of k a and max μn/g, / F₀: the size of friction, at most 1; 0 without friction.
+  [[nodiscard]] double friction_share() const { return friction_share_; }
   [[nodiscard]] double length_scale() const { return length_scale_; }  ///< L₀ [m]
   /// K₀ L₀/F₀, diagonal, both > 0: of full contact, a measure of lengths as forces.
   [[nodiscard]] const Eigen::Vector2d& stiffness() const { return stiffness_; }
@@ -93,6 +95,7 @@ class PlanarMotion {
   const Harmonics& harmonics_;
   double frequency_;
   double force_scale_ = 0.0;
+  double friction_share_ = 0.0;
   double length_scale_ = 1.0;
   Eigen::Vector2d stiffness_ = Eigen::Vector2d::Ones();
   Eigen::Vector2d active_ = Eigen::Vector2d::Ones();

@@ -44,6 +44,7 @@ class Walk {
  public:
   Walk(const PlanarMotion& motion, const OrbitOptions& options, PlanarOrbit& orbit)
       : motion_(motion),
+        tolerance_(options.tolerance),
         allowed_(allowed_top_term(options.tolerance)),
         longest_(longest_step_length(options)),
         next_length_(std::min(0.6 / motion.n_harmonics(), longest_)),
@@ -98,6 +99,9 @@ class Walk {
     if (interval_->touches_down || (!first && now.radius <= stick_slack)) {
       slider_ = now.position;
       entry_ = PlanarEntry::touch_down;
+      // Gaussian heights begin to touch with a load of nothing, but not with a radius of nothing.
+      slipping_ = false;
+      if (now.radius > stick_slack) return;
       const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
       slipping_ = pull.norm() > now.radius_rate;
       if (slipping_) heading_ = returned_force(pull, now.stiffness, now.radius_rate);
@@ -167,15 +171,32 @@ class Walk {
     return found <= left.phase ? found : breach_between(right, high);
   }
 
+  /// Whether the cubic through two guards and their rates comes closer to 0 than half of what it varies by:
+  /// then a peak between them may pass it.
+  static bool may_peak(const Guard& a, const Guard& b, double length) {
+    const auto [low, high] = std::minmax(
+        {a.value, a.value + a.rate * length / 3.0, b.value - b.rate * length / 3.0, b.value});
+    return high > 0.5 * (low - high);
+  }
+
   /// The same where the force has no minimum inside.
-  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high) const {
+  /// @param depth  how often the cell may be halved.
+  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high,
+                                      int depth = 5) const {
     const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
     const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
     const Guard before = guard(low);
     const Guard after = guard(high);
+    const bool peaks = before.rate > 0.0 && after.rate < 0.0;
+    if (after.value <= stick_slack && !peaks && depth > 0 &&
+        may_peak(before, after, high.phase - low.phase)) {
+      const PlanarInstant middle = motion_.at(0.5 * (low.phase + high.phase));
+      const double found = breach_between(low, middle, depth - 1);
+      return found <= middle.phase ? found : breach_between(middle, high, depth - 1);
+    }
     double end = high.phase;
     double value = after.value - stick_slack;
-    if (value <= 0.0 && before.rate > 0.0 && after.rate < 0.0) {
+    if (value <= 0.0 && peaks) {
       const auto rate = [&](double phase) { return guard(motion_.at(phase)).rate; };
       end = bracketed_root(rate, low.phase, end, before.rate, after.rate);
       value = excess(end);
@@ -215,6 +236,13 @@ class Walk {
     return solve_slip(motion_, last ? -interval_->nudge() : 0.0, step, before);
   }
 
+  /// How much longer a step may be.
+  [[nodiscard]] double growth_of(const SlipStep& step) const {
+    const double by_top = std::pow(allowed_ / std::max(step.top_term, 1e-300), 0.2);
+    if (step.rest <= tolerance_) return 0.9 * by_top;
+    return 0.9 * std::min(by_top, std::pow(tolerance_ / step.rest, 1.0 / 9.0));
+  }
+
   /// The longest step from here within the tolerance.
   SlipStep longest_step() {
     SlipStep step;
@@ -223,9 +251,9 @@ class Walk {
     if (length < left && length > 0.6 * left) length = 0.6 * left;
     for (;;) {
       const bool solved = solve(step, length) && turns_slowly(step);
-      const double factor =
-          solved ? 0.9 * std::pow(allowed_ / std::max(step.top_term, 1e-300), 0.2) : 0.25;
-      if ((solved && step.top_term <= allowed_) || length <= shortest_step) {
+      const double factor = solved ? growth_of(step) : 0.25;
+      const bool good = solved && step.top_term <= allowed_ && step.rest <= tolerance_;
+      if (good || length <= shortest_step) {
         next_length_ = std::min(longest_, length * std::clamp(factor, 0.3, 4.0));
         return step;
       }
@@ -331,6 +359,7 @@ class Walk {
   }
 
   const PlanarMotion& motion_;
+  double tolerance_;
   double allowed_;
   double longest_;
   double next_length_;

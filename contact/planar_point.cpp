@@ -81,8 +81,8 @@ PlanarPoint::PlanarPoint(const SurfaceLaw& surface, double tangential, double no
   active = (k.array() > 0.0).cast<double>();
   rubs = slides && (k.array() > 0.0).any();
   const std::vector<double> kinks = surface.kinks();
-  touch = kinks.empty() ? surface.vanishing_approach() : kinks.front();
-  if (std::isnan(touch)) return;
+  if (kinks.empty()) return;
+  touch = kinks.front();
   load_size = std::max(load_size, surface.point().normal_stiffness * std::abs(touch));
 }
 
@@ -101,8 +101,7 @@ PlanarPointInstant instant_of(const PlanarPoint& point, const PlanarPointMotion&
   const SurfaceState y = law.at(approach, speed);
   now.stiffness = point.stiffness;
   now.stiffness[1] *= y.ratio_of_stiffness;
-  now.stiffness_rate[1] =
-      point.stiffness[1] * y.ratio_of_stiffness_by_approach * motion.rate[1];
+  now.stiffness_rate[1] = point.stiffness[1] * y.ratio_of_stiffness_by_approach * motion.rate[1];
   const bool smooth = law.is_smooth();
   const bool never_apart = std::isnan(point.touch);
   now.normal = smooth ? y.gap_load : y.load;

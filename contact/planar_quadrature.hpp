@@ -16,11 +16,13 @@ namespace microslip::contact {
 
 inline constexpr int n_gauss = 8;
 
-/// On [−1, 1], with the share of the highest Legendre polynomial, degree 7.
+/// On [−1, 1], with the shares of the highest Legendre polynomials, degree 7 and 6: one of them may vanish
+/// by symmetry.
 struct GaussNodes {
   std::array<double, n_gauss> node{};
   std::array<double, n_gauss> weight{};
   std::array<double, n_gauss> top{};
+  std::array<double, n_gauss> second{};
 };
 [[nodiscard]] const GaussNodes& gauss_nodes();
 
@@ -36,22 +38,22 @@ void visit_panel(const PlanarMotion& motion, double begin, double end, int depth
   const GaussNodes& rule = gauss_nodes();
   std::array<PlanarInstant, n_gauss> instant;
   const double half = 0.5 * (end - begin);
-  double load = 0.0;
-  double ratio = 0.0;
-  double second = 0.0;
+  Eigen::Vector3d top = Eigen::Vector3d::Zero();  // of load and stiffness ratios
+  Eigen::Vector3d below = Eigen::Vector3d::Zero();
   double size = 0.0;
   for (std::size_t i = 0; i < instant.size(); ++i) {
     instant[i] = motion.at(0.5 * (begin + end) + half * rule.node[i]);
-    load += rule.top[i] * instant[i].surface.load;
-    ratio += rule.top[i] * instant[i].surface.stiffness_ratio;
-    second += rule.top[i] * instant[i].surface.second_stiffness_ratio;
-    size = std::max(size, instant[i].surface.load);
+    const SurfaceState& y = instant[i].surface;
+    const Eigen::Vector3d value(y.load, y.stiffness_ratio, y.second_stiffness_ratio);
+    top += rule.top[i] * value;
+    below += rule.second[i] * value;
+    size = std::max(size, y.load);
   }
-  // The rule is exact to degree 15: what is left out is about the square of the term of degree 7.
+  // The rule is exact to degree 15: what is left out is about the square of these terms.
   constexpr double resolved = 1e-7;
   const bool rough = !motion.law().is_smooth();
-  const double largest = std::max(std::abs(ratio), std::abs(second));
-  if (rough && depth > 0 && (std::abs(load) > resolved * size || largest > resolved)) {
+  const Eigen::Vector3d left = top.cwiseAbs().cwiseMax(below.cwiseAbs());
+  if (rough && depth > 0 && (left[0] > resolved * size || left.tail<2>().maxCoeff() > resolved)) {
     visit_panel(motion, begin, begin + half, depth - 1, visit);
     visit_panel(motion, begin + half, end, depth - 1, visit);
     return;

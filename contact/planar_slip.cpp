@@ -64,6 +64,19 @@ StepPoints with_begin(const Points<n_stages>& node) {
   return x;
 }
 
+/// Share of the Legendre polynomial of degree n − 2 in a polynomial through n points.
+template <std::size_t N>
+Eigen::Matrix<double, 1, static_cast<int>(N)> share_below_top(const Points<N>& point) {
+  constexpr int n = static_cast<int>(N);
+  Eigen::Matrix<double, n, n> values;
+  for (int i = 0; i < n; ++i) {
+    const double x = 2.0 * point[static_cast<std::size_t>(i)] - 1.0;
+    values(i, 0) = 1.0;
+    for (int k = 1; k < n; ++k) values(i, k) = legendre(k, x)[1];
+  }
+  return values.inverse().row(n - 2);
+}
+
 RadauNodes make_nodes() {
   RadauNodes rule;
   const Points<n_stages> x = radau_points();
@@ -93,6 +106,7 @@ RadauNodes make_nodes() {
     rule.top[j] = w[static_cast<std::size_t>(j)] / of_degree_five;
     if (j < n_stages) rule.tail[j] = w_inner[static_cast<std::size_t>(j)] / of_degree_four;
   }
+  rule.below_tail = share_below_top(rule.node);
   return rule;
 }
 
@@ -235,6 +249,25 @@ bool iterate(SlipStep& step) {
   return false;
 }
 
+/// Of the coefficient of friction, as a force: c₄ (c₄/c₃)⁵.
+double rest_of(const PlanarMotion& motion, const SlipStep& step) {
+  if (!motion.law().is_rate_dependent()) return 0.0;
+  const RadauNodes& rule = radau_nodes();
+  double fourth = 0.0;
+  double third = 0.0;
+  double load = 0.0;
+  for (int j = 0; j < n_stages; ++j) {
+    const PlanarInstant& now = step.instant[static_cast<std::size_t>(j)];
+    const double mu = now.surface.friction_coefficient;
+    fourth += rule.tail[j] * mu;
+    third += rule.below_tail[j] * mu;
+    if (mu > 0.0) load = std::max(load, now.radius * now.surface.stiffness_ratio / mu);
+  }
+  const double c4 = std::abs(fourth);
+  const double ratio = c4 < std::abs(third) ? c4 / std::abs(third) : 1.0;
+  return load * c4 * std::pow(ratio, 5.0);
+}
+
 /// Of the slider and, where the stiffness varies with the load, of the limit of friction.
 double top_term(const PlanarMotion& motion, const SlipStep& step) {
   const RadauNodes& rule = radau_nodes();
@@ -302,6 +335,7 @@ bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
     set_factor(step);
   }
   step.top_term = top_term(motion, step);
+  step.rest = rest_of(motion, step);
   return converged;
 }
 

@@ -38,9 +38,10 @@ struct RadauNodes {
   std::array<double, n_stages> node{};    ///< c_i, the last is 1
   std::array<double, n_stages> weight{};  ///< of ∫₀¹
   Eigen::Matrix<double, n_stages, n_stages + 1>
-      derivative;                              ///< D: at c_i from values at 0, c_1 … c_5
-  Eigen::Matrix<double, 1, n_stages + 1> top;  ///< share of the highest Legendre polynomial
-  Eigen::Matrix<double, 1, n_stages> tail;     ///< the same from the values at c_1 … c_5 alone
+      derivative;                                 ///< D: at c_i from values at 0, c_1 … c_5
+  Eigen::Matrix<double, 1, n_stages + 1> top;     ///< share of the highest Legendre polynomial
+  Eigen::Matrix<double, 1, n_stages> tail;        ///< the same from the values at c_1 … c_5 alone
+  Eigen::Matrix<double, 1, n_stages> below_tail;  ///< and of the polynomial below it
 };
 [[nodiscard]] const RadauNodes& radau_nodes();
 
@@ -63,6 +64,9 @@ struct SlipStep {
   Eigen::Matrix<double, 2, n_stages> travel;     ///< length · s'(c_i), along e
   Eigen::PartialPivLU<Eigen::Matrix<double, n_stages, n_stages>> factor;  ///< of ∂(2)/∂α
   double top_term = 0.0;  ///< size of the highest polynomial in f / F₀
+  /// What a rule of order nine leaves of a coefficient of friction whose polynomials go on falling as the
+  /// last two, in f / F₀: much where a step ends in a layer of the rate. 0 for a constant coefficient.
+  double rest = 0.0;
 
   [[nodiscard]] Eigen::Vector2d end_slider() const { return stage.col(n_stages - 1); }
   [[nodiscard]] double end() const { return begin + length; }

@@ -44,16 +44,34 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
-/// Way of the slider in a period, as a force.
-double slip_way(const PlanarMotion& motion, const PlanarOrbit& orbit) {
-  double way = 0.0;
+/// What a period does to the slider, summed over its slip: of little slip this has all digits, which the
+/// difference of two positions has not.
+struct PeriodMove {
+  Vector2d change = Vector2d::Zero();
+  double path = 0.0;
+};
+
+PeriodMove period_move(const PlanarOrbit& orbit) {
+  const RadauNodes& rule = radau_nodes();
+  PeriodMove move;
   for (const PlanarPiece& piece : orbit.pieces) {
-    if (piece.entry == PlanarEntry::returned) way += force_of(motion, piece.slider - piece.before);
+    if (piece.entry == PlanarEntry::returned) {
+      move.change += piece.slider - piece.before;
+      move.path += (piece.slider - piece.before).norm();
+    }
     for (const SlipStep& step : piece.steps) {
-      way += force_of(motion, step.end_slider() - step.slider);
+      for (int i = 0; i < n_stages; ++i) {
+        const double way = step.length * rule.weight[static_cast<std::size_t>(i)] * step.rate(i);
+        move.change += way * step.direction.col(i);
+        move.path += std::abs(way);
+      }
     }
   }
-  return way;
+  // Of much slip the steps know the end to their tolerance and no better, and the difference is as
+  // good.
+  constexpr double little = 1e-3;
+  if (move.path > little) move.change = orbit.end - orbit.begin;
+  return move;
 }
 
 /// Phases at which slip ends, once for every window of the period that pushes the slider.
@@ -94,10 +112,11 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    bool stuck = !steady.orbit.slips;
-    if (helped_ && slip_way(motion_, steady.orbit) <= hardly_any) {
-      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips still is
-      // the little it has not converged by. Where the march rests is told by the march alone.
+    bool stuck = !steady.orbit.slips || rests_;
+    if (helped_ && (stuck || hardly_slips(steady.orbit))) {
+      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips
+      // still is the little it has not converged by. Where the march rests is told by the march
+      // alone.
       SteadyOrbit marched = march();
       stuck = stuck || !marched.orbit.slips;
       if (stuck) steady = std::move(marched);
@@ -107,6 +126,10 @@ class FixedPoint {
   }
 
  private:
+  [[nodiscard]] bool hardly_slips(const PlanarOrbit& orbit) const {
+    return force_of(motion_, Vector2d::Constant(period_move(orbit).path)) <= hardly_any;
+  }
+
   SteadyOrbit iterate() {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
@@ -119,13 +142,17 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
       steady.closes = true;
+      rests_ = false;
       if (!steady.orbit.slips) break;
       if (period + 1 == patience && rest_in_corner(steady)) break;
-      const Vector2d moved = steady.orbit.end - slider;
-      const Vector2d newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved);
+      const PeriodMove moved = period_move(steady.orbit);
+      const Vector2d newton =
+          solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
       steady.defect = force_of(motion_, newton);
-      const double size = force_of(motion_, moved);
-      steady.closes = size <= rounding;
+      const double size = force_of(motion_, moved.change);
+      const double path = force_of(motion_, Vector2d::Constant(moved.path));
+      rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
+      steady.closes = rests_ || size <= rounding * std::min(1.0, 1e3 * path);
       if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
@@ -185,6 +212,7 @@ class FixedPoint {
   const std::vector<PlanarInterval>& intervals_;
   const OrbitOptions& options_;
   bool helped_ = false;
+  bool rests_ = false;  // the last period slipped by no more than rounding
 };
 
 bool any_contact(const std::vector<PlanarInterval>& intervals) {

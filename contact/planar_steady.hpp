@@ -7,6 +7,9 @@
 ///
 ///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while these steps or the moves Φ(s) − s shrink, else s ← Φ(s)  (1)
 ///
+/// Φ(s) − s is summed from the slip of the period, not from two positions: near the onset of slip I − M is
+/// as small as that slip, and both keep their digits.
+///
 /// The size of the step in (1) estimates the distance from the fixed point; it judges and ends the
 /// iteration. What a point that ends up stuck throughout reaches is history: the virgin slider pushed into
 /// the ellipses of all phases (theory sections 4.2, 9). It is marched without help, except where two
@@ -30,8 +33,8 @@ struct SteadyOrbit {
       history;  ///< full stick: periods before the last, from the virgin slider; none at a corner
   std::optional<SliderCorner> corner;  ///< full stick: the corner the slider was pushed into
   double defect = 0.0;                 ///< estimated distance from the fixed point, in f / F₀
-  /// Whether the period ends where it began to the last bits: nothing is left to iterate, however ill
-  /// the fixed point is determined.
+  /// Whether the period ends where it began to the last bits of its slip, or slips by rounding alone: nothing
+  /// is left to iterate, however ill the fixed point is determined.
   bool closes = true;
 };
 

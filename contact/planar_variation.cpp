@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -80,8 +81,13 @@ void OrbitVariation::carry_and_integrate(const PlanarOrbit& orbit) {
 }
 
 void OrbitVariation::pass(const PlanarOrbit& orbit) {
+  const PlanarPiece* before = nullptr;
   for (const PlanarPiece& piece : orbit.pieces) {
+    const PlanarPiece* last = std::exchange(before, &piece);
     if (piece.state == ContactState::separated) continue;
+    const bool stops =
+        piece.state == ContactState::stick && last != nullptr && !last->steps.empty();
+    if (stops) stop_at_turn(last->steps.back());
     if (piece.entry == PlanarEntry::touch_down) {
       touch_down(piece);
     } else if (piece.state == ContactState::slip) {
@@ -126,6 +132,24 @@ void OrbitVariation::touch_down(const PlanarPiece& piece) {
   }
   for (Index j = 0; j < basis_.size(); ++j) {
     slider_.col(3 * j + 1) -= moved * (basis_[j] / now.approach_rate);
+  }
+}
+
+void OrbitVariation::stop_at_turn(const SlipStep& slip) {
+  const PlanarInstant& now = slip.instant[n_stages - 1];
+  const double rate = slip.rate(n_stages - 1);
+  constexpr double stopped = 1e-9;  // slip that ends by itself has no rate left
+  if (n_parameters_ == 0 || !motion_.law().is_rate_dependent() || rate <= stopped) return;
+  const Vector2d acceleration = motion_.tangential_acceleration(now.phase);
+  const double square = acceleration.squaredNorm();
+  constexpr double standing = 1e-7;  // beside its acceleration: nearer to 0 than events are located
+  if (!(square > 0.0) || now.speed > standing * std::sqrt(square)) return;
+  trigonometric_basis(motion_.n_harmonics(), now.phase, basis_);
+  basis_rate(basis_, basis_rate_);
+  const Vector2d moved = rate * slip.direction.col(n_stages - 1);
+  for (Index k = 1; k < basis_.size(); ++k) {
+    slider_.col(3 * k) -= moved * (acceleration[0] * basis_rate_[k] / square);
+    slider_.col(3 * k + 2) -= moved * (acceleration[1] * basis_rate_[k] / square);
   }
 }
 

@@ -8,7 +8,8 @@
 ///   stick        δs constant
 ///   slip         the linearised collocation, with its factor at the solution
 ///   slip begins, or the law has a kink: δs moves along e until it is tangent to the ellipse
-///   slip ends    δs unchanged, since s' = 0 there
+///   slip ends    δs unchanged, since s' = 0 there; where the motion along a line turns back and μ rises with
+///                the rate, slip stops at a kink: δs + ρe δθ, δθ = −x''·δx'/|x''|²
 ///   touch-down   δs = δx + (x' − ρe) δθ₂,  δθ₂ = −δv/v'   (ρ = 0 into stick)
 ///
 /// Source: theory sections 6, 9.
@@ -54,6 +55,8 @@ class OrbitVariation {
   void pass(const PlanarOrbit& orbit);
   void set_parameters(const PlanarInstant& now);
   void touch_down(const PlanarPiece& piece);
+  /// Where slip stops because x' = 0.
+  void stop_at_turn(const SlipStep& slip);
   void begin_slip(const PlanarPiece& piece);
   void step(const SlipStep& step);
   void integrate_stick(const PlanarPiece& piece);

@@ -17,6 +17,9 @@
 /// n₀'(1/k_v + c_v), the same gap as between smooth surfaces of the same stiffness, counted to the first
 /// touch of (2) in rough_surface.hpp. R → 0 returns smooth contact.
 ///
+/// Gaussian heights have no first touch. Here they end nine deviations from their mean (theory section 11):
+/// farther apart the surfaces are separated, and the load begins with 1e-20 of k_v times the deviation.
+///
 /// Source: theory sections 2, 3, 10, 11, 14.
 #pragma once
 
@@ -35,7 +38,8 @@ struct SurfaceState {
   double load = 0.0;              ///< n [Pa]
   double load_by_approach = 0.0;  ///< dn/dv [N/m³]; 0 where separated
   /// `load` in contact, where separated what smooth surfaces of the same stiffness would pull [Pa]:
-  /// negative. Rough surfaces start with u³: find their touch-down by kinks(), not by the size of this.
+  /// negative. Rough surfaces start with u³, or less: find their touch-down by kinks(), not by the size
+  /// of this.
   double gap_load = 0.0;
   double stiffness_ratio = 1.0;               ///< g_p [-]
   double stiffness_ratio_by_approach = 0.0;   ///< dg_p/dv [1/m]
@@ -96,21 +100,17 @@ class SurfaceLaw {
   [[nodiscard]] double first_stiffness() const { return point_.tangential_stiffness; }
   /// k_w, likewise [N/m³].
   [[nodiscard]] double second_stiffness() const { return second_stiffness_; }
-  /// n_ref = N(0) [Pa]. Gaussian heights over a gap: the little they carry there.
+  /// n_ref = N(0) [Pa]. Gaussian heights over a gap: the little they carry there, if any.
   [[nodiscard]] double load_at_rest() const { return load_at_rest_; }
   /// Whether μ depends on σ: then forces depend on ω.
   [[nodiscard]] bool is_rate_dependent() const { return friction_.is_rate_dependent(); }
   /// Whether g is 1 and N is piecewise linear.
   [[nodiscard]] bool is_smooth() const { return !roughness_.has_value(); }
-  /// Where (1) is linear. Rough surfaces: only where open, Gaussian ones nowhere.
+  /// Where (1) is linear. Rough surfaces: only where open.
   [[nodiscard]] std::optional<LinearRange> linear_range() const;
-  /// Approaches at which (1) has a kink: where contact begins, and where cubic heights are all in
-  /// contact [m]; ascending, none for Gaussian heights.
+  /// Approaches at which (1) has a kink: where contact begins, and where rough surfaces are all in
+  /// contact [m]; ascending.
   [[nodiscard]] std::vector<double> kinks() const;
-  /// Gaussian heights: the approach nine deviations before the mean height, where what still touches carries
-  /// 1e-20 of k_v times a deviation, less than rounding: nearer to it a point is as good as separated, and
-  /// farther off its load leaves the range of numbers. NaN for other surfaces, which kinks() tells. [m]
-  [[nodiscard]] double vanishing_approach() const;
   /// Smooth surfaces of the same stiffness, bodies included, μ that of rest.
   [[nodiscard]] const PointParameters& point() const { return point_; }
   [[nodiscard]] const FrictionLaw& friction() const { return friction_; }
@@ -132,6 +132,7 @@ class SurfaceLaw {
   double first_ratio_ = 0.0;       // c_u k_T of (3) along p, > −1
   double second_ratio_ = 0.0;      // along r
   double rest_ = 0.0;              // v_rest of (2) [m]
+  double first_touch_ = 0.0;       // v + v_rest where contact begins [m]
   double load_at_rest_ = 0.0;
 };
 

@@ -19,7 +19,7 @@
 #include "contact/patch_transient.hpp"
 #include "contact/planar_cycle.hpp"
 #include "contact/planar_transient.hpp"
-#include "contact/sampled_cycle.hpp"
+#include "contact/surface_event_law.hpp"
 #include "pipelines/patch_fields.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -230,7 +230,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
     if (effects.second_direction) {
       laws.push_back(std::make_shared<contact::PlanarLaw>(surface, planar_tolerance));
     } else {
-      laws.push_back(std::make_shared<contact::SampledLaw>(surface));
+      laws.push_back(std::make_shared<contact::SurfaceEventLaw>(surface));
     }
   }
   return laws;

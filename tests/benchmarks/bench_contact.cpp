@@ -16,6 +16,7 @@
 #include "contact/patch_force.hpp"
 #include "contact/point_motions.hpp"
 #include "contact/sampled_cycle.hpp"
+#include "contact/surface_event_law.hpp"
 
 #include "contact/preload_equilibrium.hpp"
 #include "contact/surface_law.hpp"
@@ -80,8 +81,14 @@ void patch_force(benchmark::State& state) {
   count_points(state, static_cast<std::size_t>(state.range(0)));
 }
 BENCHMARK(patch_force)->Arg(30)->Arg(300)->Arg(3000)->Arg(30000);
-// Patches side by side, as curves of a family are: the time per point of two against one is the gain.
-BENCHMARK(patch_force)->Name("patch_force_side_by_side")->Arg(3000)->Threads(1)->Threads(2)->UseRealTime();
+// Patches side by side, as curves of a family are: the time per point of two against one is the
+// gain.
+BENCHMARK(patch_force)
+    ->Name("patch_force_side_by_side")
+    ->Arg(3000)
+    ->Threads(1)
+    ->Threads(2)
+    ->UseRealTime();
 
 void cycles_only(benchmark::State& state) {
   const Setup s = setup(state.range(0));
@@ -217,6 +224,37 @@ void sampled_law(benchmark::State& state) {
   count_errors(state, s, n_samples);
 }
 BENCHMARK(sampled_law)->Args({1, 128})->Args({3, 128})->Args({5, 128})->Args({3, 512});
+
+// Surfaces without a closed form, events located exactly. Harmonics.
+void surface_event_law(benchmark::State& state, const FrictionLaw& friction,
+                       const std::optional<RoughSurface>& roughness) {
+  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
+  PointTraction result;
+  std::vector<SurfaceLaw> surfaces;
+  for (const PointParameters& point : s.points) {
+    surfaces.emplace_back(point, 0.0, friction, roughness);
+  }
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      SurfaceEventLaw(surfaces[i]).traction(s.motions[i], 1000.0, result);
+      benchmark::DoNotOptimize(result.jacobian.data());
+    }
+  }
+  count_points(state, s.points.size());
+}
+BENCHMARK_CAPTURE(surface_event_law, rate, FrictionLaw::exponential(0.4, 0.3, 500.0), std::nullopt)
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(5);
+BENCHMARK_CAPTURE(surface_event_law, cubic, FrictionLaw::constant(0.4), RoughSurface::cubic(2e-6))
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(5);
+BENCHMARK_CAPTURE(surface_event_law, gaussian, FrictionLaw::constant(0.4),
+                  RoughSurface::matching_gaussian(2e-6))
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(5);
 
 // One call of a surface law, approaches that sweep from separation through the heights to full
 // contact; with bodies in series an equation is solved in every call.

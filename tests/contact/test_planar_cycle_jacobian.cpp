@@ -1,7 +1,9 @@
 // Derivatives of the converged planar cycle against central differences of the forces.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +92,43 @@ TEST(PlanarLawJacobian, OfARateDependentCoefficientMeetsDifferences) {
           (faster.force.vector() - slower.force.vector()) / (2.0 * step);
       EXPECT_GT(expected.norm(), 1e-3);
       EXPECT_LT((expected - traction.frequency_derivative).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+}
+
+// Along a line the speed passes zero. A coefficient that rises with it leaves the slider there, at
+// a kink that moves with the motion.
+TEST(PlanarLawJacobian, OfACoefficientThatRisesWithTheRateMeetsDifferencesAlongALine) {
+  for (const double angle : {0.0, 0.5 * std::numbers::pi, 0.7}) {
+    Harmonics motion(2, 3);
+    motion.rows().col(1) << 0.0, 0.2, 0.3, 0.05, 0.1;
+    const Eigen::VectorXd way = (Eigen::VectorXd(5) << 0.0, 1.0, 0.2, 0.1, -0.1).finished();
+    motion.rows().col(0) = std::cos(angle) * way;
+    motion.rows().col(2) = std::sin(angle) * way;
+    const PlanarLaw law(
+        SurfaceLaw({1.0, 0.5, 0.3, 1.0}, 1.0, FrictionLaw::exponential(0.3, 0.9, 2.0)), tight);
+    PointTraction now;
+    law.traction(motion, 1.0, now);
+    ASSERT_EQ(now.regime, CycleRegime::stick_slip);
+    // Motions that stay on the line.
+    for (Eigen::Index k = 0; k < 5; ++k) {
+      Harmonics plus = motion;
+      Harmonics minus = motion;
+      for (const auto& [signal, share] :
+           {std::pair{0, std::cos(angle)}, std::pair{2, std::sin(angle)}}) {
+        plus.rows()(k, signal) += step * share;
+        minus.rows()(k, signal) -= step * share;
+      }
+      PointTraction right;
+      PointTraction left;
+      law.traction(plus, 1.0, right);
+      law.traction(minus, 1.0, left);
+      const Eigen::VectorXd expected = (right.force.vector() - left.force.vector()) / (2.0 * step);
+      const Eigen::VectorXd along =
+          std::cos(angle) * now.jacobian.col(3 * k) + std::sin(angle) * now.jacobian.col(3 * k + 2);
+      EXPECT_LE((along - expected).cwiseAbs().maxCoeff(), 1e-6) << k << ", " << angle;
+      const Eigen::VectorXd by_load = now.jacobian.col(3 * k + 1);
+      EXPECT_LE((by_load - difference(law, motion, 3 * k + 1)).cwiseAbs().maxCoeff(), 1e-6) << k;
     }
   }
 }

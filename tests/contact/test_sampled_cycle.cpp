@@ -14,6 +14,7 @@
 
 #include "contact/event_law.hpp"
 #include "support/motion_cases.hpp"
+#include "support/surface_cases.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -24,7 +25,7 @@ using test::normal_scale;
 using Random = std::mt19937_64;
 
 constexpr double pi = std::numbers::pi;
-constexpr double frequency = 40.0;
+constexpr double frequency = test::surface_frequency;
 
 PointTraction traction(const PointLaw& law, const Harmonics& motion, double omega = frequency) {
   PointTraction result;
@@ -32,43 +33,10 @@ PointTraction traction(const PointLaw& law, const Harmonics& motion, double omeg
   return result;
 }
 
-SurfaceLaw smooth(const MotionCase& c) { return {c.point, c.point.tangential_stiffness}; }
-
+using test::smooth_surface;
 using MakeLaw = std::function<SurfaceLaw(const MotionCase&)>;
 
-// μ changes by its half within the speeds that occur.
-double typical_decay(const MotionCase& c) {
-  const double k_u = c.point.tangential_stiffness;
-  return k_u / (frequency * friction_scale(c));
-}
-SurfaceLaw falling(const MotionCase& c) {
-  const double mu = c.point.friction_coefficient;
-  return {c.point, 0.0, FrictionLaw::exponential(mu, 0.5 * mu, typical_decay(c))};
-}
-SurfaceLaw rising(const MotionCase& c) {
-  const double mu = c.point.friction_coefficient;
-  return {c.point, 0.0, FrictionLaw::exponential(mu, 1.5 * mu, typical_decay(c))};
-}
-SurfaceLaw hyperbolic(const MotionCase& c) {
-  return {c.point, 0.0, FrictionLaw::hyperbolic(c.point.friction_coefficient, typical_decay(c))};
-}
-RoughSurface roughness(const MotionCase& c, bool gaussian) {
-  const double height = 0.5 * normal_scale(c) / c.point.normal_stiffness;
-  return gaussian ? RoughSurface::matching_gaussian(height) : RoughSurface::cubic(height);
-}
-SurfaceLaw cubic(const MotionCase& c) {
-  return {c.point, 0.0, FrictionLaw::constant(c.point.friction_coefficient), roughness(c, false)};
-}
-SurfaceLaw gaussian(const MotionCase& c) {
-  return {c.point, 0.0, FrictionLaw::constant(c.point.friction_coefficient), roughness(c, true)};
-}
-
-struct Law {
-  std::string name;
-  MakeLaw make;
-};
-
-class SampledLaws : public testing::TestWithParam<Law> {};
+class SampledLaws : public testing::TestWithParam<test::SurfaceCase> {};
 
 std::vector<MotionCase> motions(int n) {
   Random random(20260206);
@@ -97,15 +65,15 @@ double rms(const std::vector<MotionCase>& cases, const MakeLaw& make,
   return std::sqrt(sum / static_cast<double>(cases.size()));
 }
 
-// Theory section 8: O(1/M²); a factor 4 in M is 16 in the error, and 4 without the touch-down. Between
-// them, 8, is where a random set can be told from first order.
+// Theory section 8: O(1/M²); a factor 4 in M is 16 in the error, and 4 without the touch-down.
+// Between them, 8, is where a random set can be told from first order.
 TEST(SampledLaw, ConvergesToTheEventLawInSecondOrder) {
   const auto cases = motions(240);
   std::vector<Harmonics> exact;
   for (const MotionCase& c : cases) exact.push_back(traction(EventLaw(c.point), c.motion).force);
-  const double coarse = rms(cases, smooth, exact, 512);
-  const double middle = rms(cases, smooth, exact, 2048);
-  const double fine = rms(cases, smooth, exact, 8192);
+  const double coarse = rms(cases, smooth_surface, exact, 512);
+  const double middle = rms(cases, smooth_surface, exact, 2048);
+  const double fine = rms(cases, smooth_surface, exact, 8192);
   EXPECT_LT(coarse, 2e-5);
   EXPECT_GT(coarse / middle, 8.0);
   EXPECT_GT(middle / fine, 8.0);
@@ -175,10 +143,7 @@ TEST_P(SampledLaws, FrequencyDerivativeIsThatOfDifferences) {
   EXPECT_GT(n_checked, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SampledLaws,
-                         testing::Values(Law{"smooth", smooth}, Law{"falling", falling},
-                                         Law{"rising", rising}, Law{"hyperbolic", hyperbolic},
-                                         Law{"cubic", cubic}, Law{"gaussian", gaussian}),
+INSTANTIATE_TEST_SUITE_P(Laws, SampledLaws, testing::ValuesIn(test::surface_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(SampledLaw, RateDependenceThatDoesNotChangeAnythingIsNone) {
@@ -186,7 +151,7 @@ TEST(SampledLaw, RateDependenceThatDoesNotChangeAnythingIsNone) {
     const double mu = c.point.friction_coefficient;
     const SurfaceLaw flat(c.point, 0.0, FrictionLaw::exponential(mu, mu, 3.0));
     const PointTraction a = traction(SampledLaw(flat, 256), c.motion);
-    const PointTraction b = traction(SampledLaw(smooth(c), 256), c.motion);
+    const PointTraction b = traction(SampledLaw(smooth_surface(c), 256), c.motion);
     EXPECT_LE(error(a.force, b.force, c), 1e-4);  // instants of turning are extra samples: O(1/M²)
     EXPECT_TRUE(a.frequency_derivative.isZero(1e-12 * friction_scale(c)));
   }
@@ -203,7 +168,7 @@ TEST(SampledLaw, AStuckPointIsExact) {
     if (exact.regime != CycleRegime::full_stick) continue;
     if (exact.jacobian(0, 0) == 0.0)
       continue;  // at an end of the band, which is met between samples
-    const PointTraction now = traction(SampledLaw(smooth(c), 64), c.motion);
+    const PointTraction now = traction(SampledLaw(smooth_surface(c), 64), c.motion);
     EXPECT_EQ(now.regime, CycleRegime::full_stick);
     EXPECT_LE(error(now.force, exact.force, c), 1e-14);  // a sum of 64 terms
     EXPECT_LE((now.jacobian - exact.jacobian).cwiseAbs().maxCoeff(),
@@ -218,7 +183,7 @@ TEST(SampledLaw, EverythingIsFiniteInEveryStratum) {
     Random random(6);
     for (int i = 0; i < 150; ++i) {
       const MotionCase c = stratum.draw(random);
-      const SampledLaw law(smooth(c), 128);
+      const SampledLaw law(smooth_surface(c), 128);
       const PointTraction now = traction(law, c.motion);
       ASSERT_TRUE(now.force.rows().allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.jacobian.allFinite()) << stratum.name << ' ' << i;
@@ -253,7 +218,7 @@ TEST(SampledLaw, HistoryIsThatOfTheEventLaw) {
     const bool clear = std::all_of(exact.segments.begin(), exact.segments.end(),
                                    [](const CycleSegment& s) { return s.length > 0.1; });
     if (!clear) continue;
-    const PointHistory now = SampledLaw(smooth(c), 4096).history(c.motion, 1.0, phases, 5);
+    const PointHistory now = SampledLaw(smooth_surface(c), 4096).history(c.motion, 1.0, phases, 5);
     const double slip = friction_scale(c) / c.point.tangential_stiffness;
     EXPECT_NEAR(now.dissipated_energy, exact.dissipated_energy, 1e-5 * friction_scale(c) * slip);
     EXPECT_NEAR(now.slip_distance, exact.slip_distance, 1e-5 * slip);

@@ -113,7 +113,9 @@ TEST(SurfaceLaw, RestCarriesTheAppliedPressure) {
       EXPECT_EQ(law.at(0.0, 0.0).load, law.load_at_rest());
       // Conditioning: 3 for the cubic law; ζ² ≤ 1200 in the tail of the Gaussian. Soft bodies add
       // that of closure = u + cN, no more than 3 again.
-      EXPECT_NEAR(law.load_at_rest() / preload, 1.0, preload < 1.0 ? 5000.0 * eps : 200.0 * eps)
+      // Gaussian heights begin to carry with 1e-20 of k_v times their deviation.
+      EXPECT_NEAR(law.load_at_rest(), preload,
+                  (preload < 1.0 ? 5000.0 * eps : 200.0 * eps) * preload + 2e-20 * 2e12 * R)
           << preload;
     }
   }
@@ -146,7 +148,32 @@ TEST(SurfaceLaw, KinksAreFirstTouchAndFullContact) {
     EXPECT_LT(law.at(kinks[1] - 1e-5 * R, 0.0).stiffness_ratio, 1.0);
     EXPECT_NEAR(law.at(kinks[1], 0.0).load, 2e12 * 0.5 * R, 10.0 * eps * 2e12 * R);  // F*(1) = ½
   }
-  EXPECT_TRUE(rough_law(3e5, RoughSurface::matching_gaussian(R)).kinks().empty());
+}
+
+// Theory section 11: loads of a few 1e-300 are not contact.
+TEST(SurfaceLaw, GaussianHeightsTouchNineDeviationsFromTheirMean) {
+  const RoughSurface surface = RoughSurface::matching_gaussian(R);
+  const double deviation = R / std::sqrt(20.0);
+  for (const SeriesCompliance& series : {SeriesCompliance{}, SeriesCompliance{3e-13, 5e-13, 1e-13},
+                                         SeriesCompliance{0.0, -2e-13, 0.0}}) {
+    for (const double preload : {3e5, 0.0, -3e5}) {
+      const SurfaceLaw law = rough_law(preload, surface, series);
+      const std::vector<double> kinks = law.kinks();
+      ASSERT_EQ(kinks.size(), 2U);
+      const double aside = 1e-9 * R;
+      const SurfaceState open = law.at(kinks[0] - aside, 0.0);
+      EXPECT_EQ(open.load, 0.0);
+      EXPECT_EQ(open.load_by_approach, 0.0);
+      EXPECT_EQ(open.stiffness_ratio, 0.0);
+      EXPECT_NEAR(open.gap_load, -law.point().normal_stiffness * aside, 1e-6 * 2e12 * aside);
+      const SurfaceState touching = law.at(kinks[0] + aside, 0.0);
+      EXPECT_GT(touching.load, 0.0);
+      EXPECT_LT(touching.load, 2e-20 * 2e12 * deviation);
+      EXPECT_EQ(law.at(kinks[1] + aside, 0.0).stiffness_ratio, 1.0);
+      EXPECT_NEAR(law.at(kinks[1], 0.0).load, 2e12 * 9.0 * deviation, 1e-9 * 2e12 * R);
+      EXPECT_EQ(law.at(-1.0, 0.0).load, 0.0);
+    }
+  }
 }
 
 // (2) and (3) from their inverse: u → N → v, no equation solved.

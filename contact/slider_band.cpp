@@ -1,0 +1,196 @@
+#include "contact/slider_band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/planar_quadrature.hpp"
+
+namespace microslip::contact {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// Σ h (|y_sh| + |y_ch|).
+double rate_bound(const Eigen::VectorXd& y) {
+  double sum = 0.0;
+  for (Eigen::Index k = 1; k < y.size(); ++k) {
+    sum += static_cast<double>((k + 1) / 2) * std::abs(y[k]);
+  }
+  return sum;
+}
+
+/// Adds the values that lie inside (begin, end), counted on around the period.
+void add_between(const std::vector<double>& phases, double begin, double end, bool turns,
+                 std::vector<BandNode>& nodes) {
+  for (double turn : {0.0, two_pi}) {
+    for (const double phase : phases) {
+      const double at = phase + turn;
+      if (at > begin && at < end) nodes.push_back({at, 0.0, 0.0, true, turns});
+    }
+  }
+}
+
+}  // namespace
+
+void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency,
+                     int n_basis) {
+  n_basis_ = n_basis;
+  law_ = &law;
+  frequency_ = frequency;
+  position_mean_ = motion.mean()[0];
+  u_ = motion.rows().col(0);
+  v_ = motion.rows().col(1);
+  u_[0] = 0.0;
+  u_rate_.setZero(u_.size());
+  u_second_.setZero(u_.size());
+  v_rate_.setZero(v_.size());
+  for (Eigen::Index h = 1; 2 * h < u_.size(); ++h) {
+    const auto order = static_cast<double>(h);
+    u_rate_[2 * h - 1] = -order * u_[2 * h];
+    u_rate_[2 * h] = order * u_[2 * h - 1];
+    v_rate_[2 * h - 1] = -order * v_[2 * h];
+    v_rate_[2 * h] = order * v_[2 * h - 1];
+    u_second_[2 * h - 1] = -order * order * u_[2 * h - 1];
+    u_second_[2 * h] = -order * order * u_[2 * h];
+  }
+  const double fastest = frequency * rate_bound(u_);
+  const double mu = std::max(law.friction().at_rest(), law.friction().at(fastest).value);
+  const double closest = v_[0] + v_.tail(v_.size() - 1).cwiseAbs().sum();
+  load_size_ = law.at(closest, 0.0).load;
+  friction_size_ = law.first_stiffness() * u_.cwiseAbs().sum() + mu * load_size_;
+  size_ = rate_bound(u_);
+  if (has_spring()) {
+    size_ += mu * law.point().normal_stiffness / law.first_stiffness() * rate_bound(v_);
+  }
+}
+
+BandInstant SliderBand::at_speed(double phase, bool moves) {
+  trigonometric_basis(n_basis_, phase, basis_);
+  const auto basis = basis_.head(u_.size());
+  BandInstant now;
+  now.phase = phase;
+  now.position = u_.dot(basis);
+  now.velocity = u_rate_.dot(basis);
+  now.approach_rate = v_rate_.dot(basis);
+  const double speed = moves ? std::abs(now.velocity) : 0.0;
+  now.surface = law_->at(v_.dot(basis), frequency_ * speed);
+  if (!has_spring()) return now;
+  const SurfaceState& y = now.surface;
+  const double mu = y.friction_coefficient / law_->first_stiffness();
+  now.reach = mu * y.load_per_ratio;
+  now.reach_by_approach = mu * y.load_per_ratio_by_approach;
+  now.reach_rate = now.reach_by_approach * now.approach_rate;
+  if (!law_->is_rate_dependent()) return now;
+  now.reach_by_rate = y.friction_coefficient_by_rate * y.load_per_ratio / law_->first_stiffness();
+  const double heading = moves ? std::copysign(1.0, now.velocity) : 0.0;
+  now.acceleration = u_second_.dot(basis);
+  now.reach_rate += now.reach_by_rate * frequency_ * heading * now.acceleration;
+  return now;
+}
+
+BandNode SliderBand::edge_at(double phase, bool touches) {
+  const BandInstant now = at(phase);
+  // The load at a touch-down is rounding.
+  if (touches) return {phase, now.position, now.position, true, false};
+  return {phase, now.lower(), now.upper(), true, false};
+}
+
+void SliderBand::find_edges() {
+  edges_.clear();
+  stands_.clear();
+  contact_.clear();
+  const auto set = [this](const Eigen::VectorXd& y) {
+    polynomial_.reset(n_harmonics());
+    polynomial_.set_mean(y[0]);
+    for (int h = 1; h <= n_harmonics(); ++h) polynomial_.set(h, y[2 * h - 1], y[2 * h]);
+  };
+  const std::vector<double> kinks = law_->kinks();
+  set(v_);
+  for (std::size_t i = 0; i < kinks.size(); ++i) {
+    polynomial_.set_mean(v_[0] - kinks[i]);
+    find_sign_changes(polynomial_, changes_);
+    if (i == 0) contact_ = changes_;
+    for (const SignChange& change : changes_) {
+      if (i > 0) edges_.push_back(change.phase);
+    }
+  }
+  if (!law_->is_rate_dependent()) return;
+  set(u_rate_);
+  find_sign_changes(polynomial_, changes_);
+  for (const SignChange& change : changes_) stands_.push_back(change.phase);
+}
+
+const std::vector<ContactRun>& SliderBand::find_runs() {
+  runs_.clear();
+  find_edges();
+  if (contact_.empty()) {
+    // The sign of the load is that of its mean; one without kinks never changes it.
+    const std::vector<double> kinks = law_->kinks();
+    const bool closed = kinks.empty() ? load_size_ > 0.0 : v_[0] > kinks[0];
+    if (closed) add_run(0.0, two_pi, false);
+    return runs_;
+  }
+  for (std::size_t i = 0; i < contact_.size(); ++i) {
+    if (!contact_[i].rising) continue;
+    const bool wraps = i + 1 == contact_.size();
+    const double end = wraps ? contact_.front().phase + two_pi : contact_[i + 1].phase;
+    add_run(contact_[i].phase, end, true);
+  }
+  return runs_;
+}
+
+void SliderBand::add_run(double begin, double end, bool touches_down) {
+  ContactRun run;
+  run.touches_down = touches_down;
+  std::vector<BandNode> edges{edge_at(begin, touches_down)};
+  add_between(edges_, begin, end, false, edges);
+  add_between(stands_, begin, end, true, edges);
+  std::sort(edges.begin() + 1, edges.end(),
+            [](const BandNode& a, const BandNode& b) { return a.phase < b.phase; });
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const BandInstant now = at_speed(edges[i].phase, !edges[i].turns);
+    edges[i].lower = now.lower();
+    edges[i].upper = now.upper();
+  }
+  edges.push_back(edge_at(end, touches_down));
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    run.nodes.push_back(edges[i]);
+    if (has_spring()) add_turns(edges[i], edges[i + 1], run.nodes);
+  }
+  run.nodes.push_back(edges.back());
+  if (!touches_down) {
+    run.nodes.back() = run.nodes.front();
+    run.nodes.back().phase = end;
+  }
+  runs_.push_back(std::move(run));
+}
+
+void SliderBand::add_turns(const BandNode& from, const BandNode& to, std::vector<BandNode>& nodes) {
+  const auto rates = [this](double phase) -> std::array<double, 2> {
+    const BandInstant now = at(phase);
+    return {now.velocity - now.reach_rate, now.velocity + now.reach_rate};
+  };
+  // Next to u' = 0 the speed is as much as u'' moves away from there.
+  const auto limit = [this](const BandNode& node, double side) {
+    const BandInstant now = at_turn(node.phase);
+    const double rate =
+        now.reach_rate + side * now.reach_by_rate * frequency_ * std::abs(now.acceleration);
+    return std::array<double, 2>{now.velocity - rate, now.velocity + rate};
+  };
+  SmoothEnds ends;
+  if (from.turns) ends.begin = limit(from, 1.0);
+  if (to.turns) ends.end = limit(to, -1.0);
+  signs_.clear();
+  // A wave of order H is resolved to 1e-11 on this length by the polynomials of the search.
+  const double cell = 2.1 / n_harmonics();
+  add_smooth_signs(rates, from.phase, to.phase, ends, cell, size_, signs_);
+  std::sort(signs_.begin(), signs_.end(),
+            [](const SmoothSign& a, const SmoothSign& b) { return a.phase < b.phase; });
+  for (const SmoothSign& sign : signs_) {
+    const BandInstant now = at(sign.phase);
+    nodes.push_back({sign.phase, now.lower(), now.upper(), false, false});
+  }
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,179 @@
+#include "contact/smooth_signs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <Eigen/Core>
+
+#include "contact/bracketed_root.hpp"
+
+namespace microslip::contact {
+namespace {
+
+constexpr int n = 12;
+using Series = Eigen::Matrix<double, n, 1>;
+using Square = Eigen::Matrix<double, n, n>;
+
+/// What does not depend on the functions.
+struct Tables {
+  Series node;          // zeros of T_n
+  Square coefficients;  // values → c
+  Square left;          // c → those on [−1, 0], scaled to [−1, 1]
+  Square right;
+};
+
+double value(const Series& c, double x) {
+  double next = 0.0;
+  double after = 0.0;
+  for (int k = n - 1; k > 0; --k) {
+    const double now = 2.0 * x * next - after + c[k];
+    after = next;
+    next = now;
+  }
+  return x * next - after + c[0];
+}
+
+Tables make_tables() {
+  Tables t;
+  Square half_values[2];
+  for (int i = 0; i < n; ++i) {
+    t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n);
+    for (int k = 0; k < n; ++k) {
+      const double T = std::cos(k * std::acos(t.node[i]));
+      t.coefficients(k, i) = (k == 0 ? 1.0 : 2.0) / n * T;
+      half_values[0](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] - 1.0)));
+      half_values[1](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] + 1.0)));
+    }
+  }
+  t.left = t.coefficients * half_values[0];
+  t.right = t.coefficients * half_values[1];
+  return t;
+}
+
+const Tables& tables() {
+  static const Tables t = make_tables();
+  return t;
+}
+
+/// Σ_{k>0} |c_k|.
+double variation(const Series& c) { return c.tail<n - 1>().cwiseAbs().sum(); }
+
+Series derivative(const Series& c) {
+  Series d = Series::Zero();
+  for (int k = n - 1; k > 0; --k) d[k - 1] = (k + 1 < n ? d[k + 1] : 0.0) + 2.0 * k * c[k];
+  d[0] *= 0.5;
+  return d;
+}
+
+/// Walks from cell to cell with the sign of both functions so far.
+class Search {
+ public:
+  Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
+      : functions_(functions), size_(size), found_(found) {}
+
+  /// @param ends    limits known at the ends of the cell.
+  /// @param before  tail of the cell twice as long.
+  void cover(double begin, double end, const SmoothEnds& ends, double before = INFINITY) {
+    const double half = 0.5 * (end - begin);
+    Eigen::Matrix<double, n, 2> values;
+    for (int i = 0; i < n; ++i) {
+      const std::array<double, 2> f = functions_(begin + half * (1.0 + tables().node[i]));
+      values(i, 0) = f[0];
+      values(i, 1) = f[1];
+    }
+    const Eigen::Matrix<double, n, 2> c = tables().coefficients.lazyProduct(values);
+    // Integrals of f between its sign changes, which is what a slider moves by, err by its power
+    // 3/2.
+    constexpr double tolerance = 1e-10;
+    const double largest = values.cwiseAbs().maxCoeff();
+    const double allowed = std::max(tolerance * size_, 1e-14 * largest);
+    const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
+    const double missed = std::max(misses(c, -1.0, ends.begin), misses(c, 1.0, ends.end));
+    // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
+    const bool rounded = tail > 0.25 * before && tail <= 1e-6 * largest;
+    const bool resolved = rounded || tail <= allowed;
+    const bool meets = missed <= n * std::max(allowed, tail);
+    constexpr double narrowest = 1e-9;  // of a layer that is not resolved: it holds even less
+    if (!(resolved && meets) && end - begin > narrowest) {
+      cover(begin, begin + half, {ends.begin, std::nullopt}, tail);
+      cover(begin + half, end, {std::nullopt, ends.end}, tail);
+      return;
+    }
+    for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, i);
+    for (std::size_t i = 0; i < 2 && ends.end.has_value(); ++i) {
+      pass(begin, (*ends.end)[i] > 0.0, static_cast<int>(i));  // turned somewhere in the last layer
+    }
+  }
+
+ private:
+  /// By how much the series misses a known limit at x = ±1.
+  static double misses(const Eigen::Matrix<double, n, 2>& c, double x,
+                       const std::optional<std::array<double, 2>>& limit) {
+    if (!limit.has_value()) return 0.0;
+    return std::max(std::abs(value(c.col(0), x) - (*limit)[0]),
+                    std::abs(value(c.col(1), x) - (*limit)[1]));
+  }
+
+  void isolate(const Series& c, double begin, double end, int function) {
+    const double spread = variation(c);
+    constexpr double rounding = 1e-15;
+    if (std::abs(c[0]) + spread <= rounding * size_) return;
+    if (std::abs(c[0]) > spread) {
+      pass(begin, c[0] > 0.0, function);
+      return;
+    }
+    const Series d = derivative(c);
+    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
+    if (std::abs(d[0]) > variation(d) || end - begin <= narrowest) {
+      cross(c, begin, end, function);
+      return;
+    }
+    const double middle = 0.5 * (begin + end);
+    isolate(tables().left.lazyProduct(c), begin, middle, function);
+    isolate(tables().right.lazyProduct(c), middle, end, function);
+  }
+
+  /// One change at most.
+  void cross(const Series& c, double begin, double end, int function) {
+    const double at_begin = value(c, -1.0);
+    const double at_end = value(c, 1.0);
+    pass(begin, at_begin > 0.0, function);
+    if ((at_begin > 0.0) == (at_end > 0.0)) return;
+    const auto f = [&](double x) { return value(c, x); };
+    const double x = bracketed_root(f, -1.0, 1.0, at_begin, at_end);
+    pass(begin + 0.5 * (end - begin) * (1.0 + x), at_end > 0.0, function);
+  }
+
+  void pass(double phase, bool positive, int function) {
+    int& before = sign_[static_cast<std::size_t>(function)];
+    const int now = positive ? 1 : -1;
+    if (before == -now) found_.push_back({phase, function});
+    before = now;
+  }
+
+  const SmoothPair& functions_;
+  double size_;
+  std::vector<SmoothSign>& found_;
+  std::array<int, 2> sign_{0, 0};
+};
+
+}  // namespace
+
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
+                      double cell, double size, std::vector<SmoothSign>& found) {
+  const double length = end - begin;
+  constexpr double nothing = 1e-12;  // between two events that all but meet
+  if (!(length > nothing)) return;
+  Search search(functions, size, found);
+  const int n_cells = static_cast<int>(std::ceil(length / cell));
+  for (int i = 0; i < n_cells; ++i) {
+    SmoothEnds own;
+    if (i == 0) own.begin = ends.begin;
+    if (i + 1 == n_cells) own.end = ends.end;
+    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, own);
+  }
+}
+
+}  // namespace microslip::contact

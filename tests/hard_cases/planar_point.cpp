@@ -1,0 +1,261 @@
+/// What is hard: limits of a point with two tangential directions: no motion along one of them or both,
+/// contact that only just begins or ends, no preload, events that meet, amplitudes of any size.
+/// Where: theory sections 4.2, 4.5, 9. Right: finite forces that agree with the law of one direction where
+/// the motion is straight, works that balance, derivatives that are those of one side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "contact/event_law.hpp"
+#include "contact/planar_cycle.hpp"
+#include "support/motion_cases.hpp"
+#include "support/planar_cases.hpp"
+
+namespace microslip::test {
+namespace {
+
+using contact::CycleRegime;
+using contact::EventLaw;
+using contact::Harmonics;
+using contact::PlanarLaw;
+using contact::PointHistory;
+using contact::PointLaw;
+using contact::PointParameters;
+using contact::PointTraction;
+using contact::SurfaceLaw;
+
+constexpr double pi = std::numbers::pi;
+constexpr double tight = 1e-11;
+constexpr double smallest = 1e-290;  // what the planar law takes for no force at all
+
+PointTraction traction(const PointLaw& law, const Harmonics& motion) {
+  PointTraction result;
+  law.traction(motion, 1.0, result);
+  return result;
+}
+
+/// u along (cos, sin) of an angle.
+Harmonics turned(const Harmonics& motion, double angle) {
+  Harmonics straight = motion;
+  straight.rows().col(2) = std::sin(angle) * motion.rows().col(0);
+  straight.rows().col(0) *= std::cos(angle);
+  return straight;
+}
+
+class StraightMotion : public testing::TestWithParam<MotionStratum> {};
+
+// In every limit that is hard for one direction.
+TEST_P(StraightMotion, InAnyDirectionIsTheLawOfOneDirection) {
+  std::mt19937_64 random(51);
+  for (int i = 0; i < 100; ++i) {
+    const MotionCase c = GetParam().draw(random);
+    const double angle = std::uniform_real_distribution<double>(0.0, 2.0 * pi)(random);
+    const PlanarLaw law(SurfaceLaw(c.point, c.point.tangential_stiffness), tight);
+    const PointTraction now = traction(law, turned(c.motion, angle));
+    const PointTraction exact = traction(EventLaw(c.point), c.motion);
+    const double scale = friction_scale(c);
+    const Eigen::VectorXd f = exact.force.rows().col(0);
+    // Ten times the tolerance, as measured for any motion.
+    ASSERT_LE((now.force.rows().col(0) - std::cos(angle) * f).cwiseAbs().maxCoeff(),
+              10.0 * tight * scale + smallest)
+        << i;
+    ASSERT_LE((now.force.rows().col(2) - std::sin(angle) * f).cwiseAbs().maxCoeff(),
+              10.0 * tight * scale + smallest)
+        << i;
+    ASSERT_LE((now.force.rows() - exact.force.rows()).col(1).cwiseAbs().maxCoeff(),
+              10.0 * tight * normal_scale(c) + smallest)
+        << i;
+    ASSERT_TRUE(now.jacobian.allFinite()) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Strata, StraightMotion, testing::ValuesIn(motion_strata()),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+/// ∮ F dx for one signal.
+double work(const Harmonics& motion, const Harmonics& force, Eigen::Index signal) {
+  double sum = 0.0;
+  for (int h = 1; h <= motion.n_harmonics(); ++h) {
+    sum += h * (motion.sine(h)[signal] * force.cosine(h)[signal] -
+                motion.cosine(h)[signal] * force.sine(h)[signal]);
+  }
+  return pi * sum;
+}
+
+double amplitude(const Harmonics& motion, Eigen::Index signal) {
+  return motion.rows().col(signal).tail(motion.rows().rows() - 1).cwiseAbs().sum();
+}
+
+class PlaneMotion : public testing::TestWithParam<MotionStratum> {};
+
+// Theory section 7 for two directions: ∮ f·dx = ∮ μ n |ds|, ∮ n dv = 0. The second motion is as
+// large as the first and of any shape; the second stiffness another.
+TEST_P(PlaneMotion, BalancesItsWork) {
+  std::mt19937_64 random(52);
+  for (int i = 0; i < 60; ++i) {
+    MotionCase c = GetParam().draw(random);
+    const double size = amplitude(c.motion, 2);
+    if (size > 0.0) c.motion.rows().col(2) *= amplitude(c.motion, 0) / size;
+    const double second = 2.0 * c.point.tangential_stiffness;
+    const PlanarLaw law(SurfaceLaw(c.point, second), tight);
+    const int H = c.motion.n_harmonics();
+    const PointTraction now = traction(law, c.motion);
+    ASSERT_TRUE(now.force.rows().allFinite()) << i;
+    ASSERT_TRUE(now.jacobian.allFinite()) << i;
+    const PointHistory history = law.history(c.motion, 1.0, {}, H);
+    const double scale = friction_scale(c) + second * amplitude(c.motion, 2);
+    const double way =
+        c.point.tangential_stiffness > 0.0 ? scale / c.point.tangential_stiffness : 0.0;
+    const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+    // Ten times the tolerance for each force; what the search did not reach on top.
+    ASSERT_NEAR(done, history.dissipated_energy,
+                (20.0 * H * tight * scale + history.defect) * way + smallest)
+        << i;
+    ASSERT_LE(std::abs(work(c.motion, history.force, 1)),
+              1e-12 * H * normal_scale(c) * amplitude(c.motion, 1) + smallest)
+        << i;
+    ASSERT_GE(history.dissipated_energy, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Strata, PlaneMotion, testing::ValuesIn(motion_strata()),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+/// An ellipse, never separated from a load that varies.
+MotionCase ellipse(double size) {
+  MotionCase c{{2.0, 1.0, 0.5, 1.3}, Harmonics(1, 3)};
+  c.motion.rows() << 0.0, 0.0, 0.0,  //
+      size, 0.3, 0.4 * size,         //
+      0.2 * size, 1.0, -0.6 * size;
+  return c;
+}
+
+double force_change(const PlanarLaw& law, const Harmonics& a, const Harmonics& b) {
+  return (traction(law, a).force.rows() - traction(law, b).force.rows()).cwiseAbs().maxCoeff();
+}
+
+// No motion along one direction is the limit of ever less of it, down to subnormal numbers.
+TEST(PlanarPointHard, VanishingMotionAlongOneDirectionIsTheLimitOfSmallMotion) {
+  for (const double size : {0.1, 0.5, 3.0}) {
+    for (const Eigen::Index signal : {0, 2}) {
+      const MotionCase c = ellipse(size);
+      const PlanarLaw law(SurfaceLaw(c.point, 3.0), tight);
+      Harmonics none = c.motion;
+      none.rows().col(signal).setZero();
+      for (const double share : {1e-6, 1e-9, 1e-15, 1e-100, 1e-300, 1e-323}) {
+        Harmonics little = none;
+        little.rows().col(signal) = share * c.motion.rows().col(signal);
+        // The stiffness at most, times ten for what turns the slip.
+        ASSERT_LE(force_change(law, little, none), 30.0 * share * size + 10.0 * tight) << share;
+      }
+    }
+  }
+  const MotionCase c = ellipse(0.0);
+  const PointTraction rest = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+  EXPECT_EQ(rest.regime, CycleRegime::full_stick);
+  EXPECT_EQ(rest.force.rows().col(0).norm(), 0.0);
+  EXPECT_EQ(rest.force.rows().col(2).norm(), 0.0);
+}
+
+// The least load passes zero: with the square root of the distance in time, smoothly in force.
+TEST(PlanarPointHard, GrazingContactIsContinuous) {
+  const double least = std::hypot(0.3, 1.0);
+  for (const double size : {0.1, 0.5, 3.0}) {
+    MotionCase c = ellipse(size);
+    Eigen::MatrixXd before;
+    for (const double aside : {-1e-6, -1e-8, -1e-12, -1e-16, 0.0, 1e-16, 1e-12, 1e-8, 1e-6}) {
+      c.point.preload = least * (1.0 + aside);
+      const PointTraction now = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+      // n₀ − b̄ changes by 1e-6; what the slider forgets is the force left at the least load, its
+      // square root times the rate of the motion.
+      if (before.size() > 0) {
+        ASSERT_LE((now.force.rows() - before).cwiseAbs().maxCoeff(), 1e-2 * size + 1e-5) << aside;
+      }
+      before = now.force.rows();
+    }
+  }
+}
+
+// No preload: closed for half of the period; a gap barely touched; a gap never closed.
+TEST(PlanarPointHard, ContactFadesOutWithTheGap) {
+  const double reach = std::hypot(0.3, 1.0);
+  MotionCase c = ellipse(0.5);
+  double before = 1e300;
+  for (const double share : {0.0, 0.5, 0.9, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-12}) {
+    c.point.preload = -share * reach;
+    const PlanarLaw law(SurfaceLaw(c.point, 3.0), tight);
+    const PointTraction now = traction(law, c.motion);
+    EXPECT_EQ(now.regime, CycleRegime::separation) << share;
+    const double load = now.force.rows()(0, 1);
+    EXPECT_GT(load, 0.0) << share;
+    EXPECT_LT(load, before) << share;
+    // |f| ≤ μ n at every instant; a load that is all but lost in the rounding of the gap keeps as
+    // many digits.
+    EXPECT_LE(std::hypot(now.force.rows()(0, 0), now.force.rows()(0, 2)),
+              0.5 * load * (1.0 + 1e-9 + 1e-15 / (1.0 - share)))
+        << share;
+    before = load;
+  }
+  for (const double share : {1.0, 1.0 + 1e-15, 2.0}) {
+    c.point.preload = -share * reach;
+    const PointTraction now = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+    EXPECT_LE(now.force.rows().norm(), share == 1.0 ? 1e-20 : 0.0) << share;
+  }
+}
+
+/// Second order, from one side.
+Eigen::VectorXd one_sided(const PlanarLaw& law, const Harmonics& motion, Eigen::Index k, double h) {
+  const auto at = [&](double x) -> Eigen::VectorXd {
+    Harmonics moved = motion;
+    moved.vector()[k] += x;
+    return traction(law, moved).force.vector();
+  };
+  return (4.0 * at(h) - 3.0 * at(0.0) - at(2.0 * h)) / (2.0 * h);
+}
+
+// At the onset of slip, exactly: the derivative is that of the stuck side, where every smaller
+// motion is.
+TEST(PlanarPointHard, TheJacobianAtTheOnsetOfSlipIsOneSided) {
+  Harmonics circle(1, 3);
+  circle.rows()(1, 0) = 1.0;
+  circle.rows()(2, 2) = 1.0;
+  const PlanarLaw law(SurfaceLaw({1.0, 0.5, 0.5, 2.0}, 1.0), tight);  // k a = μ n
+  const PointTraction now = traction(law, circle);
+  ASSERT_EQ(now.regime, CycleRegime::full_stick);
+  EXPECT_EQ(now.jacobian(3, 3), 1.0);
+  EXPECT_EQ(now.jacobian(8, 8), 1.0);
+  for (const Eigen::Index k : {3, 8}) {
+    const Eigen::VectorXd inside = one_sided(law, circle, k, -1e-6);
+    EXPECT_LE((now.jacobian.col(k) - inside).cwiseAbs().maxCoeff(), 1e-9) << k;  // 1e-15/1e-6
+  }
+  // Beyond, slip takes what the motion adds.
+  const Eigen::VectorXd outside = one_sided(law, circle, 3, 1e-4);
+  EXPECT_GT((now.jacobian.col(3) - outside).cwiseAbs().maxCoeff(), 0.1);
+}
+
+// Where the load grazes zero the slider is wiped from one side only; the derivative by the mean
+// load is that of the side the law is on.
+TEST(PlanarPointHard, TheJacobianNextToGrazingContactIsThatOfItsSide) {
+  const double least = std::hypot(0.3, 1.0);
+  for (const double aside : {-1e-3, 1e-3}) {
+    MotionCase c = ellipse(1.5);
+    c.point.preload = least * (1.0 + aside);
+    const PlanarLaw law(SurfaceLaw(c.point, 3.0), 1e-13);
+    const PointTraction now = traction(law, c.motion);
+    EXPECT_EQ(now.regime, aside < 0.0 ? CycleRegime::separation : CycleRegime::stick_slip);
+    for (const Eigen::Index k : {1, 3, 4, 5, 6, 7, 8}) {
+      // Away from grazing by up to 2e-6 of 1e-3: the third derivative of a square root over 1e-3 is
+      // 1e7, times the square of the step.
+      const Eigen::VectorXd away =
+          one_sided(law, c.motion, k, k == 1 ? std::copysign(1e-6, aside) : 1e-6);
+      EXPECT_LE((now.jacobian.col(k) - away).cwiseAbs().maxCoeff(), 1e-4) << k << ", " << aside;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microslip::test
