@@ -141,6 +141,10 @@ std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
   return found;
 }
 
+void CurveTracer::note_unsolved(double frequency, PointMark mark) {
+  curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
+}
+
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   const double left_out_now = left_out_;
   const double change_now = change_;
@@ -149,8 +153,9 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   take_stock(walker);
   for (std::size_t i = 0; i < found.size(); ++i) {
     left_out_ = left_out[i];
-    const bool within = found[i].share < share_of_segment;
-    if (within && !add(found[i].solution, found[i].mark)) return false;
+    if (!(found[i].share < share_of_segment)) continue;
+    if (!found[i].solved) note_unsolved(found[i].solution.point.parameter, found[i].mark);
+    if (!add(found[i].solution, found[i].mark)) return false;
   }
   left_out_ = left_out_now;
   if (found.empty()) change_ = change_now;

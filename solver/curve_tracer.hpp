@@ -61,6 +61,7 @@ class CurveTracer {
   /// Brings all points to the same number of harmonics.
   [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
+  void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
   [[nodiscard]] bool finish(BranchWalker& walker);

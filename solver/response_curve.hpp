@@ -45,7 +45,8 @@ struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
   /// harmonics-kept: the equations with more harmonics were not solved, quadrature-kept: those on points
-  /// fitted to the motion
+  /// fitted to the motion; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
+  /// marked, within the step in which it lies
   std::string remedy;
 };
 
