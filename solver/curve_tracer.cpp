@@ -162,29 +162,29 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   return true;
 }
 
-bool CurveTracer::finish(BranchWalker& walker) {
+bool CurveTracer::reach(BranchWalker& walker, double edge) {
   const double before = walker.before().solution.point.parameter;
   const double now = walker.now().solution.point.parameter;
-  const double share = (options_.frequency_end - before) / (now - before);
+  if (before == edge) return true;  // a branch that was followed from there
+  const double share = (edge - before) / (now - before);
   if (!add_specials(walker, share)) {
-    stop("interrupted", at_hertz("stopped", options_.frequency_end));
+    stop("interrupted", at_hertz("stopped", edge));
     return false;
   }
   if (scene_.contact) scene_.contact->begin_point();
   NewtonResult last;
   do {
-    last = walker.at_parameter(options_.frequency_end, share);
+    last = walker.at_parameter(edge, share);
   } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
   take_stock(walker);
   if (!last.converged) {
-    stop("newton-stall", at_hertz("no solution found", options_.frequency_end));
+    stop("newton-stall", at_hertz("no solution found", edge));
     return false;
   }
   if (!add(last)) {
-    stop("interrupted", at_hertz("stopped", options_.frequency_end));
+    stop("interrupted", at_hertz("stopped", edge));
     return false;
   }
-  curve_.complete = curve_.diagnosis.empty();
   return true;
 }
 
@@ -211,17 +211,18 @@ bool CurveTracer::walk(BranchWalker& walker) {
     settle_step(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
-      static_cast<void>(finish(walker));
+      if (reach(walker, options_.frequency_end)) curve_.complete = curve_.diagnosis.empty();
+      return false;
+    }
+    if (progress(frequency) < -1e-9) {
+      if (reach(walker, options_.frequency_begin)) {
+        stop("out-of-range",
+             at_hertz("the branch turned back out of the range", options_.frequency_begin));
+      }
       return false;
     }
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
       stop("interrupted", at_hertz("stopped", frequency));
-      return false;
-    }
-    if (progress(frequency) < -1e-9) {
-      curve_.points.pop_back();
-      stop("out-of-range",
-           at_hertz("the branch turned back out of the range", options_.frequency_begin));
       return false;
     }
     if (closed(walker, n_steps)) {

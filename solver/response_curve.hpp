@@ -53,8 +53,9 @@ struct SolverEvent {
 /// A branch that the sweep does not meet: it coexists with the curve.
 struct DetachedBranch {
   std::vector<ResponsePoint> points;  ///< in branch order
-  bool closed =
-      false;  ///< an isola: the last point is next to the first; else both ends leave the range
+  /// An isola: the last point is next to the first. Else both ends leave the range, or the range is one
+  /// frequency and the branch one point.
+  bool closed = false;
 };
 
 struct ResponseCurve {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -99,65 +97,6 @@ TEST(Continuation, ReversedAndForwardSweepsMeetTheSameMarks) {
   std::reverse(b.begin(), b.end());
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].frequency, b[i].frequency, 1e-9);
-}
-
-/// One harmonic of an elastic Coulomb slider (k, q = μ n₀) under a sin θ: force h in quadrature, stiffness κ.
-struct Slider {
-  double stiffness, limit;
-  [[nodiscard]] double quadrature(double a) const {
-    const double least = limit / stiffness;
-    return a <= least ? 0.0 : 4.0 * limit / std::numbers::pi * (1.0 - least / a);
-  }
-  [[nodiscard]] double in_phase(double a) const {
-    const double least = limit / stiffness;
-    if (a <= least) return stiffness;
-    const double psi = std::acos(1.0 - 2.0 * least / a);
-    return stiffness / std::numbers::pi * (psi - 0.5 * std::sin(2.0 * psi));
-  }
-};
-
-/// A point on (α − ω²)²A² + (2ζω₀ωA + φh)² = F², α = ω₀² + φ²κ, at which the derivative by ω is zero.
-void expect_peak_of_slider(const tests::SinglePoint& single, const ResponsePoint& peak) {
-  const double A = peak.amplitude;
-  const double omega = peak.frequency;
-  const contact::PointParameters& point = single.point;
-  const Slider slider{point.tangential_stiffness, point.friction_coefficient * point.preload};
-  const double alpha = single.frequency * single.frequency +
-                       single.phi_u * single.phi_u * slider.in_phase(single.phi_u * A);
-  const double damping = 2.0 * single.damping_ratio * single.frequency * A;
-  const double reactive = (alpha - omega * omega) * A;
-  const double active = damping * omega + single.phi_u * slider.quadrature(single.phi_u * A);
-  const double F = single.force;
-  EXPECT_NEAR(std::hypot(reactive, active), F, 1e-9 * F);
-  // Stiffness and inertia cancel in the reactive force: their rounding is what is left of it.
-  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * alpha * A;
-  EXPECT_NEAR(damping * active / (2.0 * omega * A), reactive, 1e-9 * F + rounding);
-}
-
-TEST(Continuation, FindsThePeakWhereTheContactIsAllButStuck) {
-  // The branch about the peak is an arc of nearly constant amplitude; inside of it the point sticks.
-  for (const double damping : {0.0, 1e-7, 3e-7, 1e-6, 1e-5, 2e-5, 1e-4}) {
-    for (const double preload : {10.0, 100.0, 1000.0, 2000.0, 1e4, 1e6}) {
-      SCOPED_TRACE(testing::Message() << "damping " << damping << ", preload " << preload);
-      tests::SinglePoint single;
-      single.frequency = 40.0 * std::numbers::pi;
-      single.damping_ratio = damping;
-      single.phi_u = 0.8;
-      single.point = {5000.0, 0.0, 0.4, preload};
-      const auto curve = trace_response(
-          tests::single_point_scene(single),
-          from_to(0.75 * single.frequency, 1.5 * single.frequency));
-      ASSERT_TRUE(curve.complete) << curve.diagnosis;
-      const auto peaks = marked(curve, PointMark::peak);
-      ASSERT_EQ(peaks.size(), 1U);
-      expect_peak_of_slider(single, peaks[0]);
-      if (damping > 0.0) continue;
-      const double q = 0.4 * preload;  // (4qφ/π)(1 − q/(kφA)) = F
-      const double a = q / 5000.0 / (1.0 - std::numbers::pi / (4.0 * q * 0.8));
-      EXPECT_NEAR(peaks[0].amplitude, a / 0.8, 1e-9 * a);
-      EXPECT_NEAR(peaks[0].phase, -0.5 * std::numbers::pi, 1e-5);
-    }
-  }
 }
 
 TEST(Continuation, WithoutForceNothingMoves) {
