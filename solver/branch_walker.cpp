@@ -121,7 +121,10 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
-  return trial.cosine > cosine_limit && trial.correction < correction_limit;
+  // The sign of the determinant is that of the branch: another one is another branch's, or a kink at which
+  // the branch turns back lies in between.
+  const bool same = trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
+  return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
 }
 
 void BranchWalker::accept(Trial trial) {

@@ -26,6 +26,10 @@ constexpr int max_parabolas = 8;
 // to separate, makes them differ by more than this factor, and the cubic is not the branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
+// The motion along the branch jumps at a kink by about this share of itself; the slope no more.
+constexpr double kink_reach = 0.3;
+// Of more points each is a small part of the force: their kinks together are a smooth curve.
+constexpr std::size_t most_kinks = 32;
 constexpr int max_splits = 7;         // of a step, at its kinks: to less than a hundredth of it
 
 /// Something that varies along a segment, with its slope by arc length in the scaling of now().
@@ -120,15 +124,28 @@ class Segment {
     return node(std::move(*point));
   }
 
-  /// Between two places the branch turns, at a kink, far enough for the slope to change sign unseen.
-  [[nodiscard]] static bool may_hide(const Node& a, const Node& b) {
+  /// Between two places there is a kink at which the slope may change its sign unseen.
+  [[nodiscard]] bool may_hide(const Node& a, const Node& b) const {
     const BranchVector chord = minus(b.position, a.position);
     const double first = angle(a.tangent, chord);
     const double second = angle(chord, b.tangent);
     const auto [less, more] = std::minmax(first, second);
     const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
                                     std::abs(b.value.slope) / b.value.steepest);
-    return first + second > slight_turn && more > uneven * less && nearest < first + second;
+    if (first + second > slight_turn && more > uneven * less && nearest < first + second) return true;
+    const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
+    return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
+  }
+
+  /// A few points, and one of them begins or ceases to slip or to separate on the way.
+  [[nodiscard]] bool crosses_kink(const Node& a, const Node& b) const {
+    const auto& contact = balance_.scene().contact;
+    if (!contact) return false;
+    const auto regimes = [&](const Node& at) {
+      return contact->regimes(balance_.harmonics(at.at.point.solution.point.x));
+    };
+    const std::vector<int> before = regimes(a);
+    return before.size() <= most_kinks && before != regimes(b);
   }
 
   /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole

@@ -16,6 +16,7 @@
 #include "solver/continuation.hpp"
 #include "solver/start_point.hpp"
 #include "tests/solver/duffing.hpp"
+#include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -144,6 +145,23 @@ TEST(SpecialPoints, FoldsCloseTogetherAreFoundByLongStepsToo) {
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(far[i].frequency, near[i].frequency, 1e-9 * near[i].frequency);
       EXPECT_NEAR(far[i].amplitude, near[i].amplitude, 1e-6 * near[i].amplitude);
+    }
+  }
+}
+
+TEST(SpecialPoints, APeakWhereAPointBeginsToSlipIsFoundEitherWay) {
+  // Cusps less than 1e-4 of the amplitude high: the slope has recovered long before the step ends.
+  for (const auto& [seed, n_peaks] : {std::pair{116U, 6U}, std::pair{138U, 7U}}) {
+    SCOPED_TRACE(seed);
+    tests::RandomScene random = tests::wild_scene(seed);
+    const auto there = marked(trace_response(random.scene, random.options), PointMark::peak);
+    std::swap(random.options.frequency_begin, random.options.frequency_end);
+    auto back = marked(trace_response(random.scene, random.options), PointMark::peak);
+    std::reverse(back.begin(), back.end());
+    EXPECT_EQ(there.size(), n_peaks);
+    ASSERT_EQ(there.size(), back.size());
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
     }
   }
 }
