@@ -199,8 +199,7 @@ Line random_line(const test::PlanarStratum& stratum, std::mt19937_64& random) {
 
 // Where stuck throughout becomes possible the periodic slider is no longer one but any of a lens of them,
 // and Newton's method on the period map may come to its edge from outside, with slip of 1e-14 that looked
-// like a regime of its own: the force jumped by percents, and a curve of a rough block turned twice there
-// that does not. At the onset itself the mean that is held goes like the root of the distance: 1e-14 of the
+// like a regime of its own: the force jumped by percents. At the onset itself the mean that is held goes like the root of the distance: 1e-14 of the
 // way leaves 1e-7 of it, times the length of the way.
 TEST(PlanarSteady, ForcesFollowTheMotionWithoutJumps) {
   constexpr int n_steps = 50;
