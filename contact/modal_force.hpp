@@ -113,6 +113,10 @@ class ModalForce {
     return LinearState::unknown;
   }
 
+  /// The kind of cycle of each point under a motion, as a number: where it changes the force has a kink.
+  /// Empty: not told.
+  [[nodiscard]] virtual std::vector<int> regimes(const Harmonics& /*q*/) const { return {}; }
+
   // Some forces are discretised to suit the motion. They stay as they are while equations are solved; whoever
   // has solved them asks, and solves again where the discretisation was replaced. The others keep theirs.
 

@@ -227,4 +227,14 @@ LinearState PatchForce::linear_state(const Harmonics& centre, double radius) con
   return contact::linear_state(patch_, shapes_, centre, radius);
 }
 
+std::vector<int> PatchForce::regimes(const Harmonics& q) const {
+  std::vector<int> list;
+  list.reserve(patch_.points().size());
+  const std::vector<PointMotion> motions = point_motions(shapes_, q);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    list.push_back(static_cast<int>(cycle_force(patch_.points()[i], motions[i]).regime));
+  }
+  return list;
+}
+
 }  // namespace microslip::contact

@@ -41,6 +41,10 @@ class PatchForce final : public ModalForce {
   /// See linear_proof.hpp.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
+  /// CycleRegime of each point.
+  /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] std::vector<int> regimes(const Harmonics& q) const override;
+
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }
   [[nodiscard]] const ModalShapes& shapes() const { return shapes_; }
 

@@ -246,6 +246,15 @@ void RunRecord::warn_of_precision(const CurveSummary& curve, const ReducedModel&
       curve.largest_dissipation_mismatch));
 }
 
+/// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
+void RunRecord::warn_of_unsolved(const CurveResult& result) {
+  for (const solver::SolverEvent& event : result.curve.log) {
+    if (event.remedy != "peak-unsolved" && event.remedy != "fold-unsolved") continue;
+    progress_.warning(fmt::format("{}: curve {}: near {:.8g} Hz the nearest point found is marked",
+                                  event.remedy, result.name, to_hz * event.frequency));
+  }
+}
+
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
@@ -260,6 +269,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                       : std::string()));
   CurveSummary summary = summarise(result);
   if (!result.integrated) warn_of_precision(summary, model);
+  warn_of_unsolved(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;

@@ -72,6 +72,7 @@ class RunRecord {
 
   void describe(const StructureModes& modes);
   void warn_of_precision(const CurveSummary& curve, const ReducedModel& model);
+  void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();
   void fail(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;

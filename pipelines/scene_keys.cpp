@@ -260,7 +260,8 @@ constexpr KeySpec harmonic_tolerance_key{
     "harmonic_tolerance", number, "1", "0.001", 1e-9, 0.1, false,
     "of harmonics = \"auto\": share of the amplitude that the harmonics left out may change"};
 constexpr KeySpec search_key{"search_starts", integer, "", "0", 0, 1000, false,
-                             "starts of a search for branches detached from the curve; 0: none"};
+                             "starts per frequency of a search for branches detached from the curve, or for other "
+                             "solutions at a single frequency; 0: none"};
 constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
                            "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
 constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};

@@ -7,15 +7,21 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "solver/curve_tracer.hpp"
+#include "solver/solved_point.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
 namespace {
 
-constexpr int n_frequencies = 7;  // evenly inside the range
+constexpr int n_inside = 7;  // frequencies, evenly
+// Of the range. At a fold two known solutions meet and the equations are singular; this far beside it they
+// are apart, or not there.
+constexpr double beside_fold = 1e-3;
+constexpr double same_frequency = 1e-6;
 constexpr int most_iterations = 60;
 constexpr int most_halvings = 6;
 constexpr double longest_step = 3.0;  // of the amplitude: deflation scales steps without bound
@@ -23,18 +29,48 @@ constexpr double longest_step = 3.0;  // of the amplitude: deflation scales step
 constexpr double distinct = 1e-5;
 constexpr std::size_t most_branches = 10;
 
+/// Resonances with a stiffness added [rad/s].
+Eigen::VectorXd resonances(const Scene& scene, const Eigen::MatrixXd& stiffness) {
+  Eigen::MatrixXd all = stiffness;
+  all.diagonal() += scene.natural_frequency.cwiseAbs2();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+/// Where other solutions are looked for [rad/s], ascending, each once.
+std::vector<double> search_frequencies(const Scene& scene, const ContinuationOptions& options,
+                                       const ResponseCurve& curve) {
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  const double range = high - low;
+  if (range == 0.0) return {low};
+  std::vector<double> all{low, high};
+  for (int i = 0; i < n_inside; ++i) all.push_back(low + (i + 0.5) / n_inside * range);
+  const auto add = [&, least = low, most = high](double frequency) {
+    if (frequency > least && frequency < most) all.push_back(frequency);
+  };
+  for (const ResponsePoint& point : curve.points) {
+    if (point.mark == PointMark::peak) add(point.frequency);
+    if (point.mark != PointMark::fold) continue;
+    add(point.frequency - beside_fold * range);
+    add(point.frequency + beside_fold * range);
+  }
+  for (const double frequency : scene.natural_frequency) add(frequency);
+  for (const double frequency : resonances(scene, scene.contact->stuck_stiffness())) add(frequency);
+  std::sort(all.begin(), all.end());
+  const auto same = [&](double a, double b) { return b - a < same_frequency * range; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
 class Search {
  public:
   Search(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve)
       : scene_(scene), options_(options), curve_(curve) {}
 
   void run() {
-    for (int i = 0; i < n_frequencies; ++i) {
-      const double share = (i + 0.5) / n_frequencies;
-      const double frequency =
-          options_.frequency_begin + share * (options_.frequency_end - options_.frequency_begin);
-      search_at(frequency);
-    }
+    for (const double frequency : search_frequencies(scene_, options_, curve_)) search_at(frequency);
   }
 
  private:
@@ -184,6 +220,13 @@ class Search {
   }
 
   void keep_branch(NewtonResult start) {
+    if (options_.frequency_begin == options_.frequency_end) {
+      DetachedBranch branch;
+      branch.points.push_back(
+          point_with_harmonics(scene_, balance_->set(), std::move(start), options_, curve_));
+      curve_.detached.push_back(std::move(branch));
+      return;
+    }
     const PointObserver none;
     ContinuationOptions backward = options_;
     std::swap(backward.frequency_begin, backward.frequency_end);

@@ -45,6 +45,43 @@ BranchVector moved(const BranchVector& from, const BranchVector& direction, doub
           from.parameter + distance * scaling.parameter * direction.parameter};
 }
 
+/// A point of a step with the derivative of the branch by the share of the way along the chord.
+struct Knot {
+  Knot(const StepPoint& at, const BranchVector& chord, double size, const Scaling& scaling)
+      : point(at.point.solution.point) {
+    const BranchVector tangent = rescaled(at.point.tangent, at.point.scaling, scaling);
+    const double along = dot(tangent, chord);
+    // A branch that runs across the chord, at a kink, has no such derivative: that of the chord.
+    constexpr double across = 0.2;
+    const BranchVector& way = along > across ? tangent : chord;
+    const double factor = along > across ? size / along : size;
+    derivative = {factor * scaling.x * way.x, factor * scaling.parameter * way.parameter};
+  }
+
+  BranchVector point;
+  BranchVector derivative;
+};
+
+BranchVector combined(const BranchVector& a, double factor, const BranchVector& b) {
+  return {a.x + factor * b.x, a.parameter + factor * b.parameter};
+}
+
+/// Guesses for the branch at a share u of the way between two knots, all of them in one plane across the
+/// chord. Where the branch is an arc about a region of another regime, the tangents lie outside of it.
+std::vector<BranchVector> starts_between(const Knot& a, const Knot& b, double u, double width) {
+  const BranchVector line = combined(combined(a.point, -u, a.point), u, b.point);
+  const BranchVector from_a = combined(a.point, u * width, a.derivative);
+  const BranchVector from_b = combined(b.point, -(1.0 - u) * width, b.derivative);
+  // Hermite's cubic, by its distances from the line.
+  const double v = 1.0 - u;
+  const BranchVector rise = combined(b.point, -1.0, a.point);
+  BranchVector cubic = combined(line, u * v * v * width, a.derivative);
+  cubic = combined(cubic, -u * u * v * width, b.derivative);
+  cubic = combined(cubic, u * u * v - u * v * v, rise);
+  if (u < 0.5) return {cubic, from_a, from_b, line};
+  return {cubic, from_b, from_a, line};
+}
+
 }  // namespace
 
 BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start,
@@ -55,7 +92,7 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
   const BranchVector along{Eigen::VectorXd::Zero(now_.solution.point.x.size()), forward};
   const Tangent tangent = branch_tangent(now_.solution.evaluation, along, now_.scaling);
   now_.tangent = tangent.direction;
-  orientation_ = tangent.orientation;
+  orientation_ = before_orientation_ = tangent.orientation;
   before_ = now_;
 }
 
@@ -84,12 +121,16 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
-  return trial.cosine > cosine_limit && trial.correction < correction_limit;
+  // The sign of the determinant is that of the branch: another one is another branch's, or a kink at which
+  // the branch turns back lies in between.
+  const bool same = trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
+  return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
 }
 
 void BranchWalker::accept(Trial trial) {
   // At a kink where the branch turns back by more than a right angle the determinant tells the way
   // on.
+  before_orientation_ = orientation_;
   const bool turned =
       trial.orientation != 0.0 && orientation_ != 0.0 && trial.orientation != orientation_;
   if (turned && trial.cosine < cosine_limit) {
@@ -161,6 +202,7 @@ bool BranchWalker::change_unknowns(const UnknownMap& map) {
   if (!now) return false;
   before_ = std::move(before->point);
   now_ = std::move(now->point);
+  before_orientation_ = before->orientation;
   orientation_ = now->orientation;
   return true;
 }
@@ -217,14 +259,10 @@ bool BranchWalker::leap() {
   return false;
 }
 
-std::optional<WalkerPoint> BranchWalker::between(double share) const {
+/// On the plane through the start across the chord.
+std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
+                                                   const BranchVector& chord) const {
   const Scaling& scaling = now_.scaling;
-  BranchVector chord = difference(now_.solution.point, before_.solution.point, scaling);
-  const double size = length(chord);
-  if (size == 0.0) return std::nullopt;
-  chord.x /= size;
-  chord.parameter /= size;
-  const BranchVector start = moved(before_.solution.point, chord, share * size, scaling);
   // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
   NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
   evaluations_ += solution.evaluations;
@@ -232,8 +270,31 @@ std::optional<WalkerPoint> BranchWalker::between(double share) const {
   const double tolerance = std::max(tolerance_, scaling.rounding);
   if (!(solution.residual <= tolerance)) return std::nullopt;
   solution.converged = true;
-  const Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
-  return WalkerPoint{std::move(solution), tangent.direction, scaling};
+  Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
+  // Within a sharp turn the branch may run against the chord; the determinant tells.
+  const bool known = orientation_ != 0.0 && orientation_ == before_orientation_;
+  if (known && tangent.orientation == -orientation_) {
+    tangent.direction.x = -tangent.direction.x;
+    tangent.direction.parameter = -tangent.direction.parameter;
+  }
+  return WalkerPoint{std::move(solution), std::move(tangent.direction), scaling};
+}
+
+std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoint& b,
+                                               double share) const {
+  const Scaling& scaling = now_.scaling;
+  BranchVector chord = difference(now_.solution.point, before_.solution.point, scaling);
+  const double size = length(chord);
+  if (size == 0.0) return std::nullopt;
+  chord.x /= size;
+  chord.parameter /= size;
+  const double width = b.share - a.share;
+  const double u = (share - a.share) / width;
+  for (const BranchVector& start :
+       starts_between(Knot(a, chord, size, scaling), Knot(b, chord, size, scaling), u, width)) {
+    if (auto point = corrected(start, chord)) return StepPoint{share, std::move(*point)};
+  }
+  return std::nullopt;
 }
 
 NewtonResult BranchWalker::at_parameter(double parameter, double share) const {

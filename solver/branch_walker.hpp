@@ -25,6 +25,12 @@ struct WalkerPoint {
   Scaling scaling;
 };
 
+/// A point of the last step.
+struct StepPoint {
+  double share = 0.0;  ///< of the way along the chord from before() to now(), 0 … 1
+  WalkerPoint point;
+};
+
 /// What helped where Newton's method had failed.
 struct Remedy {
   double parameter = 0.0;
@@ -47,8 +53,13 @@ class BranchWalker {
 
   [[nodiscard]] const WalkerPoint& now() const { return now_; }
   [[nodiscard]] const WalkerPoint& before() const { return before_; }
-  /// The branch between before() and now() at a share of the way, 0 … 1; empty: Newton failed there.
-  [[nodiscard]] std::optional<WalkerPoint> between(double share) const;
+  /// The branch where it passes the plane across the chord from before() to now() at a share of the way:
+  /// Newton's method from the cubic through two points of the step with their tangents, then from the
+  /// tangents and from the line between the points.
+  /// @param a, b  of the last step, on either side of the share.
+  /// @return empty: Newton's method failed from all of them.
+  [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
+                                                 double share) const;
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
   [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
 
@@ -83,6 +94,8 @@ class BranchWalker {
   void remember(const char* remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
+  [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
+                                                     const BranchVector& chord) const;
   [[nodiscard]] std::optional<Trial> carried(const WalkerPoint& from, const UnknownMap& map) const;
 
   ParametricSystem system_;
@@ -92,6 +105,7 @@ class BranchWalker {
   WalkerPoint before_;
   double step_ = 0.05;
   double orientation_ = 0.0;  ///< 0: not known yet
+  double before_orientation_ = 0.0;
   std::vector<Remedy> remedies_;
   mutable long evaluations_ = 0;
   mutable long iterations_ = 0;

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "solver/branch_search.hpp"
-#include "solver/certificate.hpp"
 #include "solver/curve_tracer.hpp"
 #include "solver/harmonic_choice.hpp"
 #include "solver/linear_certificate.hpp"
 #include "solver/linear_force.hpp"
 #include "solver/refit.hpp"
+#include "solver/solved_point.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
@@ -108,45 +108,6 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   return curve;
 }
 
-/// A solution at a fixed frequency as a point, on a force that suits it.
-ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solution,
-                            const ContinuationOptions& options, ResponseCurve& curve) {
-  RefittedSolution settled = settle_force(balance, std::move(solution), options.residual_tolerance);
-  solution = std::move(settled.solution);
-  const double frequency = solution.point.parameter;
-  curve.iterations += settled.iterations;
-  curve.contact_evaluations += settled.evaluations;
-  if (!settled.settled) curve.log.push_back({frequency, "quadrature-kept"});
-  const auto stability = stability_in_time(
-      balance, balance.harmonics(solution.point.x), frequency,
-      assess_stability(balance, solution.evaluation.jacobian, frequency));
-  ResponsePoint point = certified_point(balance, solution, frequency, stability);
-  point.quadrature_change = settled.change;
-  return point;
-}
-
-/// The same after more harmonics are added where they are chosen.
-ResponsePoint point_with_harmonics(const Scene& scene, HarmonicSet set, NewtonResult solution,
-                                   const ContinuationOptions& options, ResponseCurve& curve) {
-  double left_out = 0.0;
-  if (options.harmonic_tolerance > 0.0) {
-    const HarmonicChoice choice(scene, options.harmonic_tolerance, options.n_harmonics);
-    SettledSolution settled = settle_harmonics(choice, scene, std::move(set), std::move(solution),
-                                               options.residual_tolerance);
-    curve.iterations += settled.iterations;
-    curve.contact_evaluations += settled.evaluations;
-    const double frequency = settled.solution.point.parameter;
-    if (!settled.settled) curve.log.push_back({frequency, "harmonics-kept"});
-    set = std::move(settled.set);
-    solution = std::move(settled.solution);
-    left_out = settled.left_out;
-  }
-  const HarmonicBalance balance(scene, std::move(set));
-  ResponsePoint point = settled_point(balance, std::move(solution), options, curve);
-  point.harmonics_left_out = left_out;
-  return point;
-}
-
 }  // namespace
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
@@ -203,6 +164,7 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
+    if (options.search_starts > 0) search_branches(scene, here, curve);
   } else {
     curve.diagnosis = "no-start";
     curve.message = "no solution found; tried " + start.way;
@@ -217,13 +179,7 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
   const HarmonicSet least = first_harmonics(scene, options);
   std::unique_ptr<HarmonicBalance> balance;
   std::vector<ResponsePoint> found;
-  for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    const ResponsePoint& a = curve.points[i - 1];
-    const ResponsePoint& b = curve.points[i];
-    const bool crosses = (a.frequency <= frequency) != (b.frequency <= frequency);
-    const bool ends_here = i + 1 == curve.points.size() && b.frequency == frequency && !crosses;
-    if (!crosses && !ends_here) continue;
-    const double share = ends_here ? 1.0 : (frequency - a.frequency) / (b.frequency - a.frequency);
+  const auto solve_between = [&](const ResponsePoint& a, const ResponsePoint& b, double share) {
     const HarmonicSet set = least.united(a.orders).united(b.orders);
     if (!balance || balance->set() != set) balance = std::make_unique<HarmonicBalance>(scene, set);
     const Eigen::VectorXd guess =
@@ -234,9 +190,18 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     if (scene.contact) scene.contact->begin_point();
     static_cast<void>(refit_to(*balance, {{guess, frequency}}));
     NewtonResult solution = solve_at(*balance, guess, frequency, newton);
-    if (!solution.converged) continue;
+    if (!solution.converged) return;
     ResponseCurve work;
     found.push_back(settled_point(*balance, std::move(solution), options, work));
+  };
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const ResponsePoint& b = curve.points[i];
+    const ResponsePoint& a = curve.points[i > 0 ? i - 1 : 0];
+    const bool repeated = i > 0 && a.frequency == b.frequency && a.q.vector() == b.q.vector();
+    if (b.frequency == frequency && !repeated) solve_between(b, b, 1.0);
+    const bool crosses = (a.frequency < frequency && b.frequency > frequency) ||
+                         (a.frequency > frequency && b.frequency < frequency);
+    if (crosses) solve_between(a, b, (frequency - a.frequency) / (b.frequency - a.frequency));
   }
   return found;
 }
@@ -251,7 +216,9 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
         stuck ? contact::CycleReport{1.0, 0.0, 0.0} : contact::CycleReport{0.0, 0.0, 1.0});
   }
   const Scene linear = with_force(scene, std::move(force));
-  ResponseCurve curve = trace_response(linear, options);
+  ContinuationOptions alone = options;
+  alone.search_starts = 0;  // a linear response is the only one
+  ResponseCurve curve = trace_response(linear, alone);
   forget_evaluations(curve);
   return curve;
 }

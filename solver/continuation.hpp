@@ -41,7 +41,8 @@ using PointObserver = std::function<bool(const ResponsePoint&)>;
 [[nodiscard]] ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
                                            const PointObserver& observe = {});
 
-/// The solution at one frequency, reached from the linear limits (single-frequency scenes).
+/// The solution at one frequency, reached from the linear limits (single-frequency scenes). A search adds the
+/// others it finds as branches of one point each.
 [[nodiscard]] ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
                                                const ContinuationOptions& options);
 
@@ -53,7 +54,7 @@ using PointObserver = std::function<bool(const ResponsePoint&)>;
                                                              const ContinuationOptions& options);
 
 enum class LinearLimit { free, stuck };
-/// Linear limit as a curve of its own: peaks solved for, points denser near resonances.
+/// Linear limit as a curve of its own: peaks solved for, points denser near resonances. Nothing is searched.
 [[nodiscard]] ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                                          const ContinuationOptions& options);
 

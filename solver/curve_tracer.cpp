@@ -141,6 +141,10 @@ std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
   return found;
 }
 
+void CurveTracer::note_unsolved(double frequency, PointMark mark) {
+  curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
+}
+
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   const double left_out_now = left_out_;
   const double change_now = change_;
@@ -149,37 +153,38 @@ bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
   take_stock(walker);
   for (std::size_t i = 0; i < found.size(); ++i) {
     left_out_ = left_out[i];
-    const bool within = found[i].share < share_of_segment;
-    if (within && !add(found[i].solution, found[i].mark)) return false;
+    if (!(found[i].share < share_of_segment)) continue;
+    if (!found[i].solved) note_unsolved(found[i].solution.point.parameter, found[i].mark);
+    if (!add(found[i].solution, found[i].mark)) return false;
   }
   left_out_ = left_out_now;
   if (found.empty()) change_ = change_now;
   return true;
 }
 
-bool CurveTracer::finish(BranchWalker& walker) {
+bool CurveTracer::reach(BranchWalker& walker, double edge) {
   const double before = walker.before().solution.point.parameter;
   const double now = walker.now().solution.point.parameter;
-  const double share = (options_.frequency_end - before) / (now - before);
+  if (before == edge) return true;  // a branch that was followed from there
+  const double share = (edge - before) / (now - before);
   if (!add_specials(walker, share)) {
-    stop("interrupted", at_hertz("stopped", options_.frequency_end));
+    stop("interrupted", at_hertz("stopped", edge));
     return false;
   }
   if (scene_.contact) scene_.contact->begin_point();
   NewtonResult last;
   do {
-    last = walker.at_parameter(options_.frequency_end, share);
+    last = walker.at_parameter(edge, share);
   } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
   take_stock(walker);
   if (!last.converged) {
-    stop("newton-stall", at_hertz("no solution found", options_.frequency_end));
+    stop("newton-stall", at_hertz("no solution found", edge));
     return false;
   }
   if (!add(last)) {
-    stop("interrupted", at_hertz("stopped", options_.frequency_end));
+    stop("interrupted", at_hertz("stopped", edge));
     return false;
   }
-  curve_.complete = curve_.diagnosis.empty();
   return true;
 }
 
@@ -206,17 +211,18 @@ bool CurveTracer::walk(BranchWalker& walker) {
     settle_step(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
-      static_cast<void>(finish(walker));
+      if (reach(walker, options_.frequency_end)) curve_.complete = curve_.diagnosis.empty();
+      return false;
+    }
+    if (progress(frequency) < -1e-9) {
+      if (reach(walker, options_.frequency_begin)) {
+        stop("out-of-range",
+             at_hertz("the branch turned back out of the range", options_.frequency_begin));
+      }
       return false;
     }
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
       stop("interrupted", at_hertz("stopped", frequency));
-      return false;
-    }
-    if (progress(frequency) < -1e-9) {
-      curve_.points.pop_back();
-      stop("out-of-range",
-           at_hertz("the branch turned back out of the range", options_.frequency_begin));
       return false;
     }
     if (closed(walker, n_steps)) {

@@ -61,9 +61,11 @@ class CurveTracer {
   /// Brings all points to the same number of harmonics.
   [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
+  void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
-  [[nodiscard]] bool finish(BranchWalker& walker);
+  /// What the last step has up to an end of the range, and the point there. False: diagnosis says why.
+  [[nodiscard]] bool reach(BranchWalker& walker, double edge);
   void stop(const std::string& diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
 

@@ -5,6 +5,7 @@
 
 #include "solver/curve_tracer.hpp"
 #include "solver/refit.hpp"
+#include "solver/unmarked_points.hpp"
 
 namespace microslip::solver {
 
@@ -106,6 +107,7 @@ ResponseCurve CurveTracer::finished() {
     q.rows().topRows(point.q.rows().rows()) = point.q.rows();
     point.q = std::move(q);
   }
+  mark_unsolved(curve_);
   return std::move(curve_);
 }
 

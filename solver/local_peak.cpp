@@ -87,6 +87,7 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
                                const BranchVector& guess, const ContinuationOptions& range) {
   for (int i = 0; i < max_steps && settled_step(balance, walker); ++i) {
     if (const auto peak = peak_of_step(balance, walker)) {
+      if (!peak->solved) return std::nullopt;
       const Scaling& scaling = walker.now().scaling;
       const bool near = distance(peak->solution.point, guess, scaling) < farthest;
       if (!near || !inside(peak->solution.point.parameter, range)) return std::nullopt;

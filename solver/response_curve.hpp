@@ -45,15 +45,17 @@ struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
   /// harmonics-kept: the equations with more harmonics were not solved, quadrature-kept: those on points
-  /// fitted to the motion
+  /// fitted to the motion; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
+  /// marked, within the step in which it lies
   std::string remedy;
 };
 
 /// A branch that the sweep does not meet: it coexists with the curve.
 struct DetachedBranch {
   std::vector<ResponsePoint> points;  ///< in branch order
-  bool closed =
-      false;  ///< an isola: the last point is next to the first; else both ends leave the range
+  /// An isola: the last point is next to the first. Else both ends leave the range, or the range is one
+  /// frequency and the branch one point.
+  bool closed = false;
 };
 
 struct ResponseCurve {

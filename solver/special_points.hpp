@@ -6,7 +6,9 @@
 ///
 /// s the arc length. A cubic through both ends with their slopes tells where to look for a pair of zeros
 /// that the ends do not show (a step over a peak and the valley before it). At a kink of the branch the slope
-/// jumps through zero; the kink is the peak then.
+/// jumps through zero; the kink is the peak then. A step that turns unevenly has kinks, and its cubic is not the
+/// branch: it is split at them as long as the slope may have zeros in between. What changes its sign is never
+/// passed over: where no zero can be solved for, the nearest point is given and said to be no solution.
 #pragma once
 
 #include <vector>
@@ -20,6 +22,8 @@ struct SpecialPoint {
   double share = 0.0;  ///< of the way from before() to now()
   NewtonResult solution;
   PointMark mark = PointMark::none;
+  /// False: the slope changes its sign here, Newton's method fails in between; the nearest point there is.
+  bool solved = true;
 };
 
 /// The peaks alone, in the order of the branch.

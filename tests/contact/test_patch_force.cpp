@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "contact/friction_cycle.hpp"
 #include "contact/point_motions.hpp"
@@ -188,6 +189,24 @@ TEST(PatchForce, SplittingAPointInTwoHalvesChangesNothing) {
   // Six products of order one in another order.
   EXPECT_LE((a.force.vector() - b.force.vector()).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_LE((a.jacobian - b.jacobian).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(PatchForce, TellsTheRegimeOfEachPoint) {
+  // One mode, φ_u = φ_v = 1, q = sin θ: u and v of amplitude 1.
+  const std::vector<PointParameters> points{{1.0, 0.0, 0.5, 10.0},    // 5 N hold 1 N
+                                            {1.0, 0.0, 0.5, 1.0},     // 0.5 N do not
+                                            {1.0, 2.0, 0.5, 1.0},     // 2 N lift 1 N
+                                            {1.0, 2.0, 0.5, -10.0}};  // a gap of 5
+  const ModalShapes shapes{Eigen::MatrixXd::Ones(4, 1), Eigen::MatrixXd::Ones(4, 1), {}};
+  const PatchForce force(ContactPatch(Eigen::VectorXd::Ones(4), points), shapes);
+  Harmonics q(1, 1);
+  q.rows()(1, 0) = 1.0;
+  const auto number = [](CycleRegime regime) { return static_cast<int>(regime); };
+  EXPECT_EQ(force.regimes(q), (std::vector<int>{number(CycleRegime::full_stick),
+                                                number(CycleRegime::stick_slip),
+                                                number(CycleRegime::separation),
+                                                number(CycleRegime::separated)}));
+  EXPECT_THROW(static_cast<void>(force.regimes(Harmonics(2, 1))), std::invalid_argument);
 }
 
 TEST(PatchForce, RefusesWhatDoesNotFit) {
