@@ -12,6 +12,7 @@
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
+#include "pipelines/preload_shape.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/structure_stage.hpp"
 #include "pipelines/study.hpp"
@@ -150,6 +151,7 @@ int check_study(const SceneDescription& scene, std::ostream& out) {
     if (scene.clamped.empty() && scene.response) {
       out << "warning: nothing is clamped: `run` will refuse rigid-body modes that nothing holds\n";
     }
+    if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
     forecast(mesh, scene, out);
     describe_effects(scene, nullptr, out);
   }

@@ -142,6 +142,7 @@ void require_response(const SceneDescription& scene) {
     throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
   }
   if (!scene.without_contact.empty()) throw SceneError(scene.without_contact);
+  require_pressing_loads(scene);
 }
 
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
