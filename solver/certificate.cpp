@@ -9,7 +9,8 @@
 namespace microslip::solver {
 namespace {
 
-// Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged.
+// Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged. Neither is where the
+// balance itself leaves as much: without excitation a motion is what rounding of the forces at rest leaves.
 constexpr double vanishing = 1e-15;
 
 /// π Σ_k k (A_s·F_c − A_c·F_s)
@@ -57,8 +58,9 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   const double damped = viscous_work(point.q, scene, frequency);
   const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
   const double exchanged = std::max(std::abs(excited), damped + rubbed);
-  const double size = std::numbers::pi * point.q.vector().norm() * balance.excitation().norm();
-  if (exchanged > vanishing * size) {
+  const double force = vanishing * balance.excitation().norm() + solution.evaluation.residual.norm();
+  const double left = std::numbers::pi * point.q.n_harmonics() * point.q.vector().norm() * force;
+  if (exchanged > left) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;
     if (scene.contact) {
       point.dissipation_mismatch = std::abs(rubbed - point.report.slip_work) / exchanged;

@@ -371,6 +371,17 @@ def triangles_of(cells):
     return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
 
 
+# Guards of the period (write_map.hpp): the state that lasts on one side of their zero line, and the states that
+# meet it there.
+GUARDS = {"slip_guard": (0, (1, 2, 4)), "smallest_load": (0, (3,)), "largest_load": (3, (0, 1, 2, 4))}
+
+
+def nearest_to_zero(values):
+    """Of each row, without the entries that are NaN; NaN where all are."""
+    size = np.where(np.isnan(values), np.inf, np.abs(values))
+    return np.take_along_axis(values, size.argmin(axis=1)[:, None], axis=1)[:, 0]
+
+
 class ContactMap:
     """One maps/NAME.h5, lengths of the patch in millimetres."""
 
@@ -387,8 +398,12 @@ class ContactMap:
             self.cells = vertices[cells] if len(cells) else None
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
-            name = "vertex_state_start_deg"
-            self.starts = file[name][:] if name in file and len(cells) else None
+            self.starts, self.guards, self.vertex_state = None, {}, None
+            if len(cells) and "vertex_state_starts_deg" in file:
+                self.starts = np.split(file["vertex_state_starts_deg"][:], 5, axis=1)
+                self.vertex_state = file["vertex_state"][:]
+                self.guards = {name: file[f"vertex_{name}_Pa"][:] for name in GUARDS
+                               if f"vertex_{name}_Pa" in file}
             self.triangles = triangles_of(cells) if len(cells) else None
         corners = vertices if self.cells is not None else self.points
         self.names = "p [mm]", "r [mm]"
@@ -406,19 +421,45 @@ class ContactMap:
         return (weights[state == 0].sum(), weights[np.isin(state, (1, 2, 4))].sum(),
                 weights[state == 3].sum())
 
+    def draw_zero_line(self, axes, values, chosen, **style):
+        """Where values at the vertices vanish, interpolated in the chosen triangles."""
+        at_corners = values[self.triangles[chosen]]
+        if at_corners.size and np.min(at_corners) < 0 < np.max(at_corners):
+            mesh = Triangulation(*self.corners.T, self.triangles[chosen])
+            axes.tricontour(mesh, np.nan_to_num(values), levels=[0.0], **style)
+
     def draw_boundaries(self, axes, phase):
-        """Where a state begins at this phase [deg]: level lines of the transition angles, interpolated between
-        vertices. A triangle counts where the angle exists at its corners and does not leap around the period."""
+        """Boundaries of the states at one phase, interpolated on guards: where a state begins, θ_k − θ, in triangles
+        where it begins at every corner (and its angle does not leap around the period); the guards of the period,
+        where one corner never leaves the state that another has left now."""
         if self.starts is None:
             return
-        for angles in self.starts.T:
-            ahead = (angles - phase + 180.0) % 360.0 - 180.0
+        style = {"colors": "black", "linewidths": 0.7}
+        angle = self.phase[phase]
+        for starts in self.starts:
+            ahead = (starts - angle + 180.0) % 360.0 - 180.0
+            ahead = nearest_to_zero(ahead)
             at_corners = ahead[self.triangles]
             smooth = np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
-            if not smooth.any() or not (np.nanmin(at_corners[smooth]) < 0 < np.nanmax(at_corners[smooth])):
-                continue
-            mesh = Triangulation(*self.corners.T, self.triangles[smooth])
-            axes.tricontour(mesh, np.nan_to_num(ahead), levels=[0.0], colors="black", linewidths=0.7)
+            self.draw_zero_line(axes, ahead, smooth, **style)
+        state = self.vertex_state[:, phase]
+        lasting = np.all([np.isnan(starts).all(axis=1) for starts in self.starts], axis=0)
+        for name, values in self.guards.items():
+            always, left = GUARDS[name]
+            kept = lasting & (state == always)
+            other = ~lasting & np.isin(state, left)
+            mixed = kept[self.triangles].any(axis=1) & other[self.triangles].any(axis=1)
+            self.draw_zero_line(axes, values, mixed, **style)
+
+    def draw_guards(self, axes):
+        """Boundaries of what occurs within the period: onset of slip, of separation, and open throughout."""
+        for name, style in zip(GUARDS, ("solid", "dashed", "dashdot")):
+            if name in self.guards:
+                touching = np.ones(len(self.triangles), dtype=bool)
+                if name == "slip_guard" and "largest_load" in self.guards:
+                    touching = (self.guards["largest_load"] > 0)[self.triangles].all(axis=1)
+                self.draw_zero_line(axes, self.guards[name], touching, colors="white", linewidths=1.0,
+                                    linestyles=style)
 
     def draw(self, axes, colours=None, values=None, cmap=None):
         """Cells in given colours, or coloured by values; lone points where there are no cells."""
@@ -469,6 +510,7 @@ def draw_sum(figure, axes, contact, values, name):
     if not values.max() > 0:  # a scale of nothing would invent one
         axes.set_title(f"{name}: 0", loc="left", fontsize=8)
         return
+    contact.draw_guards(axes)
     drawn.set_clim(0.0, values.max())
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)
