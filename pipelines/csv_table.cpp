@@ -63,6 +63,10 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   if (std::filesystem::is_directory(file, error)) {
     throw SceneError(fmt::format("{}: not a file", file.string()));
   }
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > limit) {
+    throw SceneError(fmt::format("{}: {} bytes; at most {} are read", file.string(), size, limit));
+  }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw SceneError(fmt::format("{}: cannot be read", file.string()));
   std::string content;  // a pipe does not know its size beforehand

@@ -49,6 +49,7 @@ struct Arguments {
   bool verbose = false;
   bool json = false;
   int rank = 0;
+  nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // of `check`, for --json
 };
 
 /// Options this version does not have, or that say nothing to the command: refused, never ignored.
@@ -90,9 +91,29 @@ SceneDescription scene_of(const Arguments& arguments) {
   return read_scene(arguments.input, arguments.overrides);
 }
 
+int check(Arguments& arguments, const SceneDescription& scene) {
+  const CheckResult result = check_study(scene, std::cout);
+  const Forecast& forecast = result.forecast;
+  nlohmann::ordered_json& cost = arguments.findings["forecast"];
+  cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},
+          {"modes_seconds", forecast.modes_seconds},
+          {"curves_seconds", forecast.curves_seconds},
+          {"memory_GB", forecast.memory_gb}};
+  if (forecast.curves_seconds_along_r) cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
+  nlohmann::ordered_json& effects = arguments.findings["effects"] = nlohmann::ordered_json::array();
+  for (const EffectRecord& effect : result.effects) {
+    effects.push_back({{"name", effect.name},
+                       {"setting", effect.setting},
+                       {"simulated", effect.simulated},
+                       {"reason", effect.reason}});
+  }
+  arguments.findings["warnings"] = result.warnings;
+  return static_cast<int>(ExitCode::complete);
+}
+
 int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check_study(scene, std::cout);
+  if (arguments.dry_run) return check(arguments, scene);
   choose_run_folder(arguments);
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
@@ -103,9 +124,9 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   return study(scene, options_of(arguments, arguments.output));
 }
 
-int mesh(const Arguments& arguments) {
+int mesh(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check_study(scene, std::cout);
+  if (arguments.dry_run) return check(arguments, scene);
   if (!std::holds_alternative<BladeModel>(scene.model)) {
     throw SceneError(scene.file.string() +
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
@@ -211,7 +232,7 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   with_scene(
       add_command(app, a, chosen, "check",
                   "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                  [&] { return check_study(scene_of(a), std::cout); }));
+                  [&] { return check(a, scene_of(a)); }));
   auto* mesh_command =
       with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
   with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();
@@ -258,6 +279,7 @@ void print_json_line(const Arguments& arguments, int code, const std::string& me
                               {"command", arguments.command}, {"exit_code", code},
                               {"input", arguments.input},     {"output", arguments.output}};
   if (!message.empty()) line["message"] = message;
+  line.update(arguments.findings);
   std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
             << std::endl;
 }

@@ -59,7 +59,8 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
   const double exchanged = std::max(std::abs(excited), damped + rubbed);
   const double force = vanishing * balance.excitation().norm() + solution.evaluation.residual.norm();
-  const double left = std::numbers::pi * point.q.n_harmonics() * point.q.vector().norm() * force;
+  // Twice, for work along the residual comes to exactly this.
+  const double left = 2.0 * std::numbers::pi * point.q.n_harmonics() * point.q.vector().norm() * force;
   if (exchanged > left) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;
     if (scene.contact) {
