@@ -120,9 +120,8 @@ Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape, const Eigen::Vector
   if (!(force >= 0.0)) refuse("preload field: a field is scaled to a force of at least 0, not ", force, " N");
   if (!(integral > rounding)) {
     refuse("preload field integrates to ", integral, " over the patch (its size to ", size,
-           "): it cannot be scaled to ", force,
-           " N; expected a field whose integral is above 0, positive where the contact presses and "
-           "negative where there is a gap");
+           "): expected a field whose integral is above 0, positive where the contact presses and negative where "
+           "there is a gap; scaling this one would turn gaps into pressure");
   }
   return shape * (force / carried);
 }

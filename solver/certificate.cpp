@@ -9,8 +9,7 @@
 namespace microslip::solver {
 namespace {
 
-// Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged. Neither is where the
-// balance itself leaves as much: without excitation a motion is what rounding of the forces at rest leaves.
+// Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged.
 constexpr double vanishing = 1e-15;
 
 /// π Σ_k k (A_s·F_c − A_c·F_s)
@@ -58,10 +57,10 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   const double damped = viscous_work(point.q, scene, frequency);
   const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
   const double exchanged = std::max(std::abs(excited), damped + rubbed);
-  const double force = vanishing * balance.excitation().norm() + solution.evaluation.residual.norm();
-  // Twice, for work along the residual comes to exactly this.
-  const double left = 2.0 * std::numbers::pi * point.q.n_harmonics() * point.q.vector().norm() * force;
-  if (exchanged > left) {
+  const double load = balance.excitation().norm();
+  // Without a load a motion is what rounding of the forces at rest leaves, and all work is that of the residual.
+  const double size = std::numbers::pi * point.q.vector().norm() * load;
+  if (load > 0.0 && exchanged > vanishing * size) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;
     if (scene.contact) {
       point.dissipation_mismatch = std::abs(rubbed - point.report.slip_work) / exchanged;
