@@ -14,7 +14,9 @@
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
 #include "pipelines/preload_shape.hpp"
+#include "pipelines/interrupt.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
 #include "pipelines/structure_stage.hpp"
 #include "pipelines/study.hpp"
 #include "pipelines/temporary_folder.hpp"
@@ -169,6 +171,7 @@ CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
   } else {
     const TemporaryFolder folder;
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+    if (interrupt_requested()) throw InterruptedError("interrupted");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
     for (std::string& warning : mesh::shape_warnings(mesh)) result.warnings.push_back(std::move(warning));

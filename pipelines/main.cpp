@@ -91,7 +91,10 @@ SceneDescription scene_of(const Arguments& arguments) {
   return read_scene(arguments.input, arguments.overrides);
 }
 
-int check(Arguments& arguments, const SceneDescription& scene) {
+/// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
+int check(Arguments& arguments) {
+  const SceneDescription scene = scene_of(arguments);
+  watch_for_interrupts();
   const CheckResult result = check_study(scene, std::cout);
   const Forecast& forecast = result.forecast;
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
@@ -112,8 +115,8 @@ int check(Arguments& arguments, const SceneDescription& scene) {
 }
 
 int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
+  if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check(arguments, scene);
   choose_run_folder(arguments);
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
@@ -125,8 +128,8 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
 }
 
 int mesh(Arguments& arguments) {
+  if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check(arguments, scene);
   if (!std::holds_alternative<BladeModel>(scene.model)) {
     throw SceneError(scene.file.string() +
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
@@ -136,6 +139,7 @@ int mesh(Arguments& arguments) {
     throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
   }
   require_writable(file.parent_path());  // before the mesher works for nothing
+  watch_for_interrupts();
   return mesh_study(scene, options_of(arguments, arguments.output));
 }
 
@@ -232,7 +236,7 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   with_scene(
       add_command(app, a, chosen, "check",
                   "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                  [&] { return check(a, scene_of(a)); }));
+                  [&] { return check(a); }));
   auto* mesh_command =
       with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
   with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();

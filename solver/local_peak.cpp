@@ -129,11 +129,13 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
   const Scaling scaling = rule(guessed);
   if (balance.scene().contact) balance.scene().contact->begin_point();
   static_cast<void>(refit_to(balance, {guess}));
-  NewtonResult start = solve_newton(system, guess, from.tangent, scaling, {});
+  NewtonOptions newton;
+  newton.tolerance = range.residual_tolerance;
+  NewtonResult start = solve_newton(system, guess, from.tangent, scaling, newton);
   work.iterations += start.iterations;
   work.contact_evaluations += start.evaluations;
   while (start.converged && refit_to(balance, {start.point}).is_replaced) {
-    start = solve_newton(system, start.point, from.tangent, scaling, {});
+    start = solve_newton(system, start.point, from.tangent, scaling, newton);
     work.iterations += start.iterations;
     work.contact_evaluations += start.evaluations;
   }
@@ -145,7 +147,7 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
     return made_peak(balance, start, tangent, scaling);
   }
   const double forward = (slope.value > 0.0) == (tangent.parameter > 0.0) ? 1.0 : -1.0;
-  BranchWalker walker(system, rule, std::move(start), forward);
+  BranchWalker walker(system, rule, std::move(start), forward, range.residual_tolerance);
   std::optional<LocalPeak> peak = climb(balance, walker, guess, range);
   work.iterations += walker.iterations();
   work.contact_evaluations += walker.evaluations();
