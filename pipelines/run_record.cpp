@@ -286,6 +286,9 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
     summary.preload_scale = *scale;
     summary.preload = *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
   }
+  if (curve.complete && !curve.message.empty()) {
+    progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
+  }
   if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
