@@ -13,6 +13,7 @@
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/point_law.hpp"
+#include "contact/surface_law.hpp"
 
 namespace microslip::contact {
 
@@ -29,7 +30,15 @@ struct ContactMap {
   Eigen::MatrixXd friction_traction_r, relative_displacement_r, slip_r;
   /// Transition angles: where in [0, 2π) each ContactState first begins, NaN where it never does or
   /// lasts the whole period [rad], n × 5. A boundary between states at θ is a level line of these.
+  /// With several harmonics a state may begin several times; this is the first after θ = 0.
   Eigen::MatrixXd state_start;
+  /// All of them in order [rad], n × 5m: columns m k … m (k + 1) − 1 belong to state k, m the most that one state
+  /// begins at one point; NaN beyond its last.
+  Eigen::MatrixXd state_starts;
+  Eigen::MatrixXd state_share;            ///< of the period in each ContactState [-], n × 5
+  /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another kind are their zero
+  /// lines. Empty where laws alone were given, until add_guards().
+  Eigen::VectorXd slip_guard, smallest_load, largest_load;
   Eigen::VectorXd slip_duration;          ///< share of the period in slip [-], n
   Eigen::VectorXd separation_duration;    ///< share of the period without contact [-], n
   Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n
@@ -53,5 +62,11 @@ struct ContactMap {
 [[nodiscard]] ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
                                      const ModalShapes& shapes, const Harmonics& q,
                                      double frequency, int n_phases, double wear_coefficient);
+
+/// Guards of the period for points of any law.
+/// @param surfaces   one per point, n.   @param shapes  as for contact_map(): w is empty without friction along r.
+/// @param frequency  ω [rad/s].
+void add_guards(ContactMap& map, const std::vector<SurfaceLaw>& surfaces, const ModalShapes& shapes,
+                const Harmonics& q, double frequency);
 
 }  // namespace microslip::contact

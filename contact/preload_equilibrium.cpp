@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -56,13 +57,19 @@ Eigen::Matrix2Xd loaded_centres(const PlanarCells& cells) {
   return centres.leftCols(n);
 }
 
+// In the order of scenes.
+std::string described(const PreloadRequest& request) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "preload of " << request.force << " N with moments " << request.moment_z << " and "
+       << request.moment_y << " N m about p and r";
+  return text.str();
+}
+
 [[noreturn]] void refuse_pull(const PreloadRequest& request) {
-  std::ostringstream message;
-  message.precision(6);
-  message << "preload of " << request.force << " N with moments " << request.moment_y << " and "
-          << request.moment_z << " N m (about r and p): a contact cannot pull";
+  const std::string message = described(request) + ": a contact cannot pull";
   const double none = std::numeric_limits<double>::quiet_NaN();
-  throw PreloadError(message.str(), {request, none, none, none, none});
+  throw PreloadError(message, {request, none, none, none, none});
 }
 
 // The resultant has to act inside the hull of the centres, not on its edge.
@@ -78,9 +85,7 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
   const double smallest = 1.0 / hull.reach(moment);
   std::ostringstream message;
   message.precision(6);
-  message << "preload of " << request.force << " N with moments " << request.moment_y << " and "
-          << request.moment_z << " N m (about r and p) acts at r = " << at.x()
-          << " m, p = " << at.y() << " m, " << std::max(distance, 0.0)
+  message << described(request) << " acts at p = " << at.y() << " m, r = " << at.x() << " m, " << std::max(distance, 0.0)
           << " m outside the hull of the contact points: no pressure balances it";
   if (std::isfinite(smallest)) message << "; these moments need more than " << smallest << " N";
   throw PreloadError(message.str(), {request, at.x(), at.y(), std::max(distance, 0.0), smallest});

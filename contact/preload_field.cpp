@@ -106,26 +106,31 @@ PreloadResultants resultants(const Eigen::VectorXd& p, const Eigen::VectorXd& r,
   return {force.sum(), -r.dot(force), p.dot(force)};
 }
 
+double carried_force(const Eigen::VectorXd& pressure, const Eigen::VectorXd& weights) {
+  require_size("the field", pressure, weights);
+  return weights.dot(pressure.cwiseMax(0.0));
+}
+
 Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape, const Eigen::VectorXd& weights,
                                double force) {
-  require_size("the field", shape, weights);
+  const double carried = carried_force(shape, weights);
   const double integral = weights.dot(shape);
   const double size = weights.dot(shape.cwiseAbs());
   const double rounding = 1e-14 * std::sqrt(static_cast<double>(shape.size())) * size;
-  if (!(std::abs(integral) > rounding)) {
+  if (!(force >= 0.0)) refuse("preload field: a field is scaled to a force of at least 0, not ", force, " N");
+  if (!(integral > rounding)) {
     refuse("preload field integrates to ", integral, " over the patch (its size to ", size,
-           "): it cannot be scaled to ", force, " N; give a field with a mean");
+           "): expected a field whose integral is above 0, positive where the contact presses and negative where "
+           "there is a gap; scaling this one would turn gaps into pressure");
   }
-  return shape * (force / integral);
+  return shape * (force / carried);
 }
 
 void require_total(const Eigen::VectorXd& pressure, const Eigen::VectorXd& weights, double force,
                    double relative_tolerance) {
-  require_size("the field", pressure, weights);
-  const double integral = weights.dot(pressure);
-  const double size = weights.dot(pressure.cwiseAbs());
-  if (!(std::abs(integral - force) <= relative_tolerance * std::max(size, std::abs(force)))) {
-    refuse("preload field integrates to ", integral, " N over the patch, but ", force,
+  const double carried = carried_force(pressure, weights);
+  if (!(std::abs(carried - force) <= relative_tolerance * std::max(carried, std::abs(force)))) {
+    refuse("preload field carries ", carried, " N over the patch, but ", force,
            " N are requested");
   }
 }

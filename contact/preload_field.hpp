@@ -4,7 +4,14 @@
 ///
 ///   n = a + b p + c r,     ∬ n dA = F,    ∬ p n dA = M_r,    −∬ r n dA = M_p                        (1)
 ///
-/// or from values per point (an expression, a table), which are scaled to a total or checked against it.
+/// or from values per point (an expression, a table), which are scaled to a total or checked against it. The
+/// total is the normal force that is carried at rest, n_ref = max(n₀', 0) (theory section 2; as the loads of
+/// cells that have lifted off in section 12):
+///
+///   ∬ max(n, 0) dA = F                                                                                (2)
+///
+/// A gap pulls on nothing and does not count against it, as it would in ∬ n dA.
+///
 /// Moments turn about the axes p and r through the origin of the coordinates given, right-handed with
 /// q = r × p: (x, y, z) of the contact area with moments is (q, r, p). (1) is the linear distribution as
 /// it stands; a negative part of it is a gap and has to be resolved by unilateral equilibrium where the
@@ -40,14 +47,19 @@ struct PreloadResultants {
                                            const Eigen::VectorXd& weights,
                                            const Eigen::VectorXd& pressure);
 
-/// `shape` times the factor that makes ∬ n dA = force.
-/// @throws std::invalid_argument  sizes differ, a value is not finite, or the shape has no mean to scale
-///         (|∬ shape dA| within rounding of 0); names both integrals.
+/// ∬ max(n, 0) dA [N].
+/// @throws std::invalid_argument  sizes differ or a value is not finite.
+[[nodiscard]] double carried_force(const Eigen::VectorXd& pressure, const Eigen::VectorXd& weights);
+
+/// `shape` times the factor s ≥ 0 of (2); it keeps its signs.
+/// @param force  [N], ≥ 0.
+/// @throws std::invalid_argument  sizes differ, a value is not finite, the force is negative, or ∬ shape dA is not
+///         above 0 (beyond rounding): a patch that is more gap than contact; names both integrals.
 [[nodiscard]] Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape,
                                              const Eigen::VectorXd& weights, double force);
 
-/// @param relative_tolerance  of |∬ n dA − force| against ∬ |n| dA.
-/// @throws std::invalid_argument  the field integrates to something else; names both numbers.
+/// (2). @param relative_tolerance  of |∬ max(n, 0) dA − force| against the force.
+/// @throws std::invalid_argument  the field carries something else; names both numbers.
 void require_total(const Eigen::VectorXd& pressure, const Eigen::VectorXd& weights, double force,
                    double relative_tolerance);
 

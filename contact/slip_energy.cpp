@@ -40,6 +40,15 @@ struct SlipPhase {
   }
 };
 
+// A slider is pushed towards the point and never past it: a phase of slip is no longer than the way of the point, and
+// its load no larger than the largest. Where u is next to nothing beside μn, the lengths of phases round to more.
+void bound(SlipEnergy& energy, int n_phases, const PointMotion& m, const SlipFunctions& w) {
+  constexpr double rounding = 1.0 + 1e-14;  // of distances that are this long
+  const double way = 2.0 * rounding * std::hypot(m.u_sin, m.u_cos);
+  energy.distance = std::min(energy.distance, n_phases * way);
+  energy.normal_slip = std::min(energy.normal_slip, n_phases * way * std::max(w.above_open, 0.0));
+}
+
 SlipPhase slip_towards(bool positive, const PointParameters& point, const PointMotion& m,
                        const SlipFunctions& w) {
   const Direction& e = positive ? w.end_of_positive : w.end_of_negative;
@@ -56,12 +65,14 @@ SlipEnergy slip_energy(const PointParameters& point, const PointMotion& motion,
                        const SlipFunctions& w, const CyclePhases& phases) {
   const double k_u = point.tangential_stiffness;
   SlipEnergy energy;
+  int n_slip_phases = 0;
   for (int i = 0; i < phases.n_phases; ++i) {
     const CyclePhase& phase = phases.phase[static_cast<std::size_t>(i)];
     const bool positive = phase.kind == PhaseKind::positive_slip;
     if (!positive && phase.kind != PhaseKind::negative_slip) {
       continue;
     }
+    ++n_slip_phases;
     const SlipPhase slip = slip_towards(positive, point, motion, w);
     const double first = phase.to_extremum;
     const double length = std::min(phase.length, first);
@@ -70,6 +81,7 @@ SlipEnergy slip_energy(const PointParameters& point, const PointMotion& motion,
     energy.distance +=
         2.0 * slip.size * std::sin(last + 0.5 * length) * std::sin(0.5 * length) / k_u;
   }
+  bound(energy, n_slip_phases, motion, w);
   return energy;
 }
 

@@ -34,7 +34,7 @@ struct ShapeLimits {
 };
 
 /// Sentences for the log: how many elements are beyond a limit, and the worst of them by number and place.
-/// Empty for a mesh without any.
+/// Elements that are there once more count as well. Empty for a mesh without any.
 [[nodiscard]] std::vector<std::string> shape_warnings(const Mesh& mesh,
                                                       const ShapeLimits& limits = {});
 

@@ -61,14 +61,15 @@ class MeshMaker {
     }
     std::vector<ElementBlock> blocks;
     for (auto& [type, list] : volumes_) blocks.push_back(block_of(type, list));
-    return {std::move(nodes_), std::move(blocks), std::move(surfaces_), std::move(node_sets_)};
+    return {std::move(nodes_), std::move(blocks), std::move(surfaces_), std::move(node_sets_), n_repeated_};
   }
 
  private:
   struct VolumeList {
     std::vector<Eigen::Index> nodes;
     std::vector<std::int64_t> tags;
-    std::set<std::vector<Eigen::Index>> corners;  // of elements in several groups (format 2.2)
+    // Format 2.2 writes an element once for each of its groups, under other numbers.
+    std::map<std::vector<Eigen::Index>, std::set<std::int64_t>> groups;  // by sorted corners
   };
 
   void read_nodes() {
@@ -111,9 +112,19 @@ class MeshMaker {
     if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
       throw MeshError(file_ + ": element " + std::to_string(element.tag) + " has a corner twice");
     }
-    if (!list.corners.insert(std::move(corners)).second) return;  // the same element in another group
+    const auto [seen, is_new] = list.groups.try_emplace(std::move(corners));
+    if (!add_groups(element, seen->second) && !is_new) ++n_repeated_;
+    if (!is_new) return;
     list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
     list.tags.push_back(element.tag);
+  }
+
+  /// False: the element says nothing new, an element without group counts as one of group 0.
+  static bool add_groups(const GmshElement& element, std::set<std::int64_t>& groups) {
+    if (element.groups.empty()) return groups.insert(0).second;
+    bool added = false;
+    for (const std::int64_t group : element.groups) added = groups.insert(group).second || added;
+    return added;
   }
 
   void add_named(const GmshElement& element, const GmshType& type) {
@@ -163,6 +174,7 @@ class MeshMaker {
   std::map<std::string, std::vector<FaceBlock>> surfaces_;
   std::set<std::pair<std::string, std::vector<Eigen::Index>>> faces_seen_;
   Mesh::NodeSets node_sets_;
+  Eigen::Index n_repeated_ = 0;
 };
 
 }  // namespace

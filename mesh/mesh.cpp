@@ -133,8 +133,9 @@ std::vector<std::string> keys_of(const Map& map) {
 }  // namespace
 
 Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
-           std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets)
-    : elements_(std::move(elements)) {
+           std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets,
+           Eigen::Index n_repeated)
+    : elements_(std::move(elements)), n_repeated_elements_(n_repeated) {
   std::erase_if(elements_, [](const ElementBlock& b) { return b.connectivity.rows() == 0; });
   if (elements_.empty()) throw MeshError("bad-mesh: the mesh has no volume elements");
   if (!nodes.allFinite()) throw MeshError("bad-mesh: a coordinate is not a finite number");

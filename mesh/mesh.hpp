@@ -30,15 +30,19 @@ class Mesh {
   /// @param surfaces   faces per name as found in the file, any orientation; they are matched to
   ///                   the volume elements and turned outward.
   /// @param node_sets  named points, edges or sets of nodes.
+  /// @param n_repeated  elements of the source that are there once more and were left out.
   /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
   ///         loose parts, a surface that is not on the boundary.
   Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
-       std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets);
+       std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets,
+       Eigen::Index n_repeated = 0);
 
   [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }
   [[nodiscard]] Eigen::Index n_elements() const;
   /// Nodes that were given but belong to no volume element (centres of arcs and the like): left out.
   [[nodiscard]] Eigen::Index n_loose_nodes() const { return n_loose_nodes_; }
+  /// Volume elements that stood in the source once more, in the same group: left out the second time.
+  [[nodiscard]] Eigen::Index n_repeated_elements() const { return n_repeated_elements_; }
   [[nodiscard]] const Eigen::MatrixX3d& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<ElementBlock>& elements() const { return elements_; }
   /// @throws MeshError  no such surface; the message lists the names there are.
@@ -57,6 +61,7 @@ class Mesh {
   std::map<std::string, Surface> surfaces_;
   NodeSets node_sets_;
   Eigen::Index n_loose_nodes_ = 0;
+  Eigen::Index n_repeated_elements_ = 0;
   double volume_ = 0.0;
   Eigen::Vector3d lower_;
   Eigen::Vector3d upper_;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -12,6 +13,7 @@
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
+#include "pipelines/preload_shape.hpp"
 #include "pipelines/interrupt.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -32,6 +34,7 @@ constexpr double planar_cost = 1.5e-4;
 constexpr double iterations_per_curve = 350.0;
 // Cells that cost as much as a rule fitted to the motion: 40 to 80 times the default 300 on the blade.
 constexpr double fitted_cells = 18'000.0;
+constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 
 bool is_fitted(const SceneDescription& scene) {
   return scene.contact && scene.contact->quadrature == ContactDescription::Quadrature::fitted;
@@ -39,7 +42,11 @@ bool is_fitted(const SceneDescription& scene) {
 
 /// Seconds a curve takes, by the law of its points.
 double curve_seconds(const SceneDescription& scene, bool second_direction) {
-  const double n_points = is_fitted(scene) ? fitted_cells : scene.contact ? scene.contact->n_points : 30.0;
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  const double n_points = is_fitted(scene)  ? fitted_cells
+                          : scene.contact   ? scene.contact->n_points
+                          : modal != nullptr ? static_cast<double>(modal->points.size())
+                                             : 0.0;
   const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
   const double cost = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
   return iterations_per_curve * n_points * cost;
@@ -52,30 +59,44 @@ std::string second_direction_of(const SceneDescription& scene) {
   return "auto";
 }
 
+/// @param model  where effects are decided, else nullptr.
+void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
+  if (!scene.response) return;
+  const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
+  const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
+  const std::string along_r = second_direction_of(scene);
+  const bool is_on = model != nullptr ? model->effects.second_direction : along_r == "on";
+  forecast.curves_seconds = n_curves * curve_seconds(scene, is_on);
+  if (model == nullptr && along_r == "auto" && !is_fitted(scene)) {
+    forecast.curves_seconds_along_r = n_curves * curve_seconds(scene, true);
+  }
+}
+
 /// Anchored at 115 000 degrees of freedom: 4 s and 0.7 GB on two cores (factorisation of a sparse
 /// three-dimensional mesh: time as n^1.5, memory as n^1.3).
-void forecast(const mesh::Mesh& mesh, const SceneDescription& scene, std::ostream& out) {
-  const auto n_dofs = 3.0 * static_cast<double>(mesh.n_nodes());
-  const double size = n_dofs / 115'000.0;
-  const double modes = 4.0 * std::pow(size, 1.5) * std::max(1.0, scene.modes.count / 10.0);
-  const double memory = 0.2 + 0.7 * std::pow(size, 1.3);
-  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB", n_dofs, modes,
-             memory);
-  if (scene.response) {
-    const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
-    const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
-    const std::string along_r = second_direction_of(scene);
-    fmt::print(out, "; curves {:.1f} s", n_curves * curve_seconds(scene, along_r == "on"));
-    if (along_r == "auto" && !is_fitted(scene)) {
-      fmt::print(out, ", {:.0f} s if friction along r is called for", n_curves * curve_seconds(scene, true));
-    }
+Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  Forecast forecast;
+  forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
+  const double size = forecast.degrees_of_freedom / 115'000.0;
+  forecast.modes_seconds = 4.0 * std::pow(size, 1.5) * std::max(1.0, scene.modes.count / 10.0);
+  forecast.memory_gb = 0.2 + 0.7 * std::pow(size, 1.3);
+  add_curves(scene, nullptr, forecast);
+  return forecast;
+}
+
+void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
+  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB", forecast.degrees_of_freedom,
+             forecast.modes_seconds, forecast.memory_gb);
+  if (has_curves) fmt::print(out, "; curves {:.1f} s", forecast.curves_seconds);
+  if (forecast.curves_seconds_along_r) {
+    fmt::print(out, ", {:.0f} s if friction along r is called for", *forecast.curves_seconds_along_r);
   }
   out << '\n';
 }
 
-void describe_effects(const SceneDescription& scene, const ReducedModel* model, std::ostream& out) {
+void describe(const std::vector<EffectRecord>& effects, std::ostream& out) {
   out << "effects:\n";
-  for (const EffectRecord& effect : effects_of(scene, model)) {
+  for (const EffectRecord& effect : effects) {
     fmt::print(out, "  {:<17}{:<4} {}\n", effect.name, effect.simulated ? "yes" : "no",
                effect.reason);
   }
@@ -138,27 +159,35 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
 
 }  // namespace
 
-int check_study(const SceneDescription& scene, std::ostream& out) {
+CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
   if (scene.response) require_response(scene);
+  CheckResult result;
+  result.warnings = scene_warnings(scene);
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
     const ReducedModel model = check_modal(*modal, scene, out);
-    describe_effects(scene, &model, out);
+    result.effects = effects_of(scene, &model);
+    result.forecast.memory_gb = memory_without_a_mesh;
+    add_curves(scene, &model, result.forecast);
   } else {
     const TemporaryFolder folder;
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
     if (interrupt_requested()) throw InterruptedError("interrupted");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
-    for (const std::string& warning : mesh::shape_warnings(mesh)) out << "warning: " << warning << '\n';
+    for (std::string& warning : mesh::shape_warnings(mesh)) result.warnings.push_back(std::move(warning));
     if (scene.clamped.empty() && scene.response) {
-      out << "warning: nothing is clamped: `run` will refuse rigid-body modes that nothing holds\n";
+      result.warnings.emplace_back("nothing is clamped: `run` will refuse rigid-body modes that nothing holds");
     }
-    forecast(mesh, scene, out);
-    describe_effects(scene, nullptr, out);
+    if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
+    result.forecast = forecast_of(mesh, scene);
+    describe(result.forecast, scene.response.has_value(), out);
+    result.effects = effects_of(scene, nullptr);
   }
+  for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
+  describe(result.effects, out);
   out << (scene.response ? "the scene is complete and consistent\n"
                          : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
-  return static_cast<int>(ExitCode::complete);
+  return result;
 }
 
 }  // namespace microslip::pipelines

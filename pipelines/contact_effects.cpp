@@ -213,6 +213,21 @@ contact::SurfaceLaw surface_of_point(const ReducedModel& model,
       compliance.rows() > 0 ? Eigen::Vector3d(compliance.row(row)) : Eigen::Vector3d::Zero());
 }
 
+std::vector<contact::SurfaceLaw> point_surfaces(const ReducedModel& model, double load,
+                                                bool on_vertices) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
+  std::vector<contact::SurfaceLaw> surfaces;
+  surfaces.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (model.effects.simple_laws()) {
+      surfaces.emplace_back(points[i], 0.0);
+    } else {
+      surfaces.push_back(surface_of_point(model, points[i], static_cast<Eigen::Index>(i), on_vertices));
+    }
+  }
+  return surfaces;
+}
+
 std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedModel& model,
                                                                  double load, bool on_vertices) {
   const std::vector<contact::PointParameters> points = point_parameters(model, load, on_vertices);
@@ -256,17 +271,13 @@ std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, do
 std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
   const ContactEffects& effects = model.effects;
-  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
   if (effects.second_direction || effects.friction_law || effects.roughness) {
-    std::vector<contact::SurfaceLaw> laws;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      laws.push_back(surface_of_point(model, points[i], static_cast<Eigen::Index>(i), false));
-    }
-    return std::make_unique<contact::PlanarTransient>(model.weights, std::move(laws),
-                                                      simulated_shapes(model, false));
+    return std::make_unique<contact::PlanarTransient>(
+        model.weights, point_surfaces(model, load, false), simulated_shapes(model, false));
   }
   return std::make_unique<contact::PatchTransient>(
-      contact::ContactPatch(model.weights, points), simulated_shapes(model, false));
+      contact::ContactPatch(model.weights, point_parameters(model, load, false)),
+      simulated_shapes(model, false));
 }
 
 }  // namespace microslip::pipelines

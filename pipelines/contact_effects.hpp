@@ -37,6 +37,10 @@ namespace microslip::pipelines {
                                                    const contact::PointParameters& point,
                                                    Eigen::Index row, bool on_vertices);
 
+/// That of each contact point, or of each vertex of the cells, under a load.
+[[nodiscard]] std::vector<contact::SurfaceLaw> point_surfaces(const ReducedModel& model, double load,
+                                                              bool on_vertices);
+
 /// The law of each contact point, or of each vertex of the cells.
 [[nodiscard]] std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(
     const ReducedModel& model, double load, bool on_vertices);

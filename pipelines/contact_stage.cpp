@@ -4,14 +4,13 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "contact/modal_contact_field.hpp"
-#include "contact/preload_field.hpp"
 #include "pipelines/patch_fields.hpp"
+#include "pipelines/preload_shape.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -153,20 +152,14 @@ void set_fields(ReducedModel& model, const ContactDescription& contact) {
     model.tilted_areas.push_back(
         {"contact.preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
   }
+  model.preload = unit_preload(contact, centres.p, centres.r, model.weights);
   if (!contact.preload_field) {
-    model.preload = contact::uniform_preload(model.weights, 1.0);
     model.vertex_preload =
         Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / model.weights.sum());
     return;
   }
   const Field field(*contact.preload_field);
   const Eigen::VectorXd shape = field.at(centres.p, centres.r);
-  try {
-    model.preload = contact::scaled_preload(shape, model.weights, 1.0);
-    contact::require_total(model.preload, model.weights, 1.0, 1e-12);
-  } catch (const std::invalid_argument& error) {
-    throw SceneError(contact.preload_field->place + ": " + error.what());
-  }
   Eigen::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   model.vertex_preload =

@@ -1,10 +1,10 @@
 #include "pipelines/csv_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -60,7 +60,7 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
     throw SceneError(fmt::format("{}: {}", file.empty() ? "\"\"" : file.string(),
                                  error ? error.message() : "no such file"));
   }
-  if (!std::filesystem::is_regular_file(file, error)) {
+  if (std::filesystem::is_directory(file, error)) {
     throw SceneError(fmt::format("{}: not a file", file.string()));
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -68,12 +68,16 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
     throw SceneError(fmt::format("{}: {} bytes; at most {} are read", file.string(), size, limit));
   }
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || (text.str().empty() && size > 0)) {
-    throw SceneError(fmt::format("{}: cannot be read", file.string()));
+  if (!stream) throw SceneError(fmt::format("{}: cannot be read", file.string()));
+  std::string content;  // a pipe does not know its size beforehand
+  std::array<char, 65536> part{};
+  while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
+    content.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (content.size() > limit) {
+      throw SceneError(fmt::format("{}: more than the {} bytes that are read at most", file.string(), limit));
+    }
   }
-  std::string content = text.str();
+  if (stream.bad()) throw SceneError(fmt::format("{}: cannot be read", file.string()));
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
   return content;
 }

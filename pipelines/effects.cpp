@@ -116,6 +116,21 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   return effects;
 }
 
+std::vector<std::string> scene_warnings(const SceneDescription& scene) {
+  std::vector<std::string> warnings;
+  if (const auto& law = scene.laws.friction) {
+    constexpr double fast = 1e300;  // [m/s]: the law at any speed there is
+    const double kinetic = law->at(fast).value;
+    if (kinetic > law->at_rest()) {
+      warnings.push_back(fmt::format(
+          "friction law: the kinetic coefficient {:g} is above the static {:g}: friction grows with the slip speed; "
+          "are the two exchanged?",
+          kinetic, law->at_rest()));
+    }
+  }
+  return warnings;
+}
+
 void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                     std::vector<EffectRecord>& effects) {
   if (!scene.response || !(scene.response->harmonic_tolerance > 0.0)) return;

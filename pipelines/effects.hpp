@@ -14,6 +14,9 @@ namespace microslip::pipelines {
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
                                                    const ReducedModel* model);
 
+/// Sentences on settings that are possible but seldom meant.
+[[nodiscard]] std::vector<std::string> scene_warnings(const SceneDescription& scene);
+
 /// Tells with the results what harmonics = "auto" has chosen; nothing to tell where they were given.
 void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                     std::vector<EffectRecord>& effects);

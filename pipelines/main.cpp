@@ -49,6 +49,7 @@ struct Arguments {
   bool verbose = false;
   bool json = false;
   int rank = 0;
+  nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // of `check`, for --json
 };
 
 /// Options this version does not have, or that say nothing to the command: refused, never ignored.
@@ -91,10 +92,26 @@ SceneDescription scene_of(const Arguments& arguments) {
 }
 
 /// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
-int check(const Arguments& arguments) {
+int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
   watch_for_interrupts();
-  return check_study(scene, std::cout);
+  const CheckResult result = check_study(scene, std::cout);
+  const Forecast& forecast = result.forecast;
+  nlohmann::ordered_json& cost = arguments.findings["forecast"];
+  cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},
+          {"modes_seconds", forecast.modes_seconds},
+          {"curves_seconds", forecast.curves_seconds},
+          {"memory_GB", forecast.memory_gb}};
+  if (forecast.curves_seconds_along_r) cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
+  nlohmann::ordered_json& effects = arguments.findings["effects"] = nlohmann::ordered_json::array();
+  for (const EffectRecord& effect : result.effects) {
+    effects.push_back({{"name", effect.name},
+                       {"setting", effect.setting},
+                       {"simulated", effect.simulated},
+                       {"reason", effect.reason}});
+  }
+  arguments.findings["warnings"] = result.warnings;
+  return static_cast<int>(ExitCode::complete);
 }
 
 int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
@@ -110,7 +127,7 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   return study(scene, options_of(arguments, arguments.output));
 }
 
-int mesh(const Arguments& arguments) {
+int mesh(Arguments& arguments) {
   if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
   if (!std::holds_alternative<BladeModel>(scene.model)) {
@@ -266,6 +283,7 @@ void print_json_line(const Arguments& arguments, int code, const std::string& me
                               {"command", arguments.command}, {"exit_code", code},
                               {"input", arguments.input},     {"output", arguments.output}};
   if (!message.empty()) line["message"] = message;
+  line.update(arguments.findings);
   std::cout << line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
             << std::endl;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "contact/fitted_rule.hpp"
+#include "contact/preload_field.hpp"
 #include "mesh/shape_functions.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/scene_error.hpp"
@@ -72,12 +73,21 @@ PatchFields::PatchFields(const mesh::Mesh& mesh, const ContactDescription& conta
   choose_cells(surface.area, std::move(sampled));
   const contact::PatchRule rule = contact::gauss_rule(cells_, contact::FittedRuleOptions{}.order);
   total_stiffness_ = rule.weights.dot(stiffness(compliance(rule.p, rule.r), 1));
-  const double total =
-      preload_ ? rule.weights.dot(preload_->at(rule.p, rule.r)) : rule.weights.sum();
-  if (total == 0.0 || !std::isfinite(1.0 / total)) {
-    throw SceneError(contact.preload_field->place + ": the field has no total to scale");
+  unit_preload_ = 1.0 / (preload_ ? carried_by_field(contact.preload_field->place) : rule.weights.sum());
+}
+
+double PatchFields::carried_by_field(const std::string& place) const {
+  const auto field = [this](const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
+    return preload_->at(p, r);
+  };
+  // The pressed part ends at a line, which no rule of a whole cell sees.
+  const contact::PatchRule rule = contact::fitted_rule(cells_, {field, {{}}}, {});
+  const Eigen::VectorXd shape = field(rule.p, rule.r);
+  const double carried = contact::carried_force(shape, rule.weights);
+  if (!(rule.weights.dot(shape) > 0.0) || !std::isfinite(1.0 / carried)) {
+    throw SceneError(place + ": expected a field whose integral over the patch is above 0");
   }
-  unit_preload_ = 1.0 / total;
+  return carried;
 }
 
 void PatchFields::add_faces(const mesh::Mesh& mesh, const mesh::Surface& surface,

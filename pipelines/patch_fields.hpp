@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,7 +40,7 @@ class PatchFields {
   /// @param shapes        in p and r from shapes_origin.
   /// @param residual      row sums on the surface; nullptr: local stiffness alone.
   /// @param sampled       cells to fall back on, vertices in p and r.
-  /// @throws SceneError   a field that is not finite or out of range, a preload field without a total.
+  /// @throws SceneError   a field that is not finite or out of range, a preload field whose integral is not above 0.
   PatchFields(const mesh::Mesh& mesh, const ContactDescription& contact, const PatchPlane& plane,
               contact::ModalContactField shapes, const Eigen::Vector3d& shapes_origin,
               const fem::ResidualFlexibility* residual, contact::PatchCells sampled);
@@ -48,7 +49,7 @@ class PatchFields {
   /// u and v alone. @param p, r  [m], n each.   @return n × n_modes.
   [[nodiscard]] contact::ModalShapes shapes(const Eigen::VectorXd& p,
                                             const Eigen::VectorXd& r) const;
-  /// @param load  total preload [N]; negative: the gap it stands for (interfaces: −load/∬k_v dA).
+  /// @param load  preload [N], carried by the part of the patch that is pressed; negative: the gap it stands for (interfaces: −load/∬k_v dA).
   /// @throws RefusedError  a stiffness that is not positive.
   [[nodiscard]] std::vector<contact::PointParameters> parameters(const Eigen::VectorXd& p,
                                                                  const Eigen::VectorXd& r,
@@ -64,6 +65,8 @@ class PatchFields {
 
   void add_faces(const mesh::Mesh& mesh, const mesh::Surface& surface, const PatchPlane& plane,
                  const fem::ResidualFlexibility* residual);
+  /// ∬ max(field, 0) dA. @param place  of the field, for messages.
+  [[nodiscard]] double carried_by_field(const std::string& place) const;
   void choose_cells(double area, contact::PatchCells sampled);
   [[nodiscard]] Eigen::MatrixX2d compliance(const Eigen::VectorXd& p,
                                             const Eigen::VectorXd& r) const;
@@ -78,7 +81,7 @@ class PatchFields {
   std::vector<Face> faces_;
   bool has_residual_;
   contact::PatchCells cells_;
-  double unit_preload_ = 0.0;     // [Pa] per 1 N, times the field where there is one
+  double unit_preload_ = 0.0;     // [Pa] per 1 N carried, times the field where there is one
   double total_stiffness_ = 0.0;  // ∬ k_v dA [N/m]
 };
 

@@ -151,7 +151,12 @@ ResponseDescription read_modal_response(const SectionReader& s, std::string_view
   read_method(s, response);
   const toml::node& scale = *s.node("preload_scale");
   const auto add = [&](const toml::node& entry) {
-    response.preload_scale.push_back(s.number_in(entry, "preload_scale"));
+    const double factor = s.number_in(entry, "preload_scale");
+    if (factor < 0.0) {
+      s.fail("preload_scale", "expected at least 0: a negative factor would turn pressure into gaps and gaps into pressure",
+             &entry);
+    }
+    response.preload_scale.push_back(factor);
   };
   response.preload_scale.clear();
   if (const toml::array* list = scale.as_array()) {

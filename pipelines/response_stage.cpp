@@ -66,10 +66,13 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   const bool closed_form = model.effects.closed_form();
   const auto draw = [&](bool on_vertices) {
     const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
-    return closed_form ? contact::contact_map(point_parameters(model, load, on_vertices), shapes,
-                                              point.q, phases, wear)
-                       : contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
-                                              point.frequency, phases, wear);
+    if (closed_form) {
+      return contact::contact_map(point_parameters(model, load, on_vertices), shapes, point.q, phases, wear);
+    }
+    contact::ContactMap drawn = contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
+                                                     point.frequency, phases, wear);
+    contact::add_guards(drawn, point_surfaces(model, load, on_vertices), shapes, point.q, point.frequency);
+    return drawn;
   };
   map.points = draw(false);
   if (model.vertices.rows() > 0) map.vertices = draw(true);
@@ -142,6 +145,7 @@ void require_response(const SceneDescription& scene) {
     throw SceneError(scene.file.string() + ": [response] is missing: run needs a frequency range");
   }
   if (!scene.without_contact.empty()) throw SceneError(scene.without_contact);
+  require_pressing_loads(scene);
 }
 
 void require_held(const ReducedModel& model, const SceneDescription& scene) {

@@ -40,7 +40,8 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
-/// @throws SceneError  no [response], or one that speaks of a contact the scene does not have.
+/// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
+/// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.
 void require_response(const SceneDescription& scene);
 
 /// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.

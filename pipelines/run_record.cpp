@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "contact/preload_field.hpp"
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/effects.hpp"
@@ -255,6 +256,23 @@ void RunRecord::warn_of_unsolved(const CurveResult& result) {
   }
 }
 
+/// What the contact carries at rest and, where a part of it is a gap, what the plain integral comes to.
+void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, double load) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
+  Eigen::VectorXd pressure(model.weights.size());
+  for (Eigen::Index i = 0; i < pressure.size(); ++i) {
+    pressure[i] = points[static_cast<std::size_t>(i)].preload;
+  }
+  summary.preload_carried = contact::carried_force(pressure, model.weights);
+  summary.preload_integral = model.weights.dot(pressure);
+  if (pressure.minCoeff() < 0.0 && pressure.maxCoeff() > 0.0) {
+    progress_.info(fmt::format(
+        "curve {}: the contact carries {:.6g} N and is open on a part of it; its preload integrates to {:.6g} N "
+        "with the gaps counted as pull",
+        summary.name, *summary.preload_carried, *summary.preload_integral));
+  }
+}
+
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const auto* peak = highest_peak(curve);
@@ -268,12 +286,15 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
                                     to_hz * peak->frequency)
                       : std::string()));
   CurveSummary summary = summarise(result);
+  if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && model.weights.size() > 0) {
+    keep_preload(summary, model, *load);
+  }
   if (!result.integrated) warn_of_precision(summary, model);
   warn_of_unsolved(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
     summary.preload_scale = *scale;
-    summary.preload = *scale * model.weights.dot(model.preload);
+    summary.preload = *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
   }
   if (curve.complete && !curve.message.empty()) {
     progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
@@ -313,7 +334,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;
   summary.optimum = optimum;
-  if (!in_newtons) summary.newtons_per_load = model.weights.dot(model.preload);
+  if (!in_newtons) summary.newtons_per_load = contact::carried_force(model.preload, model.weights);
   write_optimum_csv(folder_, request, optimum);
 }
 

@@ -71,6 +71,7 @@ class RunRecord {
   };
 
   void describe(const StructureModes& modes);
+  void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
   void warn_of_precision(const CurveSummary& curve, const ReducedModel& model);
   void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();

@@ -214,7 +214,7 @@ constexpr std::array contact_keys{
     roughness_key,
     KeySpec{"preload_field", other, "Pa", "\"uniform\"", -unbounded, unbounded, false,
             "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or { file = … }; "
-            "negative: a gap"},
+            "negative: a gap; a total is what the pressed part carries"},
     KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
             "about p and r through the centroid, beside each preload; cells may lift off"},
     KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
@@ -268,7 +268,7 @@ constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "i
 
 constexpr KeySpec preload_key{
     "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
-    "total normal force, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
+    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
 constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
                               "the number whose best value is searched: \"preload\", or any key of the "
                               "scene, e.g. \"contact.friction_coefficient\"", true};

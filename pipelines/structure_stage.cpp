@@ -8,6 +8,7 @@
 #include "mesh/mesher_process.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/interrupt.hpp"
+#include "pipelines/preload_shape.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -72,6 +73,7 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (!scene.contact) return;
   require_name(scene.contact->place, [&] { return mesh.surface(scene.contact->surface); });
   static_cast<void>(contact_frame(mesh, *scene.contact));
+  require_preload(mesh, scene);
 }
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {

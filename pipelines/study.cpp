@@ -41,7 +41,7 @@ StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
 /// → contact: the arrays the response stage needs.
 ReducedModel reduce(const SceneDescription& scene, const StructurePointer& structure,
                     RunRecord& record) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = scene_warnings(scene);
   ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
   if (model.effects.second_direction) {

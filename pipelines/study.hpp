@@ -5,9 +5,13 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "pipelines/progress.hpp"
 #include "pipelines/scene_description.hpp"
+#include "pipelines/write_summary.hpp"
 
 namespace microslip::pipelines {
 
@@ -24,8 +28,24 @@ int run_study(const SceneDescription& scene, const RunOptions& options);
 int modes_study(const SceneDescription& scene, const RunOptions& options);
 /// `mesh`: geometry → mesh file.
 int mesh_study(const SceneDescription& scene, const RunOptions& options);
+/// What a study is expected to cost, on two cores.
+struct Forecast {
+  double degrees_of_freedom = 0.0;  ///< 0: the scene gives its modes
+  double modes_seconds = 0.0;
+  double curves_seconds = 0.0;
+  std::optional<double> curves_seconds_along_r;  ///< where it is not known yet whether friction along r is called for
+  double memory_gb = 0.0;
+};
+
+/// What `check` found, for scripts.
+struct CheckResult {
+  Forecast forecast;
+  std::vector<EffectRecord> effects;
+  std::vector<std::string> warnings;
+};
+
 /// `check`: what would be simulated and what it would cost; solves nothing.
-int check_study(const SceneDescription& scene, std::ostream& out);
+CheckResult check_study(const SceneDescription& scene, std::ostream& out);
 /// `report`: plots and report from a run folder.
 int report_study(const std::filesystem::path& folder);
 

@@ -1,5 +1,8 @@
 #include "pipelines/tilted_area.hpp"
 
+#include <array>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -63,7 +66,48 @@ double pressure_at(const contact::SurfaceLaw& law, double approach) {
   return load > 0.0 ? load : law.point().normal_stiffness * approach;
 }
 
+struct Moments {
+  std::string key;
+  std::array<double, 2> moment;  // about p and r [N m]
+};
+
+std::vector<Moments> moments_of(const SceneDescription& scene) {
+  constexpr std::array none{0.0, 0.0};
+  std::vector<Moments> moments;
+  if (scene.contact && scene.contact->preload_moment != none) {
+    moments.push_back({"contact.preload_moment", scene.contact->preload_moment});
+  }
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    for (const TiltedArea& area : modal->tilted_areas) {
+      if (area.moment != none) moments.push_back({area.key, area.moment});
+    }
+  }
+  return moments;
+}
+
+void require_pressing(const Moments& moments, const std::string& name, double load) {
+  if (load > 0.0) return;
+  throw RefusedError(fmt::format(
+      "preload-unbalanced: {} = {:g} N: {} = [{:g}, {:g}] N m turns the contact under every preload, and {} "
+      "carries no moment; leave this preload out, or the moments",
+      name, load, moments.key, moments.moment[0], moments.moment[1],
+      load < 0.0 ? "a gap (a negative preload)" : "a contact without load"));
+}
+
 }  // namespace
+
+void require_pressing_loads(const SceneDescription& scene) {
+  for (const Moments& moments : moments_of(scene)) {
+    for (std::size_t i = 0; i < scene.response->preload.size(); ++i) {
+      const auto* load = std::get_if<double>(&scene.response->preload[i]);
+      if (load != nullptr) require_pressing(moments, fmt::format("response.preload[{}]", i), *load);
+    }
+    const auto& optimum = scene.response->optimum;
+    if (optimum && optimum->of_preload() && optimum->range) {
+      require_pressing(moments, "response.optimum_range[0]", (*optimum->range)[0]);
+    }
+  }
+}
 
 Eigen::VectorXd tilted_pressures(const ReducedModel& model, const TiltedArea& area, double load,
                                  bool on_vertices) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "pipelines/run_results.hpp"
+#include "pipelines/scene_description.hpp"
 
 namespace microslip::pipelines {
 
@@ -19,5 +20,10 @@ namespace microslip::pipelines {
 ///         none there.
 [[nodiscard]] Eigen::VectorXd tilted_pressures(const ReducedModel& model, const TiltedArea& area,
                                                double load, bool on_vertices);
+
+/// Moments turn the contact under every preload of a scene, and a gap cannot carry them: refuses these before
+/// anything is solved.
+/// @throws RefusedError  names the preload of the list, and the key that gives the moments.
+void require_pressing_loads(const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

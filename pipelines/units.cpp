@@ -75,13 +75,38 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Length of the number at the front of the text; 0: there is none.
-/// @throws UnitError  a number no double can hold.
+/// Whether a decimal number stands for less than 1: of those no double holds, the ones that are nearest to 0.
+bool is_below_one(std::string_view number) {
+  long order = 0;  // of the first digit that is not 0: above 0 before the decimal point
+  bool in_fraction = false;
+  bool significant = false;
+  std::size_t i = 0;
+  for (; i < number.size() && number[i] != 'e' && number[i] != 'E'; ++i) {
+    if (number[i] == '.') in_fraction = true;
+    if (!is_digit(number[i])) continue;
+    significant = significant || number[i] != '0';
+    if (significant && !in_fraction) ++order;
+    if (!significant && in_fraction) --order;
+  }
+  if (i == number.size()) return order <= 0;
+  const std::string_view exponent = number.substr(i + (number.substr(i, 2) == "e+" || number.substr(i, 2) == "E+" ? 2 : 1));
+  long power = 0;
+  const auto [end, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+  if (error != std::errc()) return exponent.starts_with('-');  // more than any text has digits
+  return order + power <= 0;
+}
+
+/// Length of the number at the front of the text; 0: there is none. What is too small for a double is 0.
+/// @throws UnitError  a number too large for a double.
 std::size_t number_length(std::string_view text, double& value) {
   const bool plus = text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.');
   const char* const begin = text.data() + (plus ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range) {
+    if (is_below_one({begin, static_cast<std::size_t>(end - begin)})) {
+      value = 0.0;
+      return static_cast<std::size_t>(end - text.data());
+    }
     throw UnitError(fmt::format("\"{}\" is beyond the range of double precision", text));
   }
   return error == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0;

@@ -24,6 +24,10 @@ const std::vector<std::string> state_names{"stick", "positive slip", "negative s
 const std::vector<std::string> start_names{"stick_start_deg", "positive_slip_start_deg",
                                            "negative_slip_start_deg", "separation_start_deg",
                                            "slip_start_deg"};
+const std::vector<std::string> share_names{"stick_share", "positive_slip_share", "negative_slip_share",
+                                           "separation_share", "slip_share"};
+const std::vector<std::string> count_names{"stick_starts", "positive_slip_starts", "negative_slip_starts",
+                                           "separation_starts", "slip_starts"};
 
 void require_rows(const char* what, const NamedMap& map, Eigen::Index rows, Eigen::Index expected) {
   if (rows == expected) return;
@@ -73,10 +77,36 @@ vtkSmartPointer<vtkPolyData> make_patch(const ReducedModel& model) {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
+/// How often each state begins, n × 5.
+Eigen::MatrixXi start_counts(const contact::ContactMap& map) {
+  const Eigen::Index n_states = map.state_share.cols();
+  const Eigen::Index m = n_states > 0 ? map.state_starts.cols() / n_states : 0;
+  Eigen::MatrixXi counts(map.state_share.rows(), n_states);
+  for (Eigen::Index state = 0; state < n_states; ++state) {
+    const auto starts = map.state_starts.middleCols(state * m, m).array();
+    counts.col(state) = (starts == starts).cast<int>().rowwise().sum().matrix();
+  }
+  return counts;
+}
+
+void add_guards(vtkDataSetAttributes& data, const contact::ContactMap& map) {
+  if (map.slip_guard.size() == 0) return;
+  add_array(data, "slip_guard_Pa", map.slip_guard);
+  add_array(data, "smallest_load_Pa", map.smallest_load);
+  add_array(data, "largest_load_Pa", map.largest_load);
+}
+
 void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map) {
   for (Eigen::Index state = 0; state < map.state_start.cols(); ++state) {
     add_array(data, start_names.at(static_cast<std::size_t>(state)), map.state_start.col(state) / degree);
   }
+  const Eigen::MatrixXi counts = start_counts(map);
+  for (Eigen::Index state = 0; state < counts.cols(); ++state) {
+    const auto name = static_cast<std::size_t>(state);
+    add_array(data, share_names.at(name), map.state_share.col(state));
+    add_integers(data, count_names.at(name), counts.col(state));
+  }
+  add_guards(data, map);
   add_array(data, "dissipated_energy_J_per_m2", map.dissipated_energy);
   add_array(data, "slip_distance_m", map.slip_distance);
   add_array(data, "wear_depth_m", map.wear_depth);
@@ -146,6 +176,17 @@ Eigen::MatrixXd in_plane(const ReducedModel& model, const Eigen::MatrixX3d& posi
   return plane;
 }
 
+/// Transition angles, shares of the period and guards under names that begin with `stem`.
+void write_transitions(Hdf5Writer& out, const std::string& stem, const contact::ContactMap& map) {
+  out.matrix(stem + "state_start_deg", map.state_start / degree, "deg");
+  out.matrix(stem + "state_starts_deg", map.state_starts / degree, "deg");
+  out.matrix(stem + "state_share", map.state_share, "1");
+  if (map.slip_guard.size() == 0) return;
+  out.vector(stem + "slip_guard_Pa", map.slip_guard, "Pa");
+  out.vector(stem + "smallest_load_Pa", map.smallest_load, "Pa");
+  out.vector(stem + "largest_load_Pa", map.largest_load, "Pa");
+}
+
 void write_map_data(const std::filesystem::path& file, const ReducedModel& model,
                     const NamedMap& map) {
   Hdf5Writer out;
@@ -174,9 +215,10 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
     out.matrix("/relative_displacement_r_m", map.points.relative_displacement_r, "m");
     out.matrix("/slip_r_m", map.points.slip_r, "m");
   }
-  out.matrix("/state_start_deg", map.points.state_start / degree, "deg");
+  write_transitions(out, "/", map.points);
   if (map.vertices.phase.size() > 0) {
-    out.matrix("/vertex_state_start_deg", map.vertices.state_start / degree, "deg");
+    out.bytes("/vertex_state", map.vertices.state, "1");
+    write_transitions(out, "/vertex_", map.vertices);
   }
   out.write(file);
 }

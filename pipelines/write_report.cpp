@@ -89,6 +89,20 @@ std::string curve_row(const Json& curve) {
                      curve.at("points").get<long>());
 }
 
+/// A sentence where the contact is open on a part of it; empty elsewhere and for limits.
+std::string gap_text(const Json& curve) {
+  const Json carried = curve.value("preload_carried_N", Json());
+  const Json integral = curve.value("preload_integral_N", Json());
+  if (!carried.is_number() || !integral.is_number()) return {};
+  const double pressed = carried.get<double>();
+  const double gaps = pressed - integral.get<double>();
+  if (!(pressed > 0.0 && gaps > 1e-12 * pressed)) return {};  // sums round to 1e-14
+  return fmt::format(
+      "\nPreload {}: the contact carries {:.6g} N and is open on a part of it; the integral with the gaps counted "
+      "as pull is {:.6g} N.\n",
+      preload_text(curve), pressed, pressed - gaps);
+}
+
 /// Amplitude, frequency and value of a best peak as cells of a table.
 std::string optimum_cells(const Json& peak) {
   return fmt::format("{:.6g} | {:.5g} | {:.4f} |\n", peak.at("value").get<double>(),
@@ -121,6 +135,7 @@ std::string curves_text(const Json& run) {
       "| preload [N] | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n"
       "|---:|---:|---:|---|---|---|\n";
   for (const Json& curve : run.at("curves")) text += curve_row(curve);
+  for (const Json& curve : run.at("curves")) text += gap_text(curve);
   if (const Json& optimum = run.at("optimum"); !optimum.is_null()) text += optimum_text(optimum);
   return text;
 }

@@ -83,6 +83,8 @@ Json to_json(const CurveSummary& curve) {
   return {{"name", curve.name},
           {"preload_N", to_json(curve.preload)},
           {"preload_scale", curve.preload_scale ? Json(*curve.preload_scale) : Json(nullptr)},
+          {"preload_carried_N", or_null(curve.preload_carried)},
+          {"preload_integral_N", or_null(curve.preload_integral)},
           {"complete", curve.complete},
           {"diagnosis", curve.diagnosis},
           {"message", curve.message},

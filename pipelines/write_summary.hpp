@@ -40,6 +40,8 @@ struct CurveSummary {
   std::string name;
   std::variant<double, LimitName> preload;  ///< total [N], or a limit
   std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
+  /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
+  std::optional<double> preload_carried, preload_integral;
   bool complete = false;
   std::string diagnosis;
   std::string message;
@@ -69,7 +71,7 @@ struct OptimumSummary {
   OptimumRequest request;
   solver::Optimum optimum;
   std::vector<OptimumOfFactor> bracket;
-  double newtons_per_load = 1.0;  ///< where loads are scales: the force of scale 1 [N]
+  double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
 };
 
 struct EffectRecord {

@@ -371,6 +371,17 @@ def triangles_of(cells):
     return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
 
 
+# Of the period (write_map.hpp); their zero lines bound the points that slip, that open, that touch at some time.
+GUARDS = {"slip_guard": ("slips at times", "solid"), "smallest_load": ("open at times", "dashed"),
+          "largest_load": ("open throughout", "dotted")}
+
+
+def nearest_to_zero(values):
+    """Of each row, without the entries that are NaN; NaN where all are."""
+    size = np.where(np.isnan(values), np.inf, np.abs(values))
+    return np.take_along_axis(values, size.argmin(axis=1)[:, None], axis=1)[:, 0]
+
+
 class ContactMap:
     """One maps/NAME.h5, lengths of the patch in millimetres."""
 
@@ -387,8 +398,12 @@ class ContactMap:
             self.cells = vertices[cells] if len(cells) else None
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
-            name = "vertex_state_start_deg"
-            self.starts = file[name][:] if name in file and len(cells) else None
+            self.starts, self.guards, self.vertex_state, self.lines = None, {}, None, set()
+            if len(cells) and "vertex_state_starts_deg" in file:
+                self.starts = np.split(file["vertex_state_starts_deg"][:], 5, axis=1)
+                self.vertex_state = file["vertex_state"][:]
+                self.guards = {name: file[f"vertex_{name}_Pa"][:] for name in GUARDS
+                               if f"vertex_{name}_Pa" in file}
             self.triangles = triangles_of(cells) if len(cells) else None
         corners = vertices if self.cells is not None else self.points
         self.names = "p [mm]", "r [mm]"
@@ -406,19 +421,54 @@ class ContactMap:
         return (weights[state == 0].sum(), weights[np.isin(state, (1, 2, 4))].sum(),
                 weights[state == 3].sum())
 
+    def draw_zero_line(self, axes, values, chosen, **style):
+        """Where values at the vertices vanish, interpolated in the chosen triangles. Whether they do."""
+        at_corners = values[self.triangles[chosen]]
+        if not at_corners.size or not np.min(at_corners) < 0 < np.max(at_corners):
+            return False
+        mesh = Triangulation(*self.corners.T, self.triangles[chosen])
+        axes.tricontour(mesh, np.nan_to_num(values), levels=[0.0], **style)
+        return True
+
     def draw_boundaries(self, axes, phase):
-        """Where a state begins at this phase [deg]: level lines of the transition angles, interpolated between
-        vertices. A triangle counts where the angle exists at its corners and does not leap around the period."""
+        """Boundaries of the states at one phase (its number), interpolated on guards: where a state begins, θ_k − θ,
+        in triangles where it begins at every corner (and its angle does not leap around the period); the guards of
+        the period in triangles where one corner slips, opens or touches now and another never does."""
         if self.starts is None:
             return
-        for angles in self.starts.T:
-            ahead = (angles - phase + 180.0) % 360.0 - 180.0
+        style = {"colors": "black", "linewidths": 0.7}
+        state = self.vertex_state[:, phase]
+        for number, starts in enumerate(self.starts):
+            ahead = nearest_to_zero((starts - self.phase[phase] + 180.0) % 360.0 - 180.0)
             at_corners = ahead[self.triangles]
-            smooth = np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
-            if not smooth.any() or not (np.nanmin(at_corners[smooth]) < 0 < np.nanmax(at_corners[smooth])):
-                continue
-            mesh = Triangulation(*self.corners.T, self.triangles[smooth])
-            axes.tricontour(mesh, np.nan_to_num(ahead), levels=[0.0], colors="black", linewidths=0.7)
+            is_here = (state == number)[self.triangles]  # else the line parts two starts of the same state
+            smooth = (np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
+                      & is_here.any(axis=1) & ~is_here.all(axis=1))
+            self.draw_zero_line(axes, ahead, smooth, **style)
+        for name, values in self.guards.items():
+            never, now = self.sides(name, state)
+            mixed = never[self.triangles].any(axis=1) & now[self.triangles].any(axis=1)
+            self.draw_zero_line(axes, values, mixed, **style)
+
+    def sides(self, guard, state):
+        """Vertices that never do what a guard is about, and those that do it now."""
+        starts = [np.isfinite(of_state).any(axis=1) for of_state in self.starts]
+        slips, opens = np.isin(state, (1, 2, 4)), state == 3
+        if guard == "slip_guard":
+            return ~(slips | opens | starts[1] | starts[2] | starts[4]), slips
+        if guard == "smallest_load":
+            return ~(opens | starts[3]), opens & starts[3]
+        return opens & ~starts[3], ~opens
+
+    def draw_guards(self, axes):
+        """Boundaries of what occurs within the period, over any colour: white on black."""
+        for name, values in self.guards.items():
+            chosen = np.ones(len(self.triangles), dtype=bool)
+            if name == "slip_guard" and "largest_load" in self.guards:  # what never touches does not slip
+                chosen = (self.guards["largest_load"] > 0)[self.triangles].all(axis=1)
+            for colour, width, style in (("black", 1.6, "solid"), ("white", 1.0, GUARDS[name][1])):
+                if self.draw_zero_line(axes, values, chosen, colors=colour, linewidths=width, linestyles=style):
+                    self.lines.add(name)
 
     def draw(self, axes, colours=None, values=None, cmap=None):
         """Cells in given colours, or coloured by values; lone points where there are no cells."""
@@ -448,8 +498,11 @@ def layout_of(contact):
 
 def state_legend(figure, contact):
     present = set(np.unique(contact.state)) | {0, 1, 2, 3}
-    legend_below(figure, [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
-                          for value, name, colour in STATES if value in present])
+    handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+               for value, name, colour in STATES if value in present]
+    handles += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
+                for guard, (name, style) in GUARDS.items() if guard in contact.lines]
+    legend_below(figure, handles)
 
 
 def draw_states(axes, contact, angle):
@@ -457,7 +510,7 @@ def draw_states(axes, contact, angle):
     colour_of = {value: colour for value, _, colour in STATES}
     phase = int(np.argmin(np.abs((contact.phase - angle + 180) % 360 - 180)))
     contact.draw(axes, colours=[colour_of[int(s)] for s in contact.state[:, phase]])
-    contact.draw_boundaries(axes, contact.phase[phase])
+    contact.draw_boundaries(axes, phase)
     stick, slip, apart = contact.shares(phase)
     axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
                    f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8)
@@ -469,6 +522,7 @@ def draw_sum(figure, axes, contact, values, name):
     if not values.max() > 0:  # a scale of nothing would invent one
         axes.set_title(f"{name}: 0", loc="left", fontsize=8)
         return
+    contact.draw_guards(axes)
     drawn.set_clim(0.0, values.max())
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)

@@ -1,6 +1,7 @@
 #include "contact/preload_equilibrium.hpp"
 
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include <cmath>
 #include <limits>
@@ -70,6 +71,11 @@ TEST(PreloadEquilibrium, SquareTipsOverBelowTwentySevenNewton) {
       EXPECT_NEAR(error.why().smallest_force, limit, 1e-13 * limit);
       EXPECT_NEAR(error.why().z, 1.0 / force, 1e-15);
       EXPECT_NEAR(error.why().outside, 1.0 / force - 0.0375, 1e-15);
+      // As scenes give them: [about p, about r].
+      const auto& asked = error.why().request;
+      std::ostringstream moments;
+      moments << "with moments " << asked.moment_z << " and " << asked.moment_y << " N m about p and r";
+      EXPECT_NE(std::string(error.what()).find(moments.str()), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("26.6667 N"), std::string::npos) << error.what();
     }
   }

@@ -85,22 +85,32 @@ TEST(PreloadField, PointsOnALineCarryWhatTheyCan) {
   EXPECT_THROW((void)linear_preload(one, one, one, {10.0, 0.0, 0.0}), std::invalid_argument);
 }
 
-TEST(PreloadField, AShapeIsScaledToTheTotal) {
+TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
   const PatchRule rule = l_shape();
-  const Eigen::VectorXd shape = (200.0 * rule.p.array()).sin() - 0.2;  // partly a gap
+  const Eigen::VectorXd shape = (200.0 * rule.p.array()).sin() + 0.2;  // partly a gap
   EXPECT_LT(shape.minCoeff(), 0.0);
   const Eigen::VectorXd n = scaled_preload(shape, rule.weights, 750.0);
-  EXPECT_NEAR(rule.weights.dot(n), 750.0, 1e-11);
+  EXPECT_NEAR(rule.weights.dot(n.cwiseMax(0.0)), 750.0, 1e-11);
+  EXPECT_NEAR(carried_force(n, rule.weights), 750.0, 1e-11);
+  EXPECT_LT(rule.weights.dot(n), 740.0);  // the gap counts against it in the plain integral
   EXPECT_NO_THROW(require_total(n, rule.weights, 750.0, 1e-12));
   EXPECT_LT((n / n[0] - shape / shape[0]).norm(), 1e-12);
 }
 
-// Hard case 21.
-TEST(PreloadField, AShapeWithoutMeanIsNotScaled) {
+// Hard case 21: without a mean; and a shape that scaling alone would turn round, gaps into pressure.
+TEST(PreloadField, AShapeWithoutPositiveMeanIsNotScaled) {
   const PatchRule rule = midpoint_rule(rectangle_cells({-1, -1}, {1, 1}, 4, 4));
-  EXPECT_NE(refusal([&] { return scaled_preload(rule.p, rule.weights, 750.0); }).find("750"),
+  EXPECT_NE(refusal([&] { return scaled_preload(rule.p, rule.weights, 750.0); }).find("above 0"),
             std::string::npos);
-  EXPECT_NO_THROW(require_total(rule.p, rule.weights, 0.0, 1e-12));
+  for (const double mean : {-0.5, -2.0}) {  // partly pressing, a gap everywhere
+    const Eigen::VectorXd shape = rule.p.array() + mean;
+    const std::string said = refusal([&] { return scaled_preload(shape, rule.weights, 750.0); });
+    EXPECT_NE(said.find("above 0"), std::string::npos) << said;
+    EXPECT_NE(said.find(mean < -1.0 ? "to -8 over" : "to -2 over"), std::string::npos) << said;
+  }
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rule.p.size());
+  EXPECT_THROW((void)scaled_preload(ones, rule.weights, -1.0), std::invalid_argument);
+  EXPECT_TRUE(scaled_preload(ones, rule.weights, 0.0).isZero(0.0));
 }
 
 TEST(PreloadField, AWrongTotalIsRefusedWithBothNumbers) {

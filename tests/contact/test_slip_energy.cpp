@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/friction_cycle.hpp"
+
 namespace microslip::contact {
 namespace {
 
@@ -23,6 +25,22 @@ TEST(SlipEnergy, ShortPhasesKeepTheirDigits) {
 }
 
 // The whole slip of one phase under a load that grows with it, by Simpson's rule on the slip rate.
+// A point that hardly moves and lifts off does no more work than its way under the largest load: rounding of the
+// angle of lift-off, squared, is 1e-31 of the load.
+TEST(SlipEnergy, NoMotionDoesNoWork) {
+  const PointParameters point{1.0, 1.0, 0.5, 0.3};
+  for (const double u : {1e-300, 1e-100, 1e-20}) {
+    for (const double phase : {0.0, 0.4, 1.1, 2.9}) {
+      const PointMotion motion{0.0, u, 0.0, 0.0, std::cos(phase), std::sin(phase)};
+      const FrictionCycle cycle = friction_cycle(point, motion);
+      EXPECT_EQ(cycle.regime, CycleRegime::separation);
+      EXPECT_LE(cycle.dissipated_energy, 0.5 * 1.3 * 4.001 * u);
+      EXPECT_LE(cycle.slip_distance, 4.001 * u);
+      EXPECT_GE(cycle.dissipated_energy, 0.0);
+    }
+  }
+}
+
 TEST(SlipEnergy, IsTheIntegralOfLoadTimesSlipRate) {
   const PointParameters point{2.0, 1.5, 0.4, 1.0};
   const PointMotion m{.u_sin = 1.4, .u_cos = 0.3, .v_sin = -0.4, .v_cos = 0.9};

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/element_shape.hpp"
+#include "mesh/gmsh_elements.hpp"
 #include "mesh/mesh_quality.hpp"
 #include "sample_meshes.hpp"
 
@@ -105,6 +107,28 @@ TEST(MeshReader, NamesWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(message_of(replaced(good, "$Nodes\n11", "$Nodes\n99999999999")).find("does not fit"),
             std::string::npos);
+}
+
+// Format 2.2 writes an element once for each group it is in; the same group twice is a repetition.
+TEST(MeshReader, CountsRepeatedElements) {
+  GmshContent content;
+  content.node_tags = {1, 2, 3, 4};
+  content.coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const auto element = [](std::int64_t tag, std::vector<std::int64_t> groups) {
+    return GmshElement{4, tag, std::move(groups), {1, 2, 3, 4}};
+  };
+  content.elements = {element(10, {1}), element(11, {2})};
+  const Mesh grouped = make_mesh(content, 1.0, "m");
+  EXPECT_EQ(grouped.n_elements(), 1);
+  EXPECT_EQ(grouped.n_repeated_elements(), 0);
+  EXPECT_TRUE(shape_warnings(grouped).empty());
+  content.elements.push_back(element(12, {1}));
+  content.elements.push_back(element(13, {2}));
+  const Mesh repeated = make_mesh(content, 1.0, "m");
+  EXPECT_EQ(repeated.n_elements(), 1);
+  EXPECT_EQ(repeated.n_repeated_elements(), 2);
+  ASSERT_EQ(shape_warnings(repeated).size(), 1U);
+  EXPECT_EQ(shape_warnings(repeated)[0].rfind("2 volume elements", 0), 0U);
 }
 
 TEST(MeshReader, MissingFilesAreNamed) {

@@ -140,6 +140,12 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
   map.state_start << Eigen::VectorXd::LinSpaced(n, 0.5, 1.0), Eigen::VectorXd::LinSpaced(n, 1.0, 2.0),
       Eigen::VectorXd::LinSpaced(n, 4.0, 5.0), Eigen::VectorXd::LinSpaced(n, 3.0, 3.5),
       Eigen::VectorXd::Zero(n);
+  map.state_starts = map.state_start;
+  map.state_share = Eigen::MatrixXd::Constant(n, 5, 0.2);
+  map.state_share.col(3) = Eigen::VectorXd::LinSpaced(n, 0.3, 0.0);
+  map.slip_guard = Eigen::VectorXd::LinSpaced(n, -2e5, 5e5);
+  map.smallest_load = Eigen::VectorXd::LinSpaced(n, -1e5, 3e5);
+  map.largest_load = Eigen::VectorXd::LinSpaced(n, 4e5, 9e5);
   map.slip_duration = Eigen::VectorXd::LinSpaced(n, 0.0, 0.7);
   map.separation_duration = Eigen::VectorXd::LinSpaced(n, 0.3, 0.0);
   return map;

@@ -224,6 +224,25 @@ TEST(BlockScene, PreloadsWithoutEquilibriumAreRefused) {
                                 parse(block_text, {"response.preload=[43.4, \"free\"]"})));
 }
 
+// A gap cannot carry moments: told before anything is solved, by the place in the list.
+TEST(BlockScene, AGapUnderMomentsIsNamed) {
+  const auto refusal = [](const Overrides& overrides) -> std::string {
+    try {
+      require_response(parse(block_text, overrides));
+    } catch (const RefusedError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  const std::string moments = "contact.preload_moment=[0.1, 0.2]";
+  const std::string said = refusal({moments, "response.preload=[\"free\", 40, -5]"});
+  EXPECT_NE(said.find("response.preload[2] = -5 N"), std::string::npos) << said;
+  EXPECT_NE(said.find("contact.preload_moment = [0.1, 0.2] N m"), std::string::npos) << said;
+  EXPECT_NE(refusal({moments, "response.preload=[0]"}).find("response.preload[0] = 0 N"), std::string::npos);
+  EXPECT_EQ(refusal({moments, "response.preload=[40, \"free\"]"}), "taken");
+  EXPECT_EQ(refusal({"response.preload=[40, -5]"}), "taken");
+}
+
 // Theory 20.6: motion in one direction, springs and contact in one plane, surfaces that are hardly rough,
 // a mass and its spring: 20.3 with one mass.
 TEST(BlockScene, InOneDirectionItIsAChain) {

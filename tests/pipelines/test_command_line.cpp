@@ -155,6 +155,14 @@ TEST_F(Program, RefusesOptionsThatSayNothingToACommand) {
   expect("init modal --dry-run", 1, {"--dry-run"});
 }
 
+TEST_F(Program, ReadsACycleTableFromAPipe) {
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,1e-400,0,0.2,0\n");
+  const Outcome piped = run("cycle /dev/stdin", "cat t.csv |");
+  EXPECT_EQ(piped.code, 0) << piped.err;
+  EXPECT_EQ(piped.out, run("cycle t.csv").out);
+  expect("cycle .", 1, {"not a file"});
+}
+
 TEST_F(Program, EndsStandardOutputWithOneJsonObject) {
   write(path("scene.toml"), scene_text);
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
@@ -164,6 +172,12 @@ TEST_F(Program, EndsStandardOutputWithOneJsonObject) {
   EXPECT_EQ(good["command"], "run");
   EXPECT_EQ(good["output"], "runs/scene");
   EXPECT_FALSE(good.contains("message"));
+  const Json checked = line("check scene.toml --json");
+  EXPECT_GT(checked["forecast"]["memory_GB"], 0.0);
+  EXPECT_GT(checked["forecast"]["curves_seconds"], 0.0);
+  ASSERT_TRUE(checked["effects"].is_array());
+  EXPECT_TRUE(checked["effects"][0].contains("simulated"));
+  EXPECT_EQ(line("run scene.toml --dry-run --json")["forecast"], checked["forecast"]);
   EXPECT_EQ(line("--json cycle t.csv")["exit_code"], 0);
   const Json bad = line("check none.toml --json");
   EXPECT_EQ(bad["exit_code"], 1);

@@ -100,5 +100,16 @@ TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
   EXPECT_EQ(n_told, 3);
 }
 
+TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
+  const auto warnings = [](const std::string& law) {
+    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", {"contact.friction_law=" + law}));
+  };
+  const auto grows = warnings("{ law = \"exponential\", static = 0.3, kinetic = 0.5, rate = 1 }");
+  ASSERT_EQ(grows.size(), 1U);
+  EXPECT_NE(grows[0].find("0.5 is above the static 0.3"), std::string::npos) << grows[0];
+  EXPECT_TRUE(warnings("{ law = \"exponential\", static = 0.5, kinetic = 0.3, rate = 1 }").empty());
+  EXPECT_TRUE(warnings("{ law = \"hyperbolic\", static = 0.5, rate = 1 }").empty());
+}
+
 }  // namespace
 }  // namespace microslip::pipelines

@@ -1,13 +1,16 @@
 #include "pipelines/patch_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::pipelines {
@@ -159,6 +162,49 @@ TEST(PatchFields, APreloadFieldKeepsItsShapeAndTotal) {
     EXPECT_NEAR(points[i].preload, scale * shape, 1e-10 * std::abs(scale));
   }
   EXPECT_NEAR(total, 10.0, 1e-10);
+}
+
+// A field that is partly a gap: the pressed part alone carries the load, on cells and where lines are followed.
+TEST(PatchFields, APartlyOpenFieldCarriesTheTotal) {
+  const mesh::Mesh mesh = box(mesh::ElementType::hex8, false);
+  SceneDescription scene = scene_on("0.3");
+  scene.contact->slip_direction = {1.0, 0.0, 0.0};
+  const Eigen::Vector3d size = mesh.upper() - mesh.lower();
+  scene.contact->preload_field.emplace();  // gap over the first quarter of the length
+  scene.contact->preload_field->value = FieldExpression{fmt::format("p + {:.17g}", 0.25 * size.x())};
+  const ReducedModel model = model_of(mesh, scene, false);
+  double carried = 0.0;
+  const auto cells = point_parameters(model, 100.0, false);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    carried += model.weights[static_cast<Eigen::Index>(i)] * std::max(cells[i].preload, 0.0);
+  }
+  EXPECT_NEAR(carried, 100.0, 1e-10);
+  // ∫ max(s (p + L/4), 0) dA = s (3L/4)² / 2 · B
+  const double s = 100.0 / (0.5 * std::pow(0.75 * size.x(), 2) * size.y());
+  const Eigen::VectorXd p = Eigen::VectorXd::LinSpaced(5, -0.5 * size.x(), 0.5 * size.x());
+  const auto fitted = model.fields->parameters(p, Eigen::VectorXd::Zero(5), 100.0);
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const double expected = s * (p[static_cast<Eigen::Index>(i)] + 0.25 * size.x());
+    EXPECT_NEAR(fitted[i].preload, expected, 1e-9 * s * size.x());  // the rule finds the line to 1e-10
+  }
+}
+
+TEST(PatchFields, AFieldThatIsMostlyAGapIsRefused) {
+  const mesh::Mesh mesh = box(mesh::ElementType::hex8, false);
+  SceneDescription scene = scene_on("0.3");
+  scene.contact->preload_field.emplace();
+  scene.contact->preload_field->place = "a.toml:7: contact.preload_field";
+  for (const char* field : {"-0.5 + 1e-3 * p", "p"}) {
+    scene.contact->preload_field->value = FieldExpression{field};
+    try {
+      static_cast<void>(model_of(mesh, scene, false));
+      FAIL() << field;
+    } catch (const SceneError& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.rfind("a.toml:7: contact.preload_field: ", 0), 0U) << said;
+      EXPECT_NE(said.find("above 0"), std::string::npos) << said;
+    }
+  }
 }
 
 TEST(PatchFields, AreThereForTheFittedQuadratureAlone) {

@@ -510,6 +510,12 @@ TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
                    {"preload_moment", "one of the two"});
 }
 
+TEST(SceneFile, NegativeScalesWouldTurnGapsIntoPressure) {
+  expect_complaint(complaint(modal_text, {"response.preload_scale=[1, -1]"}), {"preload_scale", "at least 0"});
+  EXPECT_EQ(parse(modal_text, {"response.preload_scale=[0, 2]"}).response->preload_scale,
+            (std::vector<double>{0.0, 2.0}));
+}
+
 TEST(SceneFile, AnyNumberCanBeSearched) {
   const std::vector<std::string> search{"response.optimum=contact.normal_stiffness",
                                         "response.optimum_range=[\"1 GPa/m\", 1e12]",

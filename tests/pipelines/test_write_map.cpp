@@ -28,6 +28,11 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
     EXPECT_TRUE(values(data, starts[state]).isApprox(map.state_start.col(state) * (180.0 / M_PI), 1e-15));
   }
   EXPECT_EQ(values(data, "slip_duration"), map.slip_duration);
+  EXPECT_EQ(values(data, "separation_share"), map.state_share.col(3));
+  EXPECT_EQ(values(data, "stick_starts"), Eigen::VectorXd::Ones(map.state_share.rows()));
+  EXPECT_EQ(values(data, "slip_guard_Pa"), map.slip_guard);
+  EXPECT_EQ(values(data, "smallest_load_Pa"), map.smallest_load);
+  EXPECT_EQ(values(data, "largest_load_Pa"), map.largest_load);
   EXPECT_EQ(values(data, "separation_duration"), map.separation_duration);
 }
 
