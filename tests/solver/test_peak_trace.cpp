@@ -33,11 +33,11 @@ PeakTraceOptions between(double lower, double upper, int n_values) {
   return options;
 }
 
-/// The highest peak of a whole curve; 0: none.
+/// The largest amplitude of a whole curve, ends of the range included.
 double highest_of_curve(const Scene& scene, const ContinuationOptions& options) {
   double highest = 0.0;
   for (const auto& point : trace_response(scene, options).points) {
-    if (point.mark == PointMark::peak) highest = std::max(highest, point.amplitude);
+    highest = std::max(highest, point.amplitude);
   }
   return highest;
 }
