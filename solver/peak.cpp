@@ -317,7 +317,7 @@ class Search {
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;
     if (result_.trace.empty()) {
-      result_.message = "no solution was found for any value";
+      result_.message = result_.objection = "no solution was found for any value";
       return std::move(result_);
     }
     // The one confirmed: others of the valley are lower by rounding at most.
@@ -325,10 +325,10 @@ class Search {
         result_.trace.begin(), result_.trace.end(),
         [&](const PeakOfParameter& one) { return one.parameter == result_.best.parameter; });
     result_.flat = flat_interval(result_.trace);
-    const std::string objection = this->objection();
-    result_.found = objection.empty();
+    result_.objection = objection();
+    result_.found = result_.objection.empty();
     result_.message = valley(result_.trace, result_.best);
-    if (!result_.found) result_.message = objection + "; " + result_.message;
+    if (!result_.found) result_.message = result_.objection + "; " + result_.message;
     if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
       result_.message += "; the largest amplitude lies at an end of the frequency range";
     }

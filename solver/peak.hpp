@@ -20,8 +20,9 @@ struct Optimum {
   /// Where the minimum does not depend on the parameter: the interval over which it is the same; `best` is
   /// then one of many.
   std::optional<std::array<double, 2>> flat;
-  /// Found: the interval that is as good to 1 % among the values solved for, and minima nearly as good
-  /// elsewhere; else why not.
+  std::string objection;  ///< why not found; empty: found
+  /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly as good
+  /// elsewhere, and whether an end of the frequency range counts.
   std::string message;
   std::vector<std::string> notes;  ///< see PeakTrace
   int n_curves = 0;                ///< traced whole
