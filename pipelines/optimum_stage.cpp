@@ -65,9 +65,10 @@ solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
 solver::Optimum OptimumSearch::search(const Factors& factors) {
   solver::OptimumOptions options = options_;
   if (request_.of_preload()) {
-    // Friction acts through μ n: the best preload moves by about 1/factor, and the range with it.
-    options.lower /= factors.friction;
-    options.upper /= factors.friction;
+    // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal load
+    // varies with the motion. The range is widened by as much.
+    options.lower = std::min(options.lower, options.lower / factors.friction);
+    options.upper = std::max(options.upper, options.upper / factors.friction);
   }
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
                                continuation_options(*scene_.response), options);
