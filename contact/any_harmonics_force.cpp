@@ -38,6 +38,10 @@ ForceAndJacobian AnyHarmonicsForce::evaluate_rows(const Harmonics& q, double fre
                               : events_.evaluate_rows(q, frequency, rows);
 }
 
+Harmonics AnyHarmonicsForce::force_up_to(const Harmonics& q, double frequency, int n_harmonics) const {
+  return events_.force_up_to(q, frequency, n_harmonics);
+}
+
 CycleReport AnyHarmonicsForce::report(const Harmonics& q, double frequency) const {
   return q.n_harmonics() == 1 ? closed_.report(q, frequency) : events_.report(q, frequency);
 }
@@ -45,7 +49,8 @@ CycleReport AnyHarmonicsForce::report(const Harmonics& q, double frequency) cons
 Eigen::MatrixXd AnyHarmonicsForce::stuck_stiffness() const { return closed_.stuck_stiffness(); }
 
 LinearState AnyHarmonicsForce::linear_state(const Harmonics& centre, double radius) const {
-  return centre.n_harmonics() == 1 ? closed_.linear_state(centre, radius) : LinearState::unknown;
+  return centre.n_harmonics() == 1 ? closed_.linear_state(centre, radius)
+                                   : events_.linear_state(centre, radius);
 }
 
 }  // namespace microslip::contact

@@ -24,9 +24,11 @@ class AnyHarmonicsForce final : public ModalForce {
   [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
                                                const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] Harmonics force_up_to(const Harmonics& q, double frequency,
+                                int n_harmonics) const override;
+  /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
-  /// Of motions with one harmonic; unknown of others.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:

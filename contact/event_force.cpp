@@ -45,6 +45,28 @@ double memory_by_load(const EventPhase& phase, const EventGuards& guards, double
 enum Signal : int { tangential = 0, normal = 1 };
 Eigen::Index entry(int i, Signal signal) { return n_point_signals * i + signal; }
 
+// norm(i) · factor · ⟨b_i b_j⟩ in the rows and columns of two signals.
+void set_products(const TrigonometricMoments& moments, double factor, int n_harmonics, Signal row,
+                  Signal column, Eigen::MatrixXd& jacobian) {
+  const double mean = norm(0) * factor;
+  const double wave = norm(1) * factor;
+  for (int i = 0; i <= 2 * n_harmonics; ++i) {
+    jacobian(entry(i, row), entry(0, column)) = (i == 0 ? mean : wave) * moments.product(i, 0);
+    jacobian(entry(0, row), entry(i, column)) = mean * moments.product(0, i);
+  }
+  for (int b = 1; b <= n_harmonics; ++b) {
+    double* const sine = &jacobian(0, entry(2 * b - 1, column));
+    double* const cosine = &jacobian(0, entry(2 * b, column));
+    for (int a = 1; a <= n_harmonics; ++a) {
+      const auto p = moments.products(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+      sine[entry(2 * a - 1, row)] = wave * p.sin_sin;
+      sine[entry(2 * a, row)] = wave * p.cos_sin;
+      cosine[entry(2 * a - 1, row)] = wave * p.sin_cos;
+      cosine[entry(2 * a, row)] = wave * p.cos_cos;
+    }
+  }
+}
+
 }  // namespace
 
 void EventForce::gather(const PointParameters& point, const EventGuards& guards,
@@ -102,21 +124,16 @@ void EventForce::set_force(const PointParameters& point, const EventGuards& guar
 }
 
 void EventForce::set_springs(const PointParameters& point, Eigen::MatrixXd& jacobian) const {
-  const double k_u = point.tangential_stiffness;
   const double k_v = point.normal_stiffness;
-  const double mu_k_v = point.friction_coefficient * k_v;
-  const int n = 2 * n_harmonics_ + 1;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      jacobian(entry(i, normal), entry(j, normal)) = norm(i) * k_v * contact_.product(i, j);
-      if (!has_friction_) {
-        continue;
-      }
-      const double stick = j == 0 ? 0.0 : stick_.product(i, j);
-      jacobian(entry(i, tangential), entry(j, tangential)) = norm(i) * k_u * stick;
-      jacobian(entry(i, tangential), entry(j, normal)) = norm(i) * mu_k_v * slip_.product(i, j);
-    }
+  set_products(contact_, k_v, n_harmonics_, normal, normal, jacobian);
+  if (!has_friction_) {
+    return;
   }
+  set_products(stick_, point.tangential_stiffness, n_harmonics_, tangential, tangential, jacobian);
+  for (int i = 0; i <= 2 * n_harmonics_; ++i) {
+    jacobian(entry(i, tangential), entry(0, tangential)) = 0.0;  // the spring knows no mean
+  }
+  set_products(slip_, point.friction_coefficient * k_v, n_harmonics_, tangential, normal, jacobian);
 }
 
 void EventForce::add_memories(const PointParameters& point, const EventGuards& guards,

@@ -31,6 +31,12 @@ void EventLaw::traction(const Harmonics& motion, double /*frequency*/,
   shop.force.traction(point_, shop.guards, shop.search.find(shop.guards), result);
 }
 
+Harmonics EventLaw::force_up_to(const Harmonics& motion, double /*frequency*/, int n_harmonics) const {
+  Workshop& shop = workshop();
+  set_event_guards(point_, motion, shop.guards);
+  return shop.force.force(point_, shop.guards, shop.search.find(shop.guards), n_harmonics);
+}
+
 PointHistory EventLaw::history(const Harmonics& motion, double /*frequency*/,
                                const Eigen::VectorXd& phases, int n_harmonics) const {
   Workshop& shop = workshop();
@@ -55,6 +61,11 @@ PointHistory EventLaw::history(const Harmonics& motion, double /*frequency*/,
 Eigen::Vector3d EventLaw::stuck_stiffness() const {
   const bool has_friction = point_.friction_coefficient > 0.0;
   return {has_friction ? point_.tangential_stiffness : 0.0, point_.normal_stiffness, 0.0};
+}
+
+std::optional<LinearRange> EventLaw::linear_range() const {
+  return LinearRange{stuck_stiffness(), point_.preload,
+                     FrictionLaw::constant(point_.friction_coefficient)};
 }
 
 double EventLaw::load_at_rest() const { return std::max(point_.preload, 0.0); }

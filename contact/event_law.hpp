@@ -26,11 +26,15 @@ class EventLaw final : public PointLaw {
   explicit EventLaw(const PointParameters& point) : point_(point) {}
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
+  /// Events are those of the motion: its harmonics are paid for, not those of the force.
+  [[nodiscard]] Harmonics force_up_to(const Harmonics& motion, double frequency,
+                                int n_harmonics) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   /// (k_u or 0, k_v, 0).
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override;
+  [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 
  private:
   PointParameters point_;

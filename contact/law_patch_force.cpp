@@ -1,22 +1,18 @@
 #include "contact/law_patch_force.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "contact/cycle_report.hpp"
 #include "contact/mode_shape_check.hpp"
-#include "contact/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
-
-// Points whose Jacobians wait for one dense product: large enough for it to be fast, small enough for
-// the rows to stay in cache.
-constexpr Eigen::Index block_size = 32;
 
 void require(bool condition, const std::string& message) {
   if (!condition) {
@@ -24,69 +20,23 @@ void require(bool condition, const std::string& message) {
   }
 }
 
-// J_i Φ_i of a block of points, harmonic row by harmonic row of those asked for: n_rows matrices of
-// (n_signals · block) × (n_rows · n_modes), then Φᵀ times these.
-class JacobianSum {
- public:
-  JacobianSum(const std::vector<const Eigen::MatrixXd*>& shapes,
-              const std::vector<Eigen::Index>& rows)
-      : shapes_(shapes),
-        rows_(rows),
-        n_rows_(static_cast<Eigen::Index>(rows.size())),
-        n_modes_(shapes.front()->cols()),
-        phi_(block_rows(), n_modes_),
-        moved_(rows.size(), Eigen::MatrixXd(block_rows(), n_rows_ * n_modes_)),
-        sum_(Eigen::MatrixXd::Zero(n_rows_ * n_modes_, n_rows_ * n_modes_)) {}
-
-  void add(Eigen::Index point, double weight, const Eigen::MatrixXd& jacobian) {
-    const Eigen::Index n_signals = signals();
-    const Eigen::Index first = n_signals * n_waiting_;
-    for (Eigen::Index s = 0; s < n_signals; ++s) {
-      phi_.row(first + s) = shapes_[static_cast<std::size_t>(s)]->row(point);
-    }
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      Eigen::MatrixXd& moved = moved_[k];
-      for (Eigen::Index l = 0; l < n_rows_; ++l) {
-        const Eigen::Index column = rows_[static_cast<std::size_t>(l)];
-        moved.block(first, l * n_modes_, n_signals, n_modes_).noalias() =
-            weight *
-            jacobian.block(n_point_signals * rows_[k], n_point_signals * column, n_signals,
-                           n_signals) *
-            phi_.middleRows(first, n_signals);
-      }
-    }
-    if (++n_waiting_ == block_size) {
-      flush();
-    }
+void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harmonics& q,
+                  const std::vector<Eigen::Index>& rows) {
+  const Eigen::Index n = part.mean.size();
+  result.force.rows().noalias() += q.rows() * part.stiffness;  // symmetric
+  result.force.rows().row(0) += part.mean.transpose();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(rows.size()); ++k) {
+    result.jacobian.block(k * n, k * n, n, n) += part.stiffness;
   }
+}
 
-  [[nodiscard]] Eigen::MatrixXd take() {
-    flush();
-    return std::move(sum_);
-  }
-
- private:
-  [[nodiscard]] Eigen::Index signals() const { return static_cast<Eigen::Index>(shapes_.size()); }
-  [[nodiscard]] Eigen::Index block_rows() const { return signals() * block_size; }
-
-  void flush() {
-    const Eigen::Index n = signals() * n_waiting_;
-    for (Eigen::Index k = 0; k < n_rows_ && n > 0; ++k) {
-      sum_.middleRows(k * n_modes_, n_modes_).noalias() +=
-          phi_.topRows(n).transpose() * moved_[static_cast<std::size_t>(k)].topRows(n);
-    }
-    n_waiting_ = 0;
-  }
-
-  const std::vector<const Eigen::MatrixXd*>& shapes_;
-  const std::vector<Eigen::Index>& rows_;
-  Eigen::Index n_rows_;
-  Eigen::Index n_modes_;
-  Eigen::Index n_waiting_ = 0;
-  Eigen::MatrixXd phi_;
-  std::vector<Eigen::MatrixXd> moved_;
-  Eigen::MatrixXd sum_;
-};
+// The one segment of a point asleep. Without friction the law says whether it calls that slip.
+std::optional<CycleSegment> asleep(const std::optional<LinearRange>& range, SleepState state) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  if (state == SleepState::open) return CycleSegment{ContactState::separated, 0.0, two_pi, 0.0};
+  if (state == SleepState::awake || !range->rubs()) return std::nullopt;
+  return CycleSegment{ContactState::stick, 0.0, two_pi, 0.0};
+}
 
 }  // namespace
 
@@ -104,6 +54,7 @@ LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
     require_mode_shape("LawPatchForce", "w", shapes_.w, n, shapes_.u.cols());
     shape_.push_back(&shapes_.w);
   }
+  sleep_ = SleepingLaws(weights_, laws_, shapes_);
 }
 
 ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) const {
@@ -114,65 +65,66 @@ ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) c
 
 ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequency,
                                               const std::vector<Eigen::Index>& rows) const {
-  const std::vector<Harmonics> motions = general_motions(shapes_, q);
-  const Eigen::Index n_rows = q.rows().rows();
-  const auto n_signals = static_cast<Eigen::Index>(shape_.size());
-  // Weighted tractions and their derivatives by ω of all points: n_points × n_rows for each signal.
-  std::vector<Eigen::MatrixXd> force(shape_.size(), Eigen::MatrixXd(weights_.size(), n_rows));
-  std::vector<Eigen::MatrixXd> by_frequency = force;
-  JacobianSum jacobian(shape_, rows);
-  PointTraction traction;
-  double defect = 0.0;
-  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
-    const auto point = static_cast<std::size_t>(i);
-    traction.defect = 0.0;  // a law that is exact does not mention it
-    laws_[point]->traction(motions[point], frequency, traction);
-    if (traction.defect > 0.0) {
-      double shape = 0.0;
-      for (const Eigen::MatrixXd* phi : shape_) shape += phi->row(i).squaredNorm();
-      defect += weights_[i] * traction.defect * std::sqrt(shape);
-    }
-    traction.force.rows()(0, 1) -= laws_[point]->load_at_rest();
-    for (Eigen::Index s = 0; s < n_signals; ++s) {
-      const auto signal = static_cast<std::size_t>(s);
-      force[signal].row(i) = weights_[i] * traction.force.rows().col(s).transpose();
-      for (Eigen::Index k = 0; k < n_rows; ++k) {
-        by_frequency[signal](i, k) =
-            weights_[i] * traction.frequency_derivative[n_point_signals * k + s];
-      }
-    }
-    if (traction.regime != CycleRegime::separated && !rows.empty()) {
-      jacobian.add(i, weights_[i], traction.jacobian);
-    }
+  motion_.set(shapes_, q);
+  sleep_.look_at(motion_, frequency, shapes_);
+  sum_.start(shape_, q.n_harmonics(), rows);
+  for (const Eigen::Index i : sleep_.awake()) {
+    const PointLaw& law = *laws_[static_cast<std::size_t>(i)];
+    motion_.copy(i, point_motion_);
+    traction_.defect = 0.0;  // a law that is exact does not mention it
+    law.traction(point_motion_, frequency, traction_);
+    sum_.add(i, weights_[i], law.load_at_rest(), traction_);
   }
-  ForceAndJacobian result{Harmonics(q.n_harmonics(), n_modes()), {}, {}, defect};
-  Harmonics derivative(q.n_harmonics(), n_modes());
-  for (std::size_t s = 0; s < shape_.size(); ++s) {
-    result.force.rows() += force[s].transpose() * *shape_[s];
-    derivative.rows() += by_frequency[s].transpose() * *shape_[s];
-  }
-  result.jacobian = jacobian.take();
-  result.frequency_derivative.resize(static_cast<Eigen::Index>(rows.size()) * n_modes());
-  Eigen::Index at = 0;
-  for (const Eigen::Index row : rows) {
-    result.frequency_derivative.segment(at, n_modes()) = derivative.rows().row(row).transpose();
-    at += n_modes();
-  }
+  ForceAndJacobian result = sum_.take();
+  if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, rows);
   return result;
 }
 
+Harmonics LawPatchForce::force_up_to(const Harmonics& q, double frequency, int n_harmonics) const {
+  motion_.set(shapes_, q);
+  sleep_.look_at(motion_, frequency, shapes_);
+  Harmonics sum(n_harmonics, n_modes());
+  for (const Eigen::Index i : sleep_.awake()) {
+    const PointLaw& law = *laws_[static_cast<std::size_t>(i)];
+    motion_.copy(i, point_motion_);
+    Harmonics force = law.force_up_to(point_motion_, frequency, n_harmonics);
+    force.rows()(0, 1) -= law.load_at_rest();
+    for (std::size_t s = 0; s < shape_.size(); ++s) {
+      sum.rows() += weights_[i] * force.rows().col(static_cast<Eigen::Index>(s)) * shape_[s]->row(i);
+    }
+  }
+  if (const SleepingPart* part = sleep_.part()) {
+    sum.rows().topRows(q.rows().rows()).noalias() += q.rows() * part->stiffness;  // symmetric
+    sum.rows().row(0) += part->mean.transpose();
+  }
+  return sum;
+}
+
 CycleReport LawPatchForce::report(const Harmonics& q, double frequency) const {
-  const std::vector<Harmonics> motions = general_motions(shapes_, q);
+  PatchMotion motion;
+  motion.set(shapes_, q);
+  const std::vector<SleepState> states = sleep_.states(motion, frequency);
   ReportSum sum;
-  for (std::size_t point = 0; point < motions.size(); ++point) {
-    const double weight = weights_[static_cast<Eigen::Index>(point)];
-    if (weight == 0.0) {
+  Harmonics point_motion;
+  for (std::size_t point = 0; point < laws_.size(); ++point) {
+    const auto i = static_cast<Eigen::Index>(point);
+    if (weights_[i] == 0.0) continue;
+    if (const std::optional<CycleSegment> segment = asleep(sleep_.range(i), states[point])) {
+      sum.add({&*segment, 1}, 0.0, weights_[i]);
       continue;
     }
-    const PointHistory history = laws_[point]->history(motions[point], frequency, {}, 0);
-    sum.add(history.segments, history.dissipated_energy, weight);
+    motion.copy(i, point_motion);
+    const PointHistory history = laws_[point]->history(point_motion, frequency, {}, 0);
+    sum.add(history.segments, history.dissipated_energy, weights_[i]);
   }
-  return sum.result();
+  CycleReport report = sum.result();
+  const auto n_awake = std::count(states.begin(), states.end(), SleepState::awake);
+  report.awake_share = static_cast<double>(n_awake) / static_cast<double>(states.size());
+  return report;
+}
+
+LinearState LawPatchForce::linear_state(const Harmonics& centre, double radius) const {
+  return sleep_.linear_state(shapes_, centre, radius);
 }
 
 Eigen::MatrixXd LawPatchForce::stuck_stiffness() const {
@@ -182,7 +134,8 @@ Eigen::MatrixXd LawPatchForce::stuck_stiffness() const {
   }
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n_modes(), n_modes());
   for (std::size_t s = 0; s < shape_.size(); ++s) {
-    stiffness += shape_[s]->transpose() * k.col(static_cast<Eigen::Index>(s)).asDiagonal() * *shape_[s];
+    stiffness +=
+        shape_[s]->transpose() * k.col(static_cast<Eigen::Index>(s)).asDiagonal() * *shape_[s];
   }
   return stiffness;
 }

@@ -7,14 +7,18 @@
 ///
 /// PatchForce does the same faster where the closed form of one harmonic and one tangential direction is
 /// enough.
+///
+/// Points proved stuck or open cost next to nothing (sleeping_laws.hpp).
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "contact/contact_patch.hpp"
+#include "contact/law_projection.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/point_law.hpp"
+#include "contact/sleeping_laws.hpp"
 
 namespace microslip::contact {
 
@@ -28,21 +32,33 @@ class LawPatchForce final : public ModalForce {
                 ModalShapes shapes);
 
   [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
+  /// Equal input gives equal bits, whatever was asked before. Not for two threads at a time.
   /// @throws std::invalid_argument  another number of modes, or no harmonic.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
   /// Points cost what all harmonics of q do, their sum over the patch what the rows do.
   /// @throws std::invalid_argument  as evaluate().
-  [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
-                                               const std::vector<Eigen::Index>& rows) const override;
+  [[nodiscard]] ForceAndJacobian evaluate_rows(
+      const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const override;
+  /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] Harmonics force_up_to(const Harmonics& q, double frequency,
+                                int n_harmonics) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  /// Of any number of harmonics; unknown where a law does not know its linear range. See linear_proof.hpp.
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:
   Eigen::VectorXd weights_;
   std::vector<std::shared_ptr<const PointLaw>> laws_;
   ModalShapes shapes_;
   std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w
+  // Storage, and sums that depend on who sleeps alone.
+  mutable SleepingLaws sleep_;
+  mutable PatchMotion motion_;
+  mutable Harmonics point_motion_;
+  mutable PointTraction traction_;
+  mutable LawProjection sum_;
 };
 
 }  // namespace microslip::contact

@@ -95,6 +95,14 @@ class ModalForce {
     }
     return some;
   }
+  /// G alone, with harmonics that the motion does not have: what a motion asks of equations left out.
+  /// @param n_harmonics  of the result, those of q at least.
+  [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& q, double frequency,
+                                        int n_harmonics) const {
+    Harmonics wide(n_harmonics, n_modes());
+    wide.rows().topRows(q.rows().rows()) = q.rows();
+    return evaluate_rows(wide, frequency, {}).force;
+  }
   /// Shares of the states and work of slip for a solution.
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) const = 0;
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.

@@ -39,6 +39,9 @@ class PlanarLaw final : public PointLaw {
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
+  [[nodiscard]] std::optional<LinearRange> linear_range() const override {
+    return law_.linear_range();
+  }
 
   [[nodiscard]] const SurfaceLaw& surface() const { return law_; }
 

@@ -67,7 +67,10 @@ std::vector<double> breakpoints(const PlanarMotion& motion) {
   std::vector<double> found;
   const int n_cells = cells_per_harmonic * motion.n_harmonics();
   const auto rate = [&](double phase) { return motion.approach_rate(phase); };
-  for (const double kink : motion.law().kinks()) {
+  std::vector<double> cuts = motion.law().kinks();
+  const double vanishing = motion.law().vanishing_approach();
+  if (!std::isnan(vanishing)) cuts.push_back(vanishing);
+  for (const double kink : cuts) {
     add_crossings([&](double phase) { return motion.approach(phase) - kink; }, rate, n_cells,
                   found);
   }
@@ -78,7 +81,9 @@ std::vector<double> breakpoints(const PlanarMotion& motion) {
 }
 
 bool is_in_contact(const PlanarMotion& motion, double begin, double end) {
-  const SurfaceState surface = motion.at(0.5 * (begin + end)).surface;
+  const double middle = 0.5 * (begin + end);
+  if (motion.approach(middle) <= motion.law().vanishing_approach()) return false;  // not if NaN
+  const SurfaceState surface = motion.at(middle).surface;
   return surface.load > 0.0 && surface.stiffness_ratio > 0.0;
 }
 

@@ -2,13 +2,15 @@
 /// One contact point in time that slides in a plane: what its law makes of position and speed at an
 /// instant, and how fast slider and direction of slip move (theory section 9).
 ///
-///   K₀ (x − s) = r e in slip,   |K₀ (x − s)| ≤ r,   r = μ n/g,   f = g K₀ (x − s)          (1)
+///   K (x − s) = r e in slip,   |K (x − s)| ≤ r,   r = μ n/g,   f = g K (x − s)             (1)
 ///
-/// with x = (u, w), K₀ = diag(k_u, k_w), C = K₀⁻¹. From s' ∥ e, s = x − r C e and with d = x' − r' C e
+/// with x = (u, w), K = diag(k_u, k_w h), C = K⁻¹. g = g_p is the share of the stiffness along p that the load
+/// leaves rough surfaces, h = g_r/g_p is 1 except where bodies of unequal compliance stand in series with
+/// them (surface_law.hpp). From s' ∥ e, s = x − r C e and with d = x' − (r C)' e
 ///
 ///   α' = e_⊥·d / (r e_⊥·C e_⊥),      ρ = e·d − (e·C e_⊥/e_⊥·C e_⊥) e_⊥·d                     (2)
 ///
-/// σ, the speed that μ(σ) sees, is |x'| (theory section 10); r' then holds x''. Where smooth surfaces part
+/// σ, the speed that μ(σ) sees, is |x'| (theory section 10); r' then holds x''. (r C)' holds h'. Where smooth surfaces part
 /// (1) goes on with a negative load, so that it is smooth until the end has been located.
 #pragma once
 
@@ -28,8 +30,7 @@ struct PlanarPoint {
               bool moves_along_r);
 
   SurfaceLaw law;
-  Eigen::Vector2d stiffness;   ///< K₀ [N/m³], 1 where there is none
-  Eigen::Vector2d compliance;  ///< C
+  Eigen::Vector2d stiffness;   ///< K of full contact, h = 1 [N/m³], 1 where there is none
   Eigen::Vector2d active;      ///< 1 or 0: which directions carry friction
   double touch;                ///< approach where contact begins [m]; NaN: nowhere
   double load_size;            ///< of the load at rest [Pa]
@@ -50,6 +51,8 @@ struct PlanarPointInstant {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x in active directions [m]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' [m/s]
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< x'' [m/s²]
+  Eigen::Vector2d stiffness = Eigen::Vector2d::Ones();       ///< K [N/m³]
+  Eigen::Vector2d stiffness_rate = Eigen::Vector2d::Zero();  ///< K' [N/m³/s]
   double load = 0.0;    ///< that of smooth surfaces of the same stiffness [Pa]: its sign tells contact
   double normal = 0.0;  ///< n while in contact [Pa]
   double ratio = 1.0;   ///< g
@@ -65,7 +68,7 @@ struct PlanarPointInstant {
 /// Where contact begins, by as little inside that derivatives are those of the closed side [m].
 [[nodiscard]] double just_inside(const PlanarPoint& point);
 
-/// K₀ (x − s) [Pa].
+/// K (x − s) [Pa].
 [[nodiscard]] Eigen::Vector2d spring_force(const PlanarPoint& point, const PlanarPointInstant& now,
                                            const Eigen::Vector2d& slider);
 
@@ -73,8 +76,18 @@ struct PlanarPointInstant {
 [[nodiscard]] Eigen::Vector2d slip_direction(double angle);
 
 /// ρ of (2) [m/s].
-[[nodiscard]] double slip_speed(const PlanarPoint& point, const PlanarPointInstant& now,
-                                double angle);
+[[nodiscard]] double slip_speed(const PlanarPointInstant& now, double angle);
+
+/// α where stick ends: the direction of the spring, and the more (3) would hold α back, the more the one it
+/// settles in, e ∥ d,
+///
+///   (r/R) F/|F| + (1 − r/R) e_∞,     x' = (ρ_∞ I + (r C)') e_∞,   |e_∞| = 1                  (4)
+///
+/// An α that starts aside and lags would end slip that the point is far from ending; the stick would end at
+/// once, a little farther round, and so on.
+/// @param force  F = K (x − s) [Pa].   @param edge  as of turn_rate().
+[[nodiscard]] double starting_angle(const PlanarPoint& point, const PlanarPointInstant& now,
+                                    const Eigen::Vector2d& force, double edge);
 
 /// α' of (2) [rad/s]; 0 along a line. Where r is small α follows the motion within r C/|x'|, however short
 /// that is. There it is given more time, with the motion's own turning β' fed forward,

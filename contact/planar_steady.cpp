@@ -20,6 +20,10 @@ constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
 constexpr int longest_march = 300;
 
+/// Slip of a period that may be what is left of a search that ends at the tolerance, whatever the angle
+/// between the edges it is pushed by: their corner loses the root of it at the most.
+constexpr double hardly_any = 1e-4;
+
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
 
@@ -38,6 +42,18 @@ Matrix2d period_derivative(const PlanarMotion& motion, const PlanarOrbit& orbit)
 
 double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
+}
+
+/// Way of the slider in a period, as a force.
+double slip_way(const PlanarMotion& motion, const PlanarOrbit& orbit) {
+  double way = 0.0;
+  for (const PlanarPiece& piece : orbit.pieces) {
+    if (piece.entry == PlanarEntry::returned) way += force_of(motion, piece.slider - piece.before);
+    for (const SlipStep& step : piece.steps) {
+      way += force_of(motion, step.end_slider() - step.slider);
+    }
+  }
+  return way;
 }
 
 /// Phases at which slip ends, once for every window of the period that pushes the slider.
@@ -78,8 +94,14 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    const bool stuck = !steady.orbit.slips;
-    if (stuck && helped_) steady = march();
+    bool stuck = !steady.orbit.slips;
+    if (helped_ && slip_way(motion_, steady.orbit) <= hardly_any) {
+      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips still is
+      // the little it has not converged by. Where the march rests is told by the march alone.
+      SteadyOrbit marched = march();
+      stuck = stuck || !marched.orbit.slips;
+      if (stuck) steady = std::move(marched);
+    }
     steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
     return steady;
   }

@@ -71,6 +71,9 @@ PlanarTransient::PlanarTransient(Eigen::VectorXd weights, std::vector<SurfaceLaw
     const auto row = static_cast<Eigen::Index>(i);
     points_.emplace_back(laws[i], shapes_.u.row(row).norm() + shapes_.w.row(row).norm(),
                          shapes_.v.row(row).norm(), !shapes_.w.row(row).isZero(0.0));
+    const std::vector<double> kinks = laws[i].kinks();
+    if (kinks.size() < 2 || weights_[row] == 0.0) continue;
+    kinks_.push_back({row, kinks[1], kinks[1] - kinks[0]});
   }
 }
 
@@ -124,7 +127,7 @@ Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,
     tractions(i, 1) += now.normal;
     if (!point.rubs) continue;
     const Vector2d force = now.ratio * returned_force(spring_force(point, now, slider_of(memory, i)),
-                                                      point.stiffness, now.radius);
+                                                      now.stiffness, now.radius);
     tractions(i, 0) = force[0];
     tractions(i, 2) = force[1];
   }
@@ -149,8 +152,8 @@ double PlanarTransient::commit(const ModalMotion& motion, TransientMemory& memor
       const Vector2d trial = spring_force(point, now, before);
       state = trial.norm() <= now.radius ? ContactState::stick : ContactState::slip;
       if (state == ContactState::stick) continue;
-      const Vector2d force = returned_force(trial, point.stiffness, now.radius);
-      const Vector2d after = now.position - point.compliance.cwiseProduct(force);
+      const Vector2d force = returned_force(trial, now.stiffness, now.radius);
+      const Vector2d after = now.position - force.cwiseQuotient(now.stiffness);
       set_slider(memory, i, after);
       memory.internal[i] = std::atan2(force[1], force[0]);
       work += weights_[i] * now.ratio * force.dot(after - before);
@@ -231,11 +234,13 @@ TransientForce::Guards PlanarTransient::guards_at(Eigen::Index i, const PlanarPo
     return {(now.radius - spring_force(point, now, slider).norm()) / std::max(smallest, size),
             now.load / load_size};
   }
+  const double softest = (point.active.array() > 0.0)
+                             .select(point.stiffness.array(), std::numeric_limits<double>::infinity())
+                             .minCoeff();
   const double rate_size =
-      (point.tangential_size +
-       point.compliance.maxCoeff() * p.friction_coefficient * normal_stiffness) *
+      (point.tangential_size + p.friction_coefficient * normal_stiffness / softest) *
       scale.velocity;
-  return {slip_speed(point, now, memory.internal[i]) / std::max(smallest, rate_size),
+  return {slip_speed(now, memory.internal[i]) / std::max(smallest, rate_size),
           now.load / load_size};
 }
 
@@ -258,17 +263,26 @@ TransientForce::Guards PlanarTransient::guards_of(Eigen::Index i, const ModalMot
   return guards_at(i, instant_at(i, motion, wherever), memory, scale);
 }
 
+Eigen::VectorXd PlanarTransient::kink_distances(const ModalMotion& motion) const {
+  Eigen::VectorXd distances(static_cast<Eigen::Index>(kinks_.size()));
+  for (Eigen::Index i = 0; i < distances.size(); ++i) {
+    const Kink& kink = kinks_[static_cast<std::size_t>(i)];
+    distances[i] = (shapes_.v.row(kink.point).dot(motion.q) - kink.approach) / kink.width;
+  }
+  return distances;
+}
+
 void PlanarTransient::touch_down(Eigen::Index i, const ModalMotion& motion,
                                  TransientMemory& memory) const {
   const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
   const PlanarPointInstant now = instant_at(i, motion, just_inside(point));
-  const Vector2d pull = point.stiffness.cwiseProduct(now.velocity);
+  const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
   const bool slips = !point.slides || (point.rubs && pull.norm() > now.radius_rate);
   memory.state[static_cast<std::size_t>(i)] = slips ? ContactState::slip : ContactState::stick;
   set_slider(memory, i, now.position);  // f = 0 where contact begins
   if (!slips || !point.rubs) return;
   const Vector2d along = now.radius_rate > 0.0
-                             ? returned_force(pull, point.stiffness, now.radius_rate)
+                             ? returned_force(pull, now.stiffness, now.radius_rate)
                              : now.velocity;
   memory.internal[i] = std::atan2(along[1], along[0]);
 }
@@ -284,11 +298,12 @@ void PlanarTransient::switch_state(Eigen::Index i, const ModalMotion& motion,
     set_slider(memory, i, now.position);
   } else if (state == ContactState::stick) {
     const Vector2d force = spring_force(point, now, slider_of(memory, i));
-    memory.internal[i] = std::atan2(force[1], force[0]);
+    const GuardScale here{motion.q.norm(), motion.velocity.norm()};
+    memory.internal[i] = starting_angle(point, now, force, edge * spring_size(point, here));
     state = ContactState::slip;
   } else {
     const Vector2d force = now.radius * slip_direction(memory.internal[i]);
-    set_slider(memory, i, now.position - point.compliance.cwiseProduct(force));
+    set_slider(memory, i, now.position - force.cwiseQuotient(now.stiffness));
     state = ContactState::stick;
   }
 }
@@ -301,7 +316,7 @@ double PlanarTransient::slip_power(const ModalMotion& motion, const TransientMem
     if (memory.state[static_cast<std::size_t>(i)] != ContactState::slip || !point.rubs) continue;
     const PlanarPointInstant now = instant_of(point, all.of(i));
     power += weights_[i] * now.ratio * now.radius *
-             slip_speed(point, now, memory.internal[i]);
+             slip_speed(now, memory.internal[i]);
   }
   return power;
 }

@@ -11,7 +11,7 @@
 /// (planar_point.hpp, eq. 3), so that steps need not be shorter than ε of a cycle. Direction matters to the
 /// force by r only: amplitudes err by less than 1e-8 for it, falling at least with ε³.
 ///
-/// Guards: stick r − |K₀(x − s)|, load; slip ρ, load; separated −load; each against the size of its terms.
+/// Guards: stick r − |K(x − s)|, load; slip ρ, load; separated −load; each against the size of its terms.
 /// Without friction coefficient a point slips in no direction; without stiffness it carries no friction and
 /// counts as stuck in contact; a point of weight 0 never changes state.
 #pragma once
@@ -35,7 +35,7 @@ class PlanarTransient final : public TransientForce {
   [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
   [[nodiscard]] Eigen::Index n_points() const override { return weights_.size(); }
   [[nodiscard]] TransientMemory virgin_memory() const override;
-  /// The return (I + λK₀)⁻¹ f* of theory section 9.
+  /// The return (I + λK)⁻¹ f* of theory section 9.
   [[nodiscard]] Eigen::VectorXd trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const override;
   double commit(const ModalMotion& motion, TransientMemory& memory) const override;
@@ -54,6 +54,8 @@ class PlanarTransient final : public TransientForce {
   [[nodiscard]] Guards guards_of(Eigen::Index point, const ModalMotion& motion,
                                  const TransientMemory& memory,
                                  const GuardScale& scale) const override;
+  /// Of cubic heights: the approach beyond which all are in contact, over their height.
+  [[nodiscard]] Eigen::VectorXd kink_distances(const ModalMotion& motion) const override;
   void switch_state(Eigen::Index point, const ModalMotion& motion,
                     TransientMemory& memory) const override;
   [[nodiscard]] double slip_power(const ModalMotion& motion,
@@ -72,9 +74,17 @@ class PlanarTransient final : public TransientForce {
   void touch_down(Eigen::Index point, const ModalMotion& motion, TransientMemory& memory) const;
   [[nodiscard]] Eigen::VectorXd modal_force(Eigen::MatrixX3d tractions) const;
 
+  /// A kink of the law of a point that is not an end of its contact.
+  struct Kink {
+    Eigen::Index point;
+    double approach;  ///< [m]
+    double width;     ///< from first touch to there [m]
+  };
+
   Eigen::VectorXd weights_;
   ModalShapes shapes_;
   std::vector<PlanarPoint> points_;
+  std::vector<Kink> kinks_;
 };
 
 }  // namespace microslip::contact

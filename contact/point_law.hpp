@@ -12,12 +12,15 @@
 /// Harmonics::vector(): [u₀ v₀ w₀ u_s1 v_s1 w_s1 u_c1 …].
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/linear_range.hpp"
 
 namespace microslip::contact {
 
@@ -67,6 +70,16 @@ class PointLaw {
   /// @param frequency  ω [rad/s]; matters to laws that depend on the slip rate.
   /// @param result     written whole; storage of the right size is used again.
   virtual void traction(const Harmonics& motion, double frequency, PointTraction& result) const = 0;
+  /// Forces alone, with harmonics that the motion does not have.
+  /// @param n_harmonics  of the result, those of the motion at least.
+  [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& motion, double frequency,
+                                        int n_harmonics) const {
+    Harmonics wide(n_harmonics, n_point_signals);
+    wide.rows().topRows(motion.rows().rows()) = motion.rows();
+    PointTraction result;
+    traction(wide, frequency, result);
+    return std::move(result.force);
+  }
   /// @param phases       instants asked for [rad], any.
   /// @param n_harmonics  of `force` in the result, ≥ 0.
   [[nodiscard]] virtual PointHistory history(const Harmonics& motion, double frequency,
@@ -77,6 +90,8 @@ class PointLaw {
   [[nodiscard]] virtual Eigen::Vector3d stuck_stiffness() const = 0;
   /// n_ref: the load that is in balance before vibration begins [Pa].
   [[nodiscard]] virtual double load_at_rest() const = 0;
+  /// Where traction() is linear and need not be asked; none: unknown, evaluate.
+  [[nodiscard]] virtual std::optional<LinearRange> linear_range() const { return std::nullopt; }
 };
 
 }  // namespace microslip::contact

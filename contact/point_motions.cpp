@@ -15,6 +15,15 @@ void require_single_harmonic(const Harmonics& q, Eigen::Index n_modes) {
   }
 }
 
+void require_harmonics(const Harmonics& q, Eigen::Index n_modes) {
+  if (q.n_harmonics() < 1 || q.n_signals() != n_modes) {
+    throw std::invalid_argument("friction patch: motion with n_harmonics = " +
+                                std::to_string(q.n_harmonics()) + " of " +
+                                std::to_string(q.n_signals()) + " modes, expected at least 1 of " +
+                                std::to_string(n_modes));
+  }
+}
+
 std::vector<PointMotion> point_motions(const ModalShapes& shapes, const Harmonics& q) {
   require_single_harmonic(q, shapes.u.cols());
   const Eigen::MatrixXd u = shapes.u * q.rows().transpose();
@@ -28,12 +37,7 @@ std::vector<PointMotion> point_motions(const ModalShapes& shapes, const Harmonic
 }
 
 std::vector<Harmonics> general_motions(const ModalShapes& shapes, const Harmonics& q) {
-  if (q.n_harmonics() < 1 || q.n_signals() != shapes.u.cols()) {
-    throw std::invalid_argument("friction patch: motion with n_harmonics = " +
-                                std::to_string(q.n_harmonics()) + " of " +
-                                std::to_string(q.n_signals()) + " modes, expected at least 1 of " +
-                                std::to_string(shapes.u.cols()));
-  }
+  require_harmonics(q, shapes.u.cols());
   const Eigen::MatrixXd u = shapes.u * q.rows().transpose();
   const Eigen::MatrixXd v = shapes.v * q.rows().transpose();
   const Eigen::MatrixXd w = shapes.w.size() > 0 ? Eigen::MatrixXd(shapes.w * q.rows().transpose())

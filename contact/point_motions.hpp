@@ -15,6 +15,9 @@ namespace microslip::contact {
 ///         shapes.
 void require_single_harmonic(const Harmonics& q, Eigen::Index n_modes);
 
+/// @throws std::invalid_argument  q has no harmonic, or another number of modes than the shapes.
+void require_harmonics(const Harmonics& q, Eigen::Index n_modes);
+
 /// @param shapes  n_points × n_modes.   @param q  H = 1, n_modes.   @return n_points.
 [[nodiscard]] std::vector<PointMotion> point_motions(const ModalShapes& shapes, const Harmonics& q);
 

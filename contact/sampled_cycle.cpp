@@ -85,6 +85,12 @@ Eigen::Vector3d SampledLaw::stuck_stiffness() const {
   return {k_u, k_v, 0.0};
 }
 
+std::optional<LinearRange> SampledLaw::linear_range() const {
+  std::optional<LinearRange> range = law_.linear_range();
+  if (range.has_value()) range->stiffness[2] = 0.0;
+  return range;
+}
+
 double SampledLaw::load_at_rest() const { return law_.load_at_rest(); }
 
 }  // namespace microslip::contact

@@ -34,6 +34,7 @@ class SampledLaw final : public PointLaw {
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override;
+  [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 
  private:
   SurfaceLaw law_;

@@ -13,7 +13,6 @@
 /// point whose mean force is at an end of its interval is not asleep: its mean is not linear.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,10 +20,9 @@
 #include "contact/contact_patch.hpp"
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/linear_range.hpp"
 
 namespace microslip::contact {
-
-enum class SleepState : std::uint8_t { awake, stuck, open };
 
 struct SleepProof {
   SleepState state = SleepState::awake;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -159,6 +160,25 @@ SurfaceState SurfaceLaw::at(double approach, double rate) const {
   state.load_per_ratio_by_approach = state.second_load_per_ratio_by_approach =
       state.load_by_approach;
   return state;
+}
+
+double SurfaceLaw::vanishing_approach() const {
+  const bool gaussian = roughness_.has_value() && roughness_->law() == HeightLaw::gaussian;
+  constexpr double deviations = 9.0;
+  return gaussian ? roughness_->mean() - deviations * roughness_->deviation() - rest_
+                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<LinearRange> SurfaceLaw::linear_range() const {
+  const double k_v = point_.normal_stiffness;
+  if (!is_smooth()) {
+    const std::vector<double> kinks = this->kinks();
+    if (kinks.empty()) return std::nullopt;
+    return LinearRange{{0.0, k_v, 0.0}, -k_v * kinks.front(), friction_, false};
+  }
+  const bool rubs = friction_.is_rate_dependent() || friction_.at_rest() > 0.0;
+  return LinearRange{{rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
+                     point_.preload, friction_};
 }
 
 std::vector<double> SurfaceLaw::kinks() const {

@@ -25,6 +25,7 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/friction_law.hpp"
+#include "contact/linear_range.hpp"
 #include "contact/rough_surface.hpp"
 
 namespace microslip::contact {
@@ -101,9 +102,15 @@ class SurfaceLaw {
   [[nodiscard]] bool is_rate_dependent() const { return friction_.is_rate_dependent(); }
   /// Whether g is 1 and N is piecewise linear.
   [[nodiscard]] bool is_smooth() const { return !roughness_.has_value(); }
+  /// Where (1) is linear. Rough surfaces: only where open, Gaussian ones nowhere.
+  [[nodiscard]] std::optional<LinearRange> linear_range() const;
   /// Approaches at which (1) has a kink: where contact begins, and where cubic heights are all in
   /// contact [m]; ascending, none for Gaussian heights.
   [[nodiscard]] std::vector<double> kinks() const;
+  /// Gaussian heights: the approach nine deviations before the mean height, where what still touches carries
+  /// 1e-20 of k_v times a deviation, less than rounding: nearer to it a point is as good as separated, and
+  /// farther off its load leaves the range of numbers. NaN for other surfaces, which kinks() tells. [m]
+  [[nodiscard]] double vanishing_approach() const;
   /// Smooth surfaces of the same stiffness, bodies included, μ that of rest.
   [[nodiscard]] const PointParameters& point() const { return point_; }
   [[nodiscard]] const FrictionLaw& friction() const { return friction_; }

@@ -102,6 +102,11 @@ class TransientForce {
   [[nodiscard]] virtual Guards guards_of(Eigen::Index point, const ModalMotion& motion,
                                          const TransientMemory& memory,
                                          const GuardScale& scale) const = 0;
+  /// Signed distances of the motion to where the held force has a kink that no guard tells, each of order one
+  /// where it matters: steps of full order end where one of them changes sign. Most forces have none.
+  [[nodiscard]] virtual Eigen::VectorXd kink_distances(const ModalMotion& /*motion*/) const {
+    return {};
+  }
   /// Ends the state of a point and begins the next by the rules of theory section 3.
   virtual void switch_state(Eigen::Index point, const ModalMotion& motion,
                             TransientMemory& memory) const = 0;

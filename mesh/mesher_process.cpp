@@ -133,15 +133,19 @@ pid_t start(const fs::path& program, int input, const fs::path& output, int mess
   return child;
 }
 
-/// @return status as of waitpid; −1: killed at the time limit.
-int wait_for(pid_t child, double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+constexpr int out_of_time = -1;
+constexpr int stopped = -2;
+
+/// @return status as of waitpid; out_of_time or stopped: killed.
+int wait_for(pid_t child, const MesherLimits& limits) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limits.seconds);
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
+    const bool late = std::chrono::steady_clock::now() > end;
+    if (late || (limits.stop && limits.stop())) {
       kill(child, SIGKILL);
       waitpid(child, &status, 0);
-      return -1;
+      return late ? out_of_time : stopped;
     }
     std::this_thread::sleep_for(10ms);
   }
@@ -151,7 +155,8 @@ int wait_for(pid_t child, double seconds) {
 void judge(int status, const MesherLimits& limits, const std::string& said) {
   const std::string quoted = said.empty() ? std::string() : ": " + said;
   std::ostringstream text;
-  if (status == -1) {
+  if (status == stopped) throw MeshError("the mesher was stopped");
+  if (status == out_of_time) {
     text << "the mesher did not finish within " << limits.seconds << " s and was stopped" << quoted
          << "; try a larger element_size";
     throw MeshError(text.str());
@@ -185,7 +190,7 @@ void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::pa
   const ScratchFile mesh(file.string() + "." + std::to_string(::getpid()) + ".msh");
   const pid_t child =
       start(program, input.descriptor(), mesh.path(), messages.descriptor(), limits.memory_mb);
-  const int status = wait_for(child, limits.seconds);  // before its messages are read
+  const int status = wait_for(child, limits);  // before its messages are read
   judge(status, limits, messages.tail());
   std::error_code error;
   fs::rename(mesh.path(), file, error);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "mesh/blade_geometry.hpp"
 
@@ -12,11 +13,12 @@ namespace microslip::mesh {
 struct MesherLimits {
   double seconds = 300.0;     ///< wall time
   double memory_mb = 8192.0;  ///< address space
+  std::function<bool()> stop;  ///< asked every few milliseconds: true ends the mesher; empty: never
 };
 
 /// Meshes the blade into `file` (gmsh 4.1), second order, curved.
 /// @param element_size  target edge length [m], > 0.
-/// @throws MeshError  the mesher failed, crashed, ran out of time or memory; names which, with the
+/// @throws MeshError  the mesher failed, crashed, was stopped, ran out of time or memory; names which, with the
 ///         last lines it said.
 void mesh_blade(const BladeGeometry& geometry, double element_size,
                 const std::filesystem::path& file, const MesherLimits& limits = {});

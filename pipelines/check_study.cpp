@@ -12,7 +12,9 @@
 #include "pipelines/contact_effects.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/effects.hpp"
+#include "pipelines/interrupt.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/scene_error.hpp"
 #include "pipelines/structure_stage.hpp"
 #include "pipelines/study.hpp"
 #include "pipelines/temporary_folder.hpp"
@@ -144,6 +146,7 @@ int check_study(const SceneDescription& scene, std::ostream& out) {
   } else {
     const TemporaryFolder folder;
     const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+    if (interrupt_requested()) throw InterruptedError("interrupted");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
     for (const std::string& warning : mesh::shape_warnings(mesh)) out << "warning: " << warning << '\n';

@@ -102,7 +102,8 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
                        : "the given stiffness is used as it is");
   const bool several = scene.response && scene.response->harmonics > 1;
   add("stability", facts.has_contact,
-      several ? "Hill's exponents of every point with several harmonics, where they can tell"
+      several ? "Hill's exponents of every point with several harmonics, where they can tell; in scenes of few "
+                "modes and points the multipliers of a period in time"
               : "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add_second_direction(scene, model, effects);

@@ -90,9 +90,16 @@ SceneDescription scene_of(const Arguments& arguments) {
   return read_scene(arguments.input, arguments.overrides);
 }
 
-int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
+/// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
+int check(const Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check_study(scene, std::cout);
+  watch_for_interrupts();
+  return check_study(scene, std::cout);
+}
+
+int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
+  if (arguments.dry_run) return check(arguments);
+  const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
@@ -104,8 +111,8 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
 }
 
 int mesh(const Arguments& arguments) {
+  if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
-  if (arguments.dry_run) return check_study(scene, std::cout);
   if (!std::holds_alternative<BladeModel>(scene.model)) {
     throw SceneError(scene.file.string() +
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
@@ -115,6 +122,7 @@ int mesh(const Arguments& arguments) {
     throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
   }
   require_writable(file.parent_path());  // before the mesher works for nothing
+  watch_for_interrupts();
   return mesh_study(scene, options_of(arguments, arguments.output));
 }
 
@@ -211,7 +219,7 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   with_scene(
       add_command(app, a, chosen, "check",
                   "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                  [&] { return check_study(scene_of(a), std::cout); }));
+                  [&] { return check(a); }));
   auto* mesh_command =
       with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
   with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();

@@ -185,6 +185,14 @@ solver::ContinuationOptions continuation_options(const ResponseDescription& resp
   return options;
 }
 
+/// With the contact in time where that judges stability (solver/stability.hpp).
+solver::Scene balanced_scene(const ReducedModel& model, double load,
+                             const solver::ContinuationOptions& options) {
+  solver::Scene problem = solver_scene(model, load);
+  if (options.n_harmonics > 1 && !model.fields) problem.transient = transient_force(model, load);
+  return problem;
+}
+
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
   const solver::ContinuationOptions options = continuation_options(*scene.response);
@@ -196,13 +204,15 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                                         options);
     return result;
   }
-  solver::Scene problem = solver_scene(model, std::get<double>(request.preload));
+  const double load = std::get<double>(request.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    problem.transient = transient_force(model, std::get<double>(request.preload));
+    solver::Scene problem = solver_scene(model, load);
+    problem.transient = transient_force(model, load);
     result.curve = integrate_curve(problem, *scene.response, observe);
     result.integrated = true;
     return result;
   }
+  const solver::Scene problem = balanced_scene(model, load, options);
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);
@@ -229,6 +239,7 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
   const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
     maps.push_back(map_of(model, scene, *load, result.name + "_" + suffix, point));
   };
+  const solver::ContinuationOptions options = continuation_options(*scene.response);
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
       const ResponseDescription& range = *scene.response;
@@ -236,8 +247,8 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
                                 *frequency == range.frequency_end_hz;
       const auto points =
           solved_there ? result.curve.points
-                       : solver::points_at_frequency(solver_scene(model, *load), result.curve,
-                                                     two_pi * *frequency, continuation_options(range));
+                       : solver::points_at_frequency(balanced_scene(model, *load, options), result.curve,
+                                                     two_pi * *frequency, options);
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }

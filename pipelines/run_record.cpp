@@ -254,9 +254,9 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
 void RunRecord::warn_of_precision(const CurveSummary& curve, const ReducedModel& model) {
   constexpr double certified = 1e-10;
   const double mismatch = model.effects.roughness ? 0.0 : curve.largest_dissipation_mismatch;
-  const double worst =
-      std::max({curve.largest_residual, curve.largest_energy_imbalance, mismatch});
-  if (worst <= certified) return;
+  const bool all_are = curve.largest_residual <= certified &&
+                       curve.largest_energy_imbalance <= certified && mismatch <= certified;
+  if (all_are) return;  // none is NaN either
   progress_.warning(fmt::format(
       "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
       "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",

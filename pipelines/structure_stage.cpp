@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mesh/mesh_error.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/contact_stage.hpp"
+#include "pipelines/interrupt.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -25,7 +27,14 @@ void require_name(const std::string& place, const LookUp& look_up) {
 
 mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
-    mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file);
+    mesh::MesherLimits limits;
+    limits.stop = interrupt_requested;
+    try {
+      mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file, limits);
+    } catch (const mesh::MeshError&) {
+      if (interrupt_requested()) throw InterruptedError("interrupted while meshing");
+      throw;
+    }
     return mesh::read_gmsh(mesh_file);
   }
   const auto& given = std::get<MeshFileModel>(scene.model);

@@ -10,10 +10,12 @@
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/curve_family.hpp"
 #include "pipelines/effects.hpp"
+#include "pipelines/interrupt.hpp"
 #include "pipelines/model_family.hpp"
 #include "pipelines/optimum_stage.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/run_record.hpp"
+#include "pipelines/scene_error.hpp"
 #include "pipelines/structure_stage.hpp"
 #include "pipelines/write_report.hpp"
 
@@ -91,6 +93,7 @@ int modes_study(const SceneDescription& scene, const RunOptions& options) {
 
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {
   const mesh::Mesh mesh = obtain_mesh(scene, options.output);
+  if (interrupt_requested()) throw InterruptedError("interrupted after the mesh was written");
   check_names(mesh, scene);
   if (options.verbosity != Verbosity::quiet) {
     std::cout << describe_mesh(mesh, scene.material.density) << '\n';

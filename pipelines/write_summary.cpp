@@ -1,6 +1,7 @@
 #include "pipelines/write_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -175,7 +176,10 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
     summary.peaks.push_back({point.frequency, point.amplitude});
   }
   if (point.mark == solver::PointMark::fold) summary.folds.push_back(point.frequency);
-  const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
+  // A value that is not a number is worse than any: it stays, and is null in the file.
+  const auto raise = [](double& largest, double value) {
+    if (!(value <= largest) && !std::isnan(largest)) largest = value;
+  };
   raise(summary.largest_residual, point.residual);
   raise(summary.largest_energy_imbalance, point.energy_imbalance);
   raise(summary.largest_dissipation_mismatch, point.dissipation_mismatch);

@@ -48,8 +48,8 @@ BranchVector moved(const BranchVector& from, const BranchVector& direction, doub
 }  // namespace
 
 BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start,
-                           double forward)
-    : system_(std::move(system)), rule_(std::move(rule)) {
+                           double forward, double tolerance)
+    : system_(std::move(system)), rule_(std::move(rule)), tolerance_(tolerance) {
   now_.scaling = rule_(start);
   now_.solution = std::move(start);
   const BranchVector along{Eigen::VectorXd::Zero(now_.solution.point.x.size()), forward};
@@ -66,8 +66,7 @@ BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) c
 BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
                                           int max_iterations) const {
   Trial trial;
-  NewtonOptions options;
-  options.max_iterations = max_iterations;
+  const NewtonOptions options{tolerance_, max_iterations};
   const BranchVector predicted = moved(now_.solution.point, direction, distance, now_.scaling);
   NewtonResult solution = solve_newton(system_, predicted, direction, now_.scaling, options);
   evaluations_ += solution.evaluations;
@@ -140,7 +139,9 @@ std::optional<BranchWalker::Trial> BranchWalker::carried(const WalkerPoint& from
   direction.x /= size;
   direction.parameter /= size;
   const BranchVector start{map(from.solution.point.x), from.solution.point.parameter};
-  NewtonResult solution = solve_newton(system_, start, direction, from.scaling, {});
+  NewtonOptions options;
+  options.tolerance = tolerance_;
+  NewtonResult solution = solve_newton(system_, start, direction, from.scaling, options);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   const bool near = length(difference(solution.point, start, from.scaling)) < farthest;
@@ -228,7 +229,7 @@ std::optional<WalkerPoint> BranchWalker::between(double share) const {
   NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
-  const double tolerance = std::max(NewtonOptions{}.tolerance, scaling.rounding);
+  const double tolerance = std::max(tolerance_, scaling.rounding);
   if (!(solution.residual <= tolerance)) return std::nullopt;
   solution.converged = true;
   const Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
@@ -238,8 +239,7 @@ std::optional<WalkerPoint> BranchWalker::between(double share) const {
 NewtonResult BranchWalker::at_parameter(double parameter, double share) const {
   const auto& a = before_.solution.point;
   const auto& b = now_.solution.point;
-  NewtonOptions options;
-  options.max_iterations = 30;
+  const NewtonOptions options{tolerance_, 30};
   NewtonResult result =
       solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling, options);
   evaluations_ += result.evaluations;

@@ -36,9 +36,11 @@ enum class Stall { newton, fold, chatter };
 
 class BranchWalker {
  public:
-  /// @param start    converged.
-  /// @param forward  sign of the parameter's first change, 1 or −1.
-  BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start, double forward);
+  /// @param start      converged.
+  /// @param forward    sign of the parameter's first change, 1 or −1.
+  /// @param tolerance  of the residual of every point, as in NewtonOptions.
+  BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start, double forward,
+               double tolerance = NewtonOptions{}.tolerance);
 
   /// One accepted step. False: no remedy helped; now() is the last good point.
   [[nodiscard]] bool advance();
@@ -85,6 +87,7 @@ class BranchWalker {
 
   ParametricSystem system_;
   ScalingRule rule_;
+  double tolerance_;
   WalkerPoint now_;
   WalkerPoint before_;
   double step_ = 0.05;

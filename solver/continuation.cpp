@@ -27,6 +27,11 @@ void check_range(const ContinuationOptions& options) {
         "continuation: frequencies " + std::to_string(options.frequency_begin) + " and " +
         std::to_string(options.frequency_end) + " rad/s; both must be finite and above 0");
   }
+  if (bad(options.residual_tolerance)) {
+    throw std::invalid_argument("continuation: residual_tolerance " +
+                                std::to_string(options.residual_tolerance) +
+                                "; it must be finite and above 0");
+  }
 }
 
 class Stopwatch {
@@ -112,7 +117,9 @@ ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solutio
   curve.iterations += settled.iterations;
   curve.contact_evaluations += settled.evaluations;
   if (!settled.settled) curve.log.push_back({frequency, "quadrature-kept"});
-  const auto stability = assess_stability(balance, solution.evaluation.jacobian, frequency);
+  const auto stability = stability_in_time(
+      balance, balance.harmonics(solution.point.x), frequency,
+      assess_stability(balance, solution.evaluation.jacobian, frequency));
   ResponsePoint point = certified_point(balance, solution, frequency, stability);
   point.quadrature_change = settled.change;
   return point;

@@ -20,7 +20,8 @@ struct ContinuationOptions {
   /// that those left out change the amplitude by less than this share of it (harmonic_choice.hpp);
   /// n_harmonics is the highest that may be added, `orders` is not used.
   double harmonic_tolerance = 0.0;
-  double residual_tolerance = 1e-11;  ///< relative, see ResponsePoint::residual
+  /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
+  double residual_tolerance = 1e-11;
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;

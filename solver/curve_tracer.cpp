@@ -80,8 +80,12 @@ Scaling CurveTracer::scaling_at(const NewtonResult& at) {
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  const StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
-                                                   at.point.parameter, stability_at(at));
+  StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
+                                             at.point.parameter, stability_at(at));
+  if (mark != PointMark::fold) {
+    stability = stability_in_time(*balance_, balance_->harmonics(at.point.x), at.point.parameter,
+                                  std::move(stability));
+  }
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
   point.harmonics_left_out = left_out_;
@@ -234,7 +238,7 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   return {system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start),
-          forward};
+          forward, options_.residual_tolerance};
 }
 
 /// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies

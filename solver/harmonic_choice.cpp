@@ -108,10 +108,8 @@ int HarmonicChoice::probed(const HarmonicSet& set, double frequency) const {
 
 std::vector<int> HarmonicChoice::heard(const HarmonicBalance& balance, const BranchVector& point,
                                        int highest, const Scaling& scaling) const {
-  Harmonics q(highest, scene_.n_modes());
-  const Harmonics known = balance.harmonics(point.x);
-  q.rows().topRows(known.rows().rows()) = known.rows();
-  const Harmonics force = scene_.contact->evaluate_rows(q, point.parameter, {}).force;
+  const Harmonics force =
+      scene_.contact->force_up_to(balance.harmonics(point.x), point.parameter, highest);
   std::vector<int> orders;
   for (int k = 1; k <= highest; ++k) {
     const double size = std::hypot(force.sine(k).norm(), force.cosine(k).norm());

@@ -85,16 +85,19 @@ LocalPeak made_end(const HarmonicBalance& balance, const NewtonResult& at, Branc
 
 /// A solution on the plane of the constraint, on a force that suits it.
 NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
-                    const BranchVector& constraint, const Scaling& scaling, PeakWork& work) {
+                    const BranchVector& constraint, const Scaling& scaling,
+                    const ContinuationOptions& range, PeakWork& work) {
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
     return balance.evaluate(x, frequency);
   };
   if (balance.scene().contact) balance.scene().contact->begin_point();
   static_cast<void>(refit_to(balance, {guess}));
+  NewtonOptions newton;
+  newton.tolerance = range.residual_tolerance;
   NewtonResult result;
   result.point = guess;
   do {
-    result = solve_newton(system, result.point, constraint, scaling, {});
+    result = solve_newton(system, result.point, constraint, scaling, newton);
     work.iterations += result.iterations;
     work.contact_evaluations += result.evaluations;
   } while (result.converged && refit_to(balance, {result.point}).is_replaced);
@@ -108,7 +111,7 @@ std::optional<LocalPeak> follow_end(const HarmonicBalance& balance, const LocalP
   Scaling scaling = natural_scaling(balance, guess.x, guess.parameter);
   scaling.parameter = from.scaling.parameter;
   const BranchVector hold{Eigen::VectorXd::Zero(guess.x.size()), 1.0};
-  const NewtonResult at = solved(balance, guess, hold, scaling, work);
+  const NewtonResult at = solved(balance, guess, hold, scaling, range, work);
   if (!at.converged || distance(at.point, guess, scaling) > farthest) return std::nullopt;
   const auto tangent = null_vector(at.evaluation, scaling, 1.0);
   if (!tangent) return std::nullopt;
@@ -201,7 +204,7 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
   NewtonResult guessed;
   guessed.point = guess;
   const Scaling scaling = rule(guessed);
-  NewtonResult start = solved(balance, guess, from.tangent, scaling, work);
+  NewtonResult start = solved(balance, guess, from.tangent, scaling, range, work);
   if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
 
   BranchVector tangent = branch_tangent(start.evaluation, from.tangent, scaling).direction;
@@ -210,7 +213,7 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
     return made_peak(balance, start, tangent, scaling);
   }
   const double forward = (slope.value > 0.0) == (tangent.parameter > 0.0) ? 1.0 : -1.0;
-  BranchWalker walker(system, rule, std::move(start), forward);
+  BranchWalker walker(system, rule, std::move(start), forward, range.residual_tolerance);
   std::optional<LocalPeak> peak = climb(balance, walker, guess, range);
   work.iterations += walker.iterations();
   work.contact_evaluations += walker.evaluations();

@@ -10,6 +10,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "solver/floquet.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -23,6 +25,10 @@ constexpr double slow_share = 0.25;  // of ω
 constexpr Eigen::Index most_states = 160;
 // Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
 constexpr double real_tolerance = 1e-6;
+// Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
+constexpr Eigen::Index most_multipliers = 16;
+// Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
+constexpr double multiplier_tolerance = 1e-4;
 
 double sign_of_determinant(const Eigen::MatrixXd& matrix) {
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
@@ -219,6 +225,22 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
     report.stability = Stability::stable;
   }
   return report;
+}
+
+StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
+                                  double frequency, StabilityReport hill) {
+  const Scene& scene = balance.scene();
+  if (balance.set().highest() == 1 || !scene.transient) return hill;
+  if (hill.stability == Stability::unstable) return hill;
+  if (2 * scene.n_modes() + scene.transient->n_points() > most_multipliers) return hill;
+  const FloquetMultipliers floquet = floquet_multipliers(scene, frequency, q, most_multipliers);
+  if (!floquet.known()) return hill;
+  const double beyond = floquet.largest_oscillating() - 1.0;
+  const double unsure = std::max(multiplier_tolerance, floquet.distance);
+  hill.stability = Stability::not_assessed;
+  if (beyond > unsure) hill.stability = Stability::unstable;
+  if (beyond < -unsure) hill.stability = Stability::stable;
+  return hill;
 }
 
 StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,

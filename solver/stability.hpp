@@ -14,7 +14,9 @@
 /// on harmonic 0. Where 160 states do not hold all harmonics, the highest answer quasi-statically. A real
 /// exponent that grows, or a negative determinant, is unstable. The Jacobian of a hysteretic force is that
 /// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
-/// point is not assessed. With no exponent growing it is called stable.
+/// point is not assessed. With no exponent growing it is called stable, which pairs of a hysteretic force do
+/// not prove either: where the scene can be integrated in time, the multipliers of its period map judge them
+/// (floquet.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +45,16 @@ struct StabilityReport {
                                              const Eigen::MatrixXd& jacobian, double frequency,
                                              StabilityReport slow);
 
-/// Both in turn.
+/// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the
+/// multipliers of the period map that are not real and positive. Within `distance` of the unit circle, and at
+/// least 1e-4, they tell nothing and the point is not assessed. Real positive ones are those of the
+/// determinant. Left as it is: one harmonic, and more than 16 states of modes (two each) and points.
+/// @param hill  hill_stability() of the same point.
+/// @param q     its harmonics.
+[[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
+                                                double frequency, StabilityReport hill);
+
+/// slow_flow_stability() and hill_stability().
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,
                                                const Eigen::MatrixXd& jacobian, double frequency);
 

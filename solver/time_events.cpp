@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "solver/time_guards.hpp"
 #include "solver/time_quadrature.hpp"
@@ -162,6 +164,23 @@ EventStepper::Step EventStepper::accepted_step(double time, double& length,
   }
 }
 
+EventStepper::Taken EventStepper::smooth_step(double time, double& length,
+                                              const TimeState& state) {
+  const auto taken = [&] {
+    Step step = accepted_step(time, length, state);
+    TimeSegment segment(time, length, state.motion, step.displacement, step.velocity,
+                        state.motion.acceleration, step.acceleration_end, step.internal);
+    return Taken{std::move(step), std::move(segment)};
+  };
+  Taken whole = taken();
+  if (system_.contact() == nullptr) return whole;
+  const std::optional<double> kink = first_kink(*system_.contact(), whole.segment);
+  if (!kink) return whole;
+  // The stages beyond the kink have seen another force: the step is taken anew.
+  length *= *kink;
+  return taken();
+}
+
 void EventStepper::move_to(double x, const TimeSegment& segment, TimeState& state) {
   state.motion = segment.at(x);
   if (segment.has_internal()) state.memory.internal = segment.internal_at(x);
@@ -223,9 +242,7 @@ void EventStepper::advance_period(TimeState& state, TimeObserver* observer) {
     } else if (rest < 2.0 * length) {
       length = 0.5 * rest;
     }
-    const Step step = accepted_step(time, length, state);
-    const TimeSegment segment(time, length, state.motion, step.displacement, step.velocity,
-                              state.motion.acceleration, step.acceleration_end, step.internal);
+    const auto [step, segment] = smooth_step(time, length, state);
     const auto event = system_.contact() != nullptr
                            ? first_event(*system_.contact(), segment, state.memory, scale())
                            : std::nullopt;

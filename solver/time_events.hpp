@@ -2,6 +2,8 @@
 /// Event-locating integration of full order (theory section 18): while contact states are held the right
 /// side is smooth, and steps are taken by the pair of Dormand and Prince of order 5(4) (J. Comput. Appl.
 /// Math. 6 (1980) 19–26); where a state ends the step is cut, the state switched, and integration goes on.
+/// Where the force of a held state has a kink (cubic heights: all in contact) the step is taken again to end
+/// there: a step across would be of order four.
 #pragma once
 
 #include "solver/time_stepper.hpp"
@@ -36,6 +38,13 @@ class EventStepper final : public TimeStepper {
   [[nodiscard]] Step try_step(double time, double length, const TimeState& state);
   /// Shortens `length` until the error is within the tolerance and proposes the next one.
   [[nodiscard]] Step accepted_step(double time, double& length, const TimeState& state);
+  /// A step and its polynomial.
+  struct Taken {
+    Step step;
+    TimeSegment segment;
+  };
+  /// accepted_step() that ends at the latest where the force has a kink.
+  [[nodiscard]] Taken smooth_step(double time, double& length, const TimeState& state);
   static void move_to(double x, const TimeSegment& segment, TimeState& state);
   /// Ends states that are violated as they stand.
   void settle(TimeState& state);

@@ -157,4 +157,36 @@ std::optional<TimeEvent> first_event(const TransientForce& contact, const TimeSe
   return event;
 }
 
+std::optional<double> first_kink(const TransientForce& contact, const TimeSegment& segment) {
+  // Of the width of a law: what a step leaves on the wrong side of a kink of its third derivative changes
+  // the force by the cube of this. A step that ends on a kink ends within it.
+  static constexpr double on_it = 1e-6;
+  constexpr int n_halvings = 40;  // to 1e-12 of the step
+  Eigen::VectorXd before = contact.kink_distances(segment.at(0.0));
+  if (before.size() == 0) return std::nullopt;
+  const auto crosses = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return ((a.array() > on_it && b.array() < -on_it) || (a.array() < -on_it && b.array() > on_it))
+        .any();
+  };
+  for (std::size_t j = 1; j < n_samples; ++j) {
+    const Eigen::VectorXd after = contact.kink_distances(segment.at(sample_at[j]));
+    if (!crosses(before, after)) {
+      before = after;
+      continue;
+    }
+    double low = sample_at[j - 1];
+    double high = sample_at[j];
+    for (int i = 0; i < n_halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      const Eigen::VectorXd there = contact.kink_distances(segment.at(middle));
+      const bool beyond = ((before.array() > on_it && there.array() < 0.0) ||
+                           (before.array() < -on_it && there.array() > 0.0))
+                              .any();
+      (beyond ? high : low) = middle;
+    }
+    return high;
+  }
+  return std::nullopt;
+}
+
 }  // namespace microslip::solver

@@ -30,4 +30,9 @@ struct TimeEvent {
                                                    const contact::TransientMemory& memory,
                                                    const contact::GuardScale& scale);
 
+/// Where the motion first meets a kink of the held force inside a segment, x in (0, 1); a kink that a step
+/// begins on is left behind. Sampled as the guards are, so that two crossings between samples are missed.
+[[nodiscard]] std::optional<double> first_kink(const contact::TransientForce& contact,
+                                               const TimeSegment& segment);
+
 }  // namespace microslip::solver

@@ -3,11 +3,13 @@
 // points ≤ 0.3 s, on one core; the peak against 30 preloads over three decades ≤ 3 s.
 
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "contact/any_harmonics_force.hpp"
 #include "contact/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/peak_trace.hpp"
@@ -109,8 +111,49 @@ void peak_on_whole_curves(benchmark::State& state) {
   state.counters["curves"] = trace.n_curves;
 }
 
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The curve with harmonics chosen point by point against the same with all of them that were chosen
+/// anywhere, in processor time; 100 points, preload in hundredths.
+void chosen_harmonics(benchmark::State& state) {
+  solver::Scene scene = strip(100, 0.01 * static_cast<double>(state.range(0)));
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  scene.contact = std::make_unique<contact::AnyHarmonicsForce>(patch.patch(), patch.shapes());
+  solver::ContinuationOptions options = range();
+  options.n_harmonics = 21;
+  options.harmonic_tolerance = 1e-2;
+  solver::ResponseCurve chosen;
+  double spent = 0.0;
+  for (auto _ : state) {
+    const double begin = processor_seconds();
+    chosen = solver::trace_response(scene, options);
+    spent += processor_seconds() - begin;
+    if (!chosen.complete) state.SkipWithError(chosen.diagnosis.c_str());
+  }
+  solver::HarmonicSet used(1);
+  double n_orders = 0.0;
+  for (const auto& point : chosen.points) {
+    used = used.united(point.orders);
+    n_orders += static_cast<double>(point.orders.size());
+  }
+  options.harmonic_tolerance = 0.0;
+  options.orders = used.orders();
+  const double begin = processor_seconds();
+  const auto fixed = solver::trace_response(scene, options);
+  const double fixed_spent = processor_seconds() - begin;
+  const auto per = [](double sum, const solver::ResponseCurve& curve) {
+    return sum / static_cast<double>(curve.points.size());
+  };
+  state.counters["chosen_ms_per_point"] =
+      1e3 * per(spent / static_cast<double>(state.iterations()), chosen);
+  state.counters["fixed_ms_per_point"] = 1e3 * per(fixed_spent, fixed);
+  state.counters["mean_orders"] = per(n_orders, chosen);
+  state.counters["fixed_orders"] = used.count();
+}
+
 BENCHMARK(one_frequency_point)->Arg(300)->Unit(benchmark::kMicrosecond);
 BENCHMARK(whole_curve)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
+BENCHMARK(chosen_harmonics)->Arg(50)->Arg(10)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(peak_against_preload)->Arg(300)->Unit(benchmark::kMillisecond);
 BENCHMARK(peak_on_whole_curves)->Arg(300)->Unit(benchmark::kMillisecond);
 

@@ -67,6 +67,19 @@ TEST(AnyHarmonicsForce, SeveralHarmonicsAreEventsWithoutTheSecondDirection) {
   EXPECT_EQ(force.report(wave(3), 1.0).slip_work, events.report(wave(3), 1.0).slip_work);
 }
 
+TEST(AnyHarmonicsForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
+  const AnyHarmonicsForce force(some_patch(), some_shapes());
+  for (const int n_harmonics : {1, 3}) {
+    const Harmonics alone = force.force_up_to(wave(n_harmonics), 1.0, 9);
+    Harmonics wide(9, n_modes);
+    wide.rows().topRows(2 * n_harmonics + 1) = wave(n_harmonics).rows();
+    const Harmonics whole = force.evaluate(wide, 1.0).force;
+    EXPECT_GT(whole.rows().bottomRows(4).norm(), 1e-6 * whole.rows().norm());
+    // Sums of the same terms in another order.
+    EXPECT_LT((alone.rows() - whole.rows()).norm(), 1e-14 * whole.rows().norm());
+  }
+}
+
 TEST(AnyHarmonicsForce, BothRoadsMeetWhereHigherHarmonicsVanish) {
   const AnyHarmonicsForce force(some_patch(), some_shapes());
   Harmonics wide(4, n_modes);
@@ -81,7 +94,7 @@ TEST(AnyHarmonicsForce, BothRoadsMeetWhereHigherHarmonicsVanish) {
   EXPECT_GT(more.force.rows().bottomRows(6).norm(), 0.01);  // what one harmonic cannot see
 }
 
-TEST(AnyHarmonicsForce, LinearityIsProvedOfOneHarmonicOnly) {
+TEST(AnyHarmonicsForce, LinearityIsUnknownOfPointsThatSeparate) {
   const AnyHarmonicsForce force(some_patch(), some_shapes());
   EXPECT_EQ(force.linear_state(Harmonics(1, n_modes), 1e9), LinearState::unknown);
   const PatchForce closed(some_patch(), some_shapes());

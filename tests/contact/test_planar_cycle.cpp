@@ -254,5 +254,39 @@ TEST(PlanarLaw, RefusesWhatItCannotMeet) {
   EXPECT_THROW(PlanarLaw(surface).traction(Harmonics(1, 2), 1.0, traction), std::invalid_argument);
 }
 
+// Sixty deviations apart Gaussian heights carry less than the smallest number. A period was judged by its
+// middle: with that at θ = π all contact was missed, anywhere else it was found.
+TEST(PlanarLaw, GaussianHeightsThatPartFarTouchAgain) {
+  const SurfaceLaw law({2.0, 1.0, 0.4, 0.01}, 1.4, FrictionLaw::constant(0.4),
+                       RoughSurface::matching_gaussian(0.1));
+  PointTraction first;
+  for (const double turn : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    Harmonics motion(1, 3);
+    motion.rows().row(1) = Eigen::RowVector3d(1.0, std::sin(turn) * -1.4, 0.3);
+    motion.rows().row(2) = Eigen::RowVector3d(-0.2, std::cos(turn) * 1.4, 0.5);
+    // The whole motion is turned, not the approach alone.
+    const double c = std::cos(turn);
+    const double d = std::sin(turn);
+    for (const Eigen::Index column : {0, 2}) {
+      const double sine = motion.rows()(1, column);
+      const double cosine = motion.rows()(2, column);
+      motion.rows()(1, column) = c * sine - d * cosine;
+      motion.rows()(2, column) = d * sine + c * cosine;
+    }
+    PointTraction traction;
+    PlanarLaw(law).traction(motion, 1.0, traction);
+    EXPECT_EQ(traction.regime, CycleRegime::separation) << turn;
+    const auto size = [](const PointTraction& of, Eigen::Index column) {
+      return of.force.rows().col(column).tail(2).norm();
+    };
+    if (turn == 0.0) first = traction;
+    for (const Eigen::Index column : {0, 1, 2}) {
+      EXPECT_GT(size(traction, column), 1e-2);
+      EXPECT_NEAR(size(traction, column), size(first, column), 1e-8) << turn;
+      EXPECT_NEAR(traction.force.mean()[column], first.force.mean()[column], 1e-8) << turn;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace microslip::contact

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -357,23 +358,35 @@ TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
 }
 
-TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
-  std::string scales = "[1";
-  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));  // work for minutes
-  write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
-  const std::string scene = path("scene.toml").string();
-  const std::string out = path("out").string();
+using Clock = std::chrono::steady_clock;
+
+/// Starts the program, which ends by _exit(127) where it cannot.
+pid_t start(const std::vector<std::string>& arguments, const std::string& temporary_folder = {}) {
+  std::vector<char*> words{const_cast<char*>("microslip")};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
   const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::execl(MICROSLIP_PROGRAM, "microslip", "run", scene.c_str(), "-o", out.c_str(), "-q", nullptr);
-    ::_exit(127);
-  }
-  using Clock = std::chrono::steady_clock;
+  if (child != 0) return child;
+  if (!temporary_folder.empty()) ::setenv("TMPDIR", temporary_folder.c_str(), 1);
+  ::execv(MICROSLIP_PROGRAM, words.data());
+  ::_exit(127);
+}
+
+void wait_until(const std::function<bool()>& happens) {
   const auto patience = Clock::now() + std::chrono::seconds(20);
-  while (!exists("out/curves/scale_1.csv") && Clock::now() < patience) {
+  while (!happens() && Clock::now() < patience) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  ASSERT_TRUE(happens());
+}
+
+bool has_child(pid_t parent) {
+  const std::string id = std::to_string(parent);
+  return !content_of("/proc/" + id + "/task/" + id + "/children").empty();
+}
+
+/// Interrupts a child: exit code 3 within a second.
+void interrupt(pid_t child) {
   const auto asked = Clock::now();
   ASSERT_EQ(::kill(child, SIGINT), 0);
   int status = 0;
@@ -381,8 +394,36 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   EXPECT_LT(Clock::now() - asked, std::chrono::milliseconds(1500));  // a second, and a busy machine
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
+  std::string scales = "[1";
+  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));  // work for minutes
+  write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
+  const pid_t child = start({"run", path("scene.toml"), "-o", path("out"), "-q"});
+  ASSERT_GE(child, 0);
+  wait_until([this] { return exists("out/curves/scale_1.csv"); });
+  interrupt(child);
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 3);
   EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+}
+
+TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
+  write(path("scene.toml"), "[model]\nkind = \"blade\"\nelement_size = \"1.5 mm\"\n[material]\n"
+                            "youngs_modulus = 2e11\npoissons_ratio = 0.3\ndensity = 7800\n");
+  const std::filesystem::path scratch = path("scratch");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"mesh", path("scene.toml"), "-o", path("blade.msh")},
+        std::vector<std::string>{"check", path("scene.toml")}}) {
+    std::filesystem::create_directory(scratch);
+    SCOPED_TRACE(command.front());
+    const pid_t child = start(command, scratch);
+    ASSERT_GE(child, 0);
+    wait_until([&] { return has_child(child); });
+    interrupt(child);
+    EXPECT_TRUE(std::filesystem::is_empty(scratch));
+    EXPECT_FALSE(exists("blade.msh"));
+  }
 }
 
 /// Names the mesh does not have are told where the scene gives them.

@@ -1,5 +1,7 @@
 #include "pipelines/write_summary.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -52,6 +54,21 @@ TEST(WriteSummary, HasTheKeysOfTheInterface) {
                                {"mass_kg", 0.16}}));
   EXPECT_DOUBLE_EQ(run["modes"][0]["frequency_Hz"], 296.123456789012);
   EXPECT_TRUE(run["modes"][0]["residual"].is_null()) << "given modes have no eigenpair residual";
+}
+
+TEST(WriteSummary, AValueThatIsNotANumberIsTheLargest) {
+  for (const std::size_t where : {0U, 1U, 2U}) {
+    CurveResult result = synthetic::curve("preload_1000", 1000.0, 300.0, 1e-4, 8.0);
+    ASSERT_GT(result.curve.points.size(), 2U);
+    for (solver::ResponsePoint& point : result.curve.points) point.energy_imbalance = 1e-12;
+    result.curve.points[where].energy_imbalance = std::nan("");
+    RunSummary run = small_run();
+    run.curves = {summarise(result)};
+    EXPECT_TRUE(std::isnan(run.curves[0].largest_energy_imbalance)) << where;
+    const json written = json::parse(summary_json(run));
+    EXPECT_TRUE(written["curves"][0]["largest_energy_imbalance"].is_null()) << where;
+    EXPECT_TRUE(written["curves"][0]["largest_residual"].is_number()) << where;
+  }
 }
 
 TEST(WriteSummary, CurveTellsItsPeakAndFoldsInHertz) {

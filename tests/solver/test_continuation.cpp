@@ -156,6 +156,34 @@ TEST(Continuation, AFrequencyInsideAFoldHasThreeSolutions) {
   EXPECT_TRUE(points_at_frequency(scene, curve, 3.0, options).empty());
 }
 
+TEST(Continuation, AsksForTheResidualItIsTold) {
+  // The corrector polishes as long as that pays; what counts is when it calls a point solved. The range has
+  // steps long enough that a loose tolerance is met one iteration earlier.
+  const Duffing duffing;
+  ContinuationOptions loose = from_to(0.5, 2.5);
+  loose.residual_tolerance = 1e-4;
+  ContinuationOptions strict = loose;
+  strict.residual_tolerance = 1e-13;
+  const auto quick = trace_response(duffing.scene(), loose);
+  const auto exact = trace_response(duffing.scene(), strict);
+  ASSERT_TRUE(quick.complete && exact.complete);
+  const auto effort = [](const ResponseCurve& curve) {
+    return static_cast<double>(curve.iterations) / static_cast<double>(curve.points.size());
+  };
+  EXPECT_LT(effort(quick), 0.8 * effort(exact));
+  for (const ResponsePoint& point : quick.points) EXPECT_LE(point.residual, 1e-4);
+  for (const ResponsePoint& point : exact.points) EXPECT_LE(point.residual, 1e-13);
+}
+
+TEST(Continuation, RefusesAResidualToleranceThatIsNone) {
+  const Duffing duffing;
+  for (const double tolerance : {0.0, -1e-11, std::nan("")}) {
+    ContinuationOptions options = from_to(0.5, 2.5);
+    options.residual_tolerance = tolerance;
+    EXPECT_THROW((void)trace_response(duffing.scene(), options), std::invalid_argument);
+  }
+}
+
 TEST(Continuation, RefusesFrequenciesThatAreNone) {
   EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), from_to(0.0, 1.0))),
                std::invalid_argument);

@@ -1,6 +1,7 @@
 #include "solver/harmonic_choice.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -149,6 +150,27 @@ TEST(HarmonicChoice, CurveUsesOneHarmonicWhereStuckAndMoreWhereItSlips) {
   EXPECT_GE(n_changes, 2);
   EXPECT_LE(n_changes, 30);  // 144 points: the set does not chatter
   EXPECT_TRUE(curve.log.empty());
+}
+
+TEST(HarmonicChoice, ChoosingCostsFewEvaluationsBesidesThoseOfTheEquations) {
+  // Against the same curve with all harmonics that were chosen anywhere on it. A point costs one probe, some
+  // seven evaluations in Newton's method with the tangent, and a new set both ends of a step once more.
+  const Scene scene = event_three_dof(50.0);
+  const auto chosen = trace_response(scene, choosing());
+  HarmonicSet used(1);
+  for (const ResponsePoint& point : chosen.points) used = used.united(point.orders);
+  ContinuationOptions fixed = choosing();
+  fixed.harmonic_tolerance = 0.0;
+  fixed.orders = used.orders();
+  const auto all = trace_response(scene, fixed);
+  ASSERT_TRUE(all.complete) << all.diagnosis;
+  const auto per_point = [](const ResponseCurve& curve) {
+    return static_cast<double>(curve.contact_evaluations) /
+           static_cast<double>(curve.points.size());
+  };
+  std::printf("evaluations per point: %.1f chosen, %.1f with the %d harmonics used\n",
+              per_point(chosen), per_point(all), used.count());
+  EXPECT_LT(per_point(chosen), 2.0 * per_point(all));
 }
 
 TEST(HarmonicChoice, PointsBetweenHaveTheHarmonicsOfTheirNeighbours) {

@@ -1,0 +1,170 @@
+/// @file
+/// Cost of a patch whose points follow a law of their own (law_patch_force.hpp), ten modes, force and
+/// Jacobian:
+///
+///   event_patch     488 points that slip, H = 1, 3, 5: ns per point, and of these `ns_of_cycle` for the cycles
+///                   of the points alone
+///   sleeping_event  488 points, H = 5, and
+///   sleeping_planar 300 points in two tangential directions, H = 1: every `awake`-th point slips, the
+///                   others stick. `ratio` is the time of the same patch with every point evaluated over
+///                   that with sleeping points.
+#include <benchmark/benchmark.h>
+
+#include <ctime>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "contact/event_law.hpp"
+#include "contact/law_patch_force.hpp"
+#include "contact/planar_cycle.hpp"
+
+namespace {
+
+using namespace microslip::contact;
+
+constexpr Eigen::Index n_modes = 10;
+
+/// Of this thread: a busy machine does not show.
+double seconds_spent() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Does not say where it is linear: always evaluated.
+class Sleepless final : public PointLaw {
+ public:
+  explicit Sleepless(std::shared_ptr<const PointLaw> law) : law_(std::move(law)) {}
+  void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
+    law_->traction(motion, frequency, result);
+  }
+  [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
+                                     const Eigen::VectorXd& phases, int n) const override {
+    return law_->history(motion, frequency, phases, n);
+  }
+  [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override { return law_->stuck_stiffness(); }
+  [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
+
+ private:
+  std::shared_ptr<const PointLaw> law_;
+};
+
+using Laws = std::vector<std::shared_ptr<const PointLaw>>;
+
+/// Displacements of size one: a preload of 1 slips, one of 40 sticks.
+PointParameters point_of(Eigen::Index i, int awake) {
+  return {1.0, 0.5, 0.3, i % awake == 0 ? 1.0 : 40.0};
+}
+
+ModalShapes shapes_of(Eigen::Index n, bool second_direction) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const auto shape = [&] {
+    return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
+  };
+  ModalShapes shapes{shape(), shape(), {}};
+  if (second_direction) shapes.w = shape();
+  return shapes;
+}
+
+Harmonics motion_of(int n_harmonics) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> g(0.0, 0.5);
+  Harmonics q(n_harmonics, n_modes);
+  for (Eigen::Index k = 1; k < q.rows().rows(); ++k) {
+    const auto h = static_cast<double>((k + 1) / 2);
+    for (Eigen::Index m = 0; m < n_modes; ++m) q.rows()(k, m) = g(random) / (h * h);
+  }
+  return q;
+}
+
+Laws event_laws(Eigen::Index n, int awake) {
+  Laws laws;
+  for (Eigen::Index i = 0; i < n; ++i)
+    laws.push_back(std::make_shared<EventLaw>(point_of(i, awake)));
+  return laws;
+}
+
+Laws planar_laws(Eigen::Index n, int awake) {
+  Laws laws;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    laws.push_back(std::make_shared<PlanarLaw>(SurfaceLaw(point_of(i, awake), 0.8)));
+  }
+  return laws;
+}
+
+Laws sleepless(const Laws& laws) {
+  Laws bare;
+  for (const auto& law : laws) bare.push_back(std::make_shared<Sleepless>(law));
+  return bare;
+}
+
+void event_patch(benchmark::State& state) {
+  const int H = static_cast<int>(state.range(0));
+  constexpr Eigen::Index n = 488;
+  const Laws laws = event_laws(n, 1);
+  const ModalShapes shapes = shapes_of(n, false);
+  const LawPatchForce force(Eigen::VectorXd::Ones(n), laws, shapes);
+  const Harmonics q = motion_of(H);
+  for (auto _ : state) benchmark::DoNotOptimize(force.evaluate(q, 1.0));
+  state.counters["ns_per_point"] = benchmark::Counter(
+      1e-9 * n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  PatchMotion motion;
+  motion.set(shapes, q);
+  Harmonics one;
+  PointTraction traction;
+  const double begin = seconds_spent();
+  constexpr int repeats = 20;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      motion.copy(i, one);
+      laws[static_cast<std::size_t>(i)]->traction(one, 1.0, traction);
+    }
+  }
+  state.counters["ns_of_cycle"] = 1e9 * (seconds_spent() - begin) / (repeats * n);
+}
+BENCHMARK(event_patch)->Arg(1)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
+
+void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shapes,
+             const Harmonics& q) {
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(shapes.u.rows());
+  const LawPatchForce force(weights, laws, shapes);
+  const LawPatchForce all(weights, sleepless(laws), shapes);
+  benchmark::DoNotOptimize(all.evaluate(q, 1.0));
+  const double begin = seconds_spent();
+  constexpr int repeats = 3;
+  for (int i = 0; i < repeats; ++i) benchmark::DoNotOptimize(all.evaluate(q, 1.0));
+  const double whole = (seconds_spent() - begin) / repeats;
+  double spent = 0.0;
+  // Another motion each time, as in an iteration: every decision is made anew.
+  double nudge = 1e-9;
+  for (auto _ : state) {
+    Harmonics moved = q;
+    moved.vector() *= 1.0 + (nudge = -nudge);
+    const double start = seconds_spent();
+    benchmark::DoNotOptimize(force.evaluate(moved, 1.0));
+    spent += seconds_spent() - start;
+  }
+  state.counters["all_us"] = 1e6 * whole;
+  state.counters["ratio"] = whole / (spent / static_cast<double>(state.iterations()));
+  state.counters["awake_share"] = force.report(q, 1.0).awake_share;
+}
+
+void sleeping_event(benchmark::State& state) {
+  constexpr Eigen::Index n = 488;
+  compare(state, event_laws(n, static_cast<int>(state.range(0))), shapes_of(n, false),
+          motion_of(5));
+}
+BENCHMARK(sleeping_event)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+void sleeping_planar(benchmark::State& state) {
+  constexpr Eigen::Index n = 300;
+  compare(state, planar_laws(n, static_cast<int>(state.range(0))), shapes_of(n, true),
+          motion_of(1));
+}
+BENCHMARK(sleeping_planar)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
