@@ -110,6 +110,7 @@ void set_contact(ModalModel& model, const SectionReader& s, const Bar& bar, cons
   const Eigen::VectorXd x =
       cell * (Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)).array() + 0.5);
   const double local = s.number("tangential_stiffness");
+  if (model.residual == ResidualKind::stiffness) model.local_stiffness = local;
   const Eigen::VectorXd stiffness = model.residual == ResidualKind::stiffness
                                         ? series_stiffness(bar, modes, x, local)
                                         : Eigen::VectorXd::Constant(n, local);

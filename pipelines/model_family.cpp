@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "pipelines/contact_effects.hpp"
+#include "pipelines/contact_factors.hpp"
 #include "pipelines/contact_stage.hpp"
 #include "pipelines/scene_file.hpp"
 #include "pipelines/temporary_folder.hpp"
@@ -54,21 +55,44 @@ ModelFamily::ModelFamily(const SceneDescription& scene, std::string key, const R
       second_direction_(model.effects.second_direction),
       structure_(std::move(structure)) {}
 
-const ReducedModel& ModelFamily::at(double value) {
-  const auto known = models_.find(value);
-  if (known != models_.end()) return known->second;
-  const SceneDescription changed = with_value(scene_, key_, value);
+ModelFamily::Structure ModelFamily::structure_at(double value, const SceneDescription& changed) {
+  if (structure_ == nullptr || !changes_structure(key_)) return structure_;
+  const auto known = structures_.find(value);
+  if (known != structures_.end()) return known->second;
+  const TemporaryFolder folder;
+  auto own = std::make_shared<const SolvedStructure>(
+      solved_structure(changed, folder.path() / "mesh.msh"));
+  // The values of a first scan are asked for again with every factor, those that follow are not.
+  constexpr std::size_t n_kept = 16;
+  if (structures_.size() < n_kept) structures_.emplace(value, own);
+  return own;
+}
+
+ReducedModel ModelFamily::reduced(SceneDescription changed, double stiffness_factor,
+                                  const SolvedStructure* structure) const {
+  if (stiffness_factor != 1.0) changed = with_stiffness_keys(changed, stiffness_factor);
   std::vector<std::string> warnings;  // those of the scene itself are told already
-  ReducedModel model;
-  if (structure_ != nullptr && changes_structure(key_)) {
-    const TemporaryFolder folder;
-    const SolvedStructure own = solved_structure(changed, folder.path() / "mesh.msh");
-    model = model_of(changed, &own, warnings);
-  } else {
-    model = model_of(changed, structure_.get(), warnings);
-  }
+  ReducedModel model = model_of(changed, structure, warnings);
   model.effects.second_direction = second_direction_;
-  return models_.emplace(value, std::move(model)).first->second;
+  return model;
+}
+
+const ReducedModel& ModelFamily::at(double value, double stiffness_factor) {
+  const std::pair place{value, stiffness_factor};
+  const auto known = models_.find(place);
+  if (known != models_.end()) return known->second;
+  SceneDescription changed = with_value(scene_, key_, value);
+  const Structure structure = structure_at(value, changed);
+  return models_
+      .emplace(place, reduced(std::move(changed), stiffness_factor, structure.get()))
+      .first->second;
+}
+
+const ReducedModel& ModelFamily::as_given(double stiffness_factor) {
+  const auto known = given_.find(stiffness_factor);
+  if (known != given_.end()) return known->second;
+  return given_.emplace(stiffness_factor, reduced(scene_, stiffness_factor, structure_.get()))
+      .first->second;
 }
 
 }  // namespace microslip::pipelines

@@ -1,10 +1,12 @@
 /// @file
-/// Reduced models of one scene with one number changed: what the search for its best value goes over.
+/// Reduced models of one scene with one number changed: what the search for its best value goes over; and
+/// the same with another local contact stiffness.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -42,15 +44,26 @@ class ModelFamily {
               std::shared_ptr<const SolvedStructure> structure);
 
   /// The model at a value. Modes are solved anew only where the number changes them.
+  /// @param stiffness_factor  of the local contact stiffness; other than 1 where the scene has it in keys
+  ///                          (contact_factors.hpp) only.
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at this value.
-  [[nodiscard]] const ReducedModel& at(double value);
+  [[nodiscard]] const ReducedModel& at(double value, double stiffness_factor = 1.0);
+  /// The model of the scene as it is but for its local contact stiffness.
+  [[nodiscard]] const ReducedModel& as_given(double stiffness_factor);
 
  private:
+  using Structure = std::shared_ptr<const SolvedStructure>;
+  [[nodiscard]] Structure structure_at(double value, const SceneDescription& changed);
+  [[nodiscard]] ReducedModel reduced(SceneDescription changed, double stiffness_factor,
+                                     const SolvedStructure* structure) const;
+
   const SceneDescription& scene_;
   std::string key_;
   bool second_direction_;
-  std::shared_ptr<const SolvedStructure> structure_;
-  std::map<double, ReducedModel> models_;
+  Structure structure_;
+  std::map<double, Structure> structures_;  // by value
+  std::map<std::pair<double, double>, ReducedModel> models_;  // by value and factor
+  std::map<double, ReducedModel> given_;  // by factor
 };
 
 }  // namespace microslip::pipelines

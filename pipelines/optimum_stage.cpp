@@ -5,6 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "pipelines/contact_factors.hpp"
 #include "pipelines/response_stage.hpp"
 #include "pipelines/scene_error.hpp"
 
@@ -33,20 +36,6 @@ solver::OptimumOptions options_of(const SceneDescription& scene) {
   return options;
 }
 
-ReducedModel with_friction(ReducedModel model, double factor) {
-  model.friction_coefficient *= factor;
-  model.vertex_friction_coefficient *= factor;
-  return model;
-}
-
-ReducedModel with_stiffness(ReducedModel model, double factor) {
-  for (Eigen::VectorXd* stiffness :
-       {&model.tangential_stiffness, &model.second_stiffness, &model.normal_stiffness}) {
-    *stiffness *= factor;
-  }
-  return model;
-}
-
 }  // namespace
 
 OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
@@ -57,43 +46,78 @@ OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& 
       family_(scene, request_.key, model, std::move(structure)),
       options_(options_of(scene)) {}
 
-solver::Optimum OptimumSearch::search(const Change& change, const solver::OptimumOptions& options) {
-  const auto scene_at = [&](double value) {
-    if (request_.of_preload()) return solver_scene(change(model_), value);
-    return solver_scene(change(family_.at(value)), request_.load);
-  };
-  return solver::minimise_peak(scene_at, continuation_options(*scene_.response), options);
+const ReducedModel& OptimumSearch::model_at(double value, double stiffness_factor) {
+  if (!request_.of_preload()) return family_.at(value, stiffness_factor);
+  return stiffness_factor == 1.0 ? model_ : family_.as_given(stiffness_factor);
+}
+
+solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
+  const bool by_keys = stiffness_place(scene_) == StiffnessPlace::keys;
+  const ReducedModel& given = model_at(value, 1.0);
+  double load = request_.of_preload() ? value : request_.load;
+  ReducedModel model = by_keys ? model_at(value, factors.stiffness)
+                               : with_point_stiffness(given, factors.stiffness, load);
+  load = with_same_gap(load, given, model);
+  if (factors.friction != 1.0) model = with_friction(std::move(model), factors.friction);
+  return solver_scene(model, load);
+}
+
+solver::Optimum OptimumSearch::search(const Factors& factors) {
+  solver::OptimumOptions options = options_;
+  if (request_.of_preload()) {
+    // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal load
+    // varies with the motion. The range is widened by as much.
+    options.lower = std::min(options.lower, options.lower / factors.friction);
+    options.upper = std::max(options.upper, options.upper / factors.friction);
+  }
+  return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
+                               continuation_options(*scene_.response), options);
+}
+
+std::string OptimumSearch::warning() const {
+  const ResponseDescription& response = *scene_.response;
+  if (response.method != ResponseDescription::Method::time) return "";
+  const std::string harmonics =
+      response.harmonic_tolerance > 0.0 ? "chosen harmonics"
+      : response.harmonics == 1         ? "1 harmonic"
+                                        : fmt::format("harmonics up to {}", response.harmonics);
+  return fmt::format(
+      "response.optimum: searched by harmonic balance with {}, not by integration in time as the curves: "
+      "integrate a curve at the best value to compare",
+      harmonics);
 }
 
 solver::Optimum OptimumSearch::best() {
-  return search([](ReducedModel model) { return model; }, options_);
+  solver::Optimum optimum = search({});
+  if (const std::string text = warning(); !text.empty()) {
+    optimum.notes.insert(optimum.notes.begin(), text);
+  }
+  return optimum;
 }
 
-std::vector<OptimumOfFactor> OptimumSearch::bracket() {
-  // Laws of their own hold friction or stiffness elsewhere than in the points.
-  const bool friction_varies =
-      !model_.effects.friction_law && request_.key.find("friction") == std::string::npos;
-  const bool stiffness_varies =
-      !model_.effects.roughness && request_.key.find("_stiffness") == std::string::npos;
-  std::vector<OptimumOfFactor> bracket;
-  const auto add = [&](const char* parameter, double factor, const solver::Optimum& optimum) {
-    bracket.push_back({parameter, factor, optimum.best, optimum.found});
+OptimumBracket OptimumSearch::bracket() {
+  OptimumBracket bracket;
+  const auto add = [&](const char* parameter, double factor, const Factors& factors) {
+    try {
+      bracket.entries.push_back({parameter, factor, search(factors)});
+    } catch (const RefusedError& error) {
+      bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
+    }
   };
+  const auto varies = [&](const char* parameter, const char* searched, const std::string& obstacle) {
+    const std::string_view key = request_.key;
+    if (key.starts_with("contact") && key.find(searched) != key.npos) return false;
+    if (!obstacle.empty()) bracket.left_out.push_back(fmt::format("{}: {}", parameter, obstacle));
+    return obstacle.empty();
+  };
+  constexpr const char* friction = "friction_coefficient";
+  constexpr const char* stiffness = "contact_stiffness";
+  const bool friction_varies = varies(friction, "friction", no_friction_factor(model_));
+  const bool stiffness_varies =
+      varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
   for (const double factor : {0.5, 2.0}) {
-    if (friction_varies) {
-      // Friction acts through μ n: the best preload moves by about 1/factor, and the range with it.
-      solver::OptimumOptions moved = options_;
-      if (request_.of_preload()) {
-        moved.lower /= factor;
-        moved.upper /= factor;
-      }
-      const auto change = [&](ReducedModel model) { return with_friction(std::move(model), factor); };
-      add("friction_coefficient", factor, search(change, moved));
-    }
-    if (stiffness_varies) {
-      const auto change = [&](ReducedModel model) { return with_stiffness(std::move(model), factor); };
-      add("contact_stiffness", factor, search(change, options_));
-    }
+    if (friction_varies) add(friction, factor, {factor, 1.0});
+    if (stiffness_varies) add(stiffness, factor, {1.0, factor});
   }
   return bracket;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "pipelines/model_family.hpp"
@@ -22,15 +23,22 @@ class OptimumSearch {
   OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
                 std::shared_ptr<const SolvedStructure> structure);
 
+  /// What the search does otherwise than the curves, for the log; empty: nothing.
+  [[nodiscard]] std::string warning() const;
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at a value.
   [[nodiscard]] solver::Optimum best();
-  /// Searched again with friction coefficient and contact stiffness × 0.5 and × 2, as far as the contact
-  /// has them as numbers and they are not what is searched.
-  [[nodiscard]] std::vector<OptimumOfFactor> bracket();
+  /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
+  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched.
+  [[nodiscard]] OptimumBracket bracket();
 
  private:
-  using Change = std::function<ReducedModel(ReducedModel)>;
-  [[nodiscard]] solver::Optimum search(const Change& change, const solver::OptimumOptions& options);
+  struct Factors {
+    double friction = 1.0;
+    double stiffness = 1.0;
+  };
+  [[nodiscard]] solver::Optimum search(const Factors& factors);
+  [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
+  [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
 
   const ReducedModel& model_;
   const SceneDescription& scene_;

@@ -183,7 +183,7 @@ std::vector<contact::PointParameters> PatchFields::parameters(const Eigen::Vecto
   const Eigen::MatrixX2d flexible = compliance(p, r);
   const Eigen::VectorXd tangential = stiffness(flexible, 0);
   const Eigen::VectorXd normal = stiffness(flexible, 1);
-  const Eigen::VectorXd friction = friction_.at(p, r);
+  const Eigen::VectorXd friction = friction_factor_ * friction_.at(p, r);
   Eigen::VectorXd preload = Eigen::VectorXd::Constant(p.size(), load * unit_preload_);
   if (load < 0.0) {
     if (total_stiffness_ <= 0.0) {

@@ -45,6 +45,9 @@ class PatchFields {
               contact::ModalContactField shapes, const Eigen::Vector3d& shapes_origin,
               const fem::ResidualFlexibility* residual, contact::PatchCells sampled);
 
+  /// The friction coefficient everywhere times a factor.
+  void multiply_friction(double factor) { friction_factor_ *= factor; }
+
   [[nodiscard]] const contact::PatchCells& cells() const { return cells_; }
   /// u and v alone. @param p, r  [m], n each.   @return n × n_modes.
   [[nodiscard]] contact::ModalShapes shapes(const Eigen::VectorXd& p,
@@ -75,6 +78,7 @@ class PatchFields {
 
   std::optional<double> tangential_stiffness_, normal_stiffness_;
   Field friction_;
+  double friction_factor_ = 1.0;
   std::optional<Field> preload_;
   contact::ModalContactField shapes_;
   Eigen::Vector2d shapes_offset_;  // (p, r) of the plane → (p, r) of the shapes

@@ -39,6 +39,24 @@ using namespace std::chrono_literals;
 constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
 constexpr double to_hz = 0.5 / std::numbers::pi;
 
+std::string amplitude_text(const solver::PeakOfParameter& best) {
+  const double frequency_hz = to_hz * best.frequency;
+  switch (best.place) {
+    case solver::PeakPlace::peak:
+      return fmt::format("peak {:.6g} m at {:.6g} Hz", best.amplitude, frequency_hz);
+    case solver::PeakPlace::range_end:
+      return fmt::format("largest amplitude {:.6g} m at {:.6g} Hz, the end of the frequency range",
+                         best.amplitude, frequency_hz);
+    case solver::PeakPlace::unsolved: break;
+  }
+  return fmt::format("amplitude at least {:.6g} m, at {:.6g} Hz", best.amplitude, frequency_hz);
+}
+
+/// The lowest value of a search that found no best one, as far as there is one.
+std::string lowest_text(const solver::Optimum& optimum) {
+  return optimum.trace.empty() ? "" : "; " + amplitude_text(optimum.best);
+}
+
 /// An advisory lock that dies with the process: two runs in one folder would mix their files.
 int lock_folder(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ".lock";
@@ -325,11 +343,10 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   const std::string what =
       request.of_preload() ? "best preload"
                            : fmt::format("best {} under preload {:g}", request.key, request.load);
-  progress_.info(optimum.found
-                     ? fmt::format("{}: {:.6g}{}, peak {:.6g} m at {:.6g} Hz", what,
-                                   optimum.best.parameter, unit,
-                                   optimum.best.amplitude, to_hz * optimum.best.frequency)
-                     : fmt::format("{}: not found: {}", what, optimum.message));
+  progress_.info(optimum.found ? fmt::format("{}: {:.6g}{}, {}", what, optimum.best.parameter, unit,
+                                             amplitude_text(optimum.best))
+                               : fmt::format("{}: not found: {}{}", what, optimum.message,
+                                             lowest_text(optimum)));
   const std::lock_guard lock(mutex_);
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;
@@ -338,13 +355,17 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   write_optimum_csv(folder_, request, optimum);
 }
 
-void RunRecord::keep_bracket(std::vector<OptimumOfFactor> bracket) {
-  for (const OptimumOfFactor& entry : bracket) {
-    progress_.info(fmt::format("with {} x {:g}: {} {:.6g}, peak {:.6g} m at {:.6g} Hz",
-                               entry.parameter, entry.factor,
-                               entry.found ? "best" : "lowest seen, at a bound:",
-                               entry.best.parameter, entry.best.amplitude,
-                               to_hz * entry.best.frequency));
+void RunRecord::keep_bracket(OptimumBracket bracket) {
+  for (const OptimumOfFactor& entry : bracket.entries) {
+    const solver::Optimum& optimum = entry.optimum;
+    progress_.info(fmt::format(
+        "with {} x {:g}: {}", entry.parameter, entry.factor,
+        optimum.found ? fmt::format("best {:.6g}, {}", optimum.best.parameter,
+                                    amplitude_text(optimum.best))
+                      : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));
+  }
+  for (const std::string& reason : bracket.left_out) {
+    progress_.info("not varied: " + reason);
   }
   const std::lock_guard lock(mutex_);
   summary_.optimum->bracket = std::move(bracket);

@@ -61,7 +61,7 @@ class RunRecord {
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
   void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                     const solver::Optimum& optimum);
-  void keep_bracket(std::vector<OptimumOfFactor> bracket);
+  void keep_bracket(OptimumBracket bracket);
   void keep_summary();
 
  private:

@@ -94,12 +94,16 @@ struct CurveResult {
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 
-/// The best preload when one uncertain number of the contact is multiplied.
+/// The best value when one uncertain number of the contact is multiplied.
 struct OptimumOfFactor {
   std::string parameter;  ///< friction_coefficient | contact_stiffness
   double factor = 1.0;
-  solver::PeakOfParameter best;
-  bool found = false;  ///< false: `best` is the lowest seen, at a bound of the search
+  solver::Optimum optimum;
+};
+
+struct OptimumBracket {
+  std::vector<OptimumOfFactor> entries;
+  std::vector<std::string> left_out;  ///< what is not varied and why
 };
 
 struct StageRecord {

@@ -61,6 +61,7 @@ struct ModalModel {
   LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
   std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
   ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
+  std::optional<double> local_stiffness;  ///< contact.tangential_stiffness where that is so [N/m²]
 };
 
 struct RayleighDamping {

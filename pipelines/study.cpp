@@ -74,6 +74,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     if (scene.response->optimum) {
       record.stage("optimum");
       OptimumSearch search(model, scene, structure);
+      if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
       record.keep_optimum(model, *scene.response->optimum, search.best());
       record.keep_bracket(search.bracket());
     }

@@ -111,14 +111,25 @@ void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) 
   write_whole(file, table);
 }
 
+const char* to_string(solver::PeakPlace place) {
+  switch (place) {
+    case solver::PeakPlace::peak: return "peak";
+    case solver::PeakPlace::range_end: return "range_end";
+    case solver::PeakPlace::unsolved: break;
+  }
+  return "unsolved";
+}
+
 void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
                        const solver::Optimum& optimum) {
   std::string table = request.of_preload() ? "preload_N" : "value";
-  table += ",frequency_Hz,amplitude_m,mark\n";
+  table += ",frequency_Hz,amplitude_m,at,mark\n";
   for (const solver::PeakOfParameter& peak : optimum.trace) {
     append_row(table, {peak.parameter, peak.frequency / two_pi, peak.amplitude});
     const bool best = optimum.found && peak.parameter == optimum.best.parameter;
-    table += best ? ",optimum\n" : ",\n";
+    const bool flat = optimum.flat && peak.parameter >= (*optimum.flat)[0] &&
+                      peak.parameter <= (*optimum.flat)[1];
+    table += fmt::format(",{},{}\n", to_string(peak.place), best ? "optimum" : flat ? "flat" : "");
   }
   write_whole(folder / (request.of_preload() ? "peak_against_preload.csv" : "peak_against_parameter.csv"),
               table);

@@ -35,8 +35,12 @@ struct ModeTable {
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
 
-/// The trace of an optimum: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,mark`, or
-/// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row.
+/// `at` of the files below: peak, range_end (of the frequency range) or unsolved.
+[[nodiscard]] const char* to_string(solver::PeakPlace place);
+
+/// The trace of an optimum: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,at,mark`, or
+/// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row, flat on those of a
+/// minimum that is the same for all.
 /// @throws ExhaustedError  cannot be written.
 void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
                        const solver::Optimum& optimum);

@@ -103,29 +103,44 @@ std::string gap_text(const Json& curve) {
       preload_text(curve), pressed, pressed - gaps);
 }
 
-/// Amplitude, frequency and value of a best peak as cells of a table.
+/// Value, amplitude and frequency of a best peak as cells of a table.
 std::string optimum_cells(const Json& peak) {
-  return fmt::format("{:.6g} | {:.5g} | {:.4f} |\n", peak.at("value").get<double>(),
-                     peak.at("amplitude_m").get<double>(), peak.at("frequency_Hz").get<double>());
+  if (peak.at("amplitude_m").is_null()) return "– | – | – |\n";
+  const Json& flat = peak.at("flat");
+  const std::string value =
+      flat.is_null() ? fmt::format("{:.6g}", peak.at("value").get<double>())
+                     : fmt::format("{:.6g} … {:.6g}", flat.at(0).get<double>(), flat.at(1).get<double>());
+  const bool at_end = peak.at("at") == "range_end";
+  return fmt::format("{} | {:.5g} | {:.4f}{} |\n", value, peak.at("amplitude_m").get<double>(),
+                     peak.at("frequency_Hz").get<double>(), at_end ? " (end of the range)" : "");
+}
+
+std::string optimum_sentence(const Json& optimum) {
+  const std::string key = optimum.at("parameter").get<std::string>();
+  const std::string message = optimum.at("message").get<std::string>();
+  if (!optimum.at("found").get<bool>()) return fmt::format("Best {} not found: {}.", key, message);
+  return fmt::format("Best {}: {:.6g}{}, {} {:.5g} m at {:.4f} Hz; {}.", key,
+                     optimum.at("value").get<double>(), key == "preload" ? " N" : " (SI)",
+                     optimum.at("at") == "peak" ? "peak" : "largest amplitude",
+                     optimum.at("amplitude_m").get<double>(),
+                     optimum.at("frequency_Hz").get<double>(), message);
 }
 
 std::string optimum_text(const Json& optimum) {
   const std::string key = optimum.at("parameter").get<std::string>();
-  const bool found = optimum.at("found").get<bool>();
-  std::string text = fmt::format(
-      "\n{}: {:.6g}{}, peak {:.5g} m at {:.4f} Hz; {}.\n\n",
-      found ? "Best " + key : "Best " + key + " not found; lowest peak seen",
-      optimum.at("value").get<double>(), key == "preload" ? " N" : " (SI)",
-      optimum.at("amplitude_m").get<double>(), optimum.at("frequency_Hz").get<double>(),
-      optimum.at("message").get<std::string>());
-  text += fmt::format("| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given | ",
-                      key);
+  std::string text = fmt::format("\n{}\n\n", optimum_sentence(optimum));
+  text += fmt::format("| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given{} | ",
+                      key, optimum.at("found").get<bool>() ? "" : " (lowest, not found)");
   text += optimum_cells(optimum);
   for (const Json& entry : optimum.at("bracket")) {
+    const bool found = entry.at("found").get<bool>();
     text += fmt::format("| {} × {:g}{} | ", entry.at("parameter").get<std::string>(),
                         entry.at("factor").get<double>(),
-                        entry.at("found").get<bool>() ? "" : " (lowest seen, at a bound)") +
+                        found ? "" : fmt::format(" (lowest: {})", entry.at("objection").get<std::string>())) +
             optimum_cells(entry);
+  }
+  for (const Json& reason : optimum.at("bracket_left_out")) {
+    text += fmt::format("\nNot varied: {}.\n", reason.get<std::string>());
   }
   return text;
 }

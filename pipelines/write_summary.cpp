@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipelines/output_file.hpp"
+#include "pipelines/write_csv.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -67,7 +68,22 @@ Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary)
   return {{"preload_N", load * summary.newtons_per_load},
           {"value", peak.parameter},
           {"amplitude_m", peak.amplitude},
-          {"frequency_Hz", hertz(peak.frequency)}};
+          {"frequency_Hz", hertz(peak.frequency)},
+          {"at", to_string(peak.place)}};
+}
+
+/// The lowest value of a search and why it is not the best; nulls where nothing was solved.
+Json to_json(const solver::Optimum& optimum, const OptimumSummary& summary) {
+  Json json = to_json(optimum.best, summary);
+  if (optimum.trace.empty()) {
+    for (const char* key : {"preload_N", "value", "amplitude_m", "frequency_Hz", "at"}) {
+      json[key] = nullptr;
+    }
+  }
+  json["found"] = optimum.found;
+  json["objection"] = optimum.objection;
+  json["flat"] = optimum.flat ? Json(*optimum.flat) : Json(nullptr);
+  return json;
 }
 
 template <typename Item>
@@ -125,16 +141,15 @@ Json to_json(const OptimumSummary& summary) {
     trace.push_back(to_json(peak, summary));
   }
   Json bracket = Json::array();
-  for (const OptimumOfFactor& entry : summary.bracket) {
-    Json row = to_json(entry.best, summary);
+  for (const OptimumOfFactor& entry : summary.bracket.entries) {
+    Json row = to_json(entry.optimum, summary);
     row["parameter"] = entry.parameter;
     row["factor"] = entry.factor;
-    row["found"] = entry.found;
     bracket.push_back(std::move(row));
   }
-  Json json = to_json(optimum.best, summary);
+  Json json = to_json(optimum, summary);
+  json["method"] = "harmonic_balance";
   json["parameter"] = summary.request.key;
-  json["found"] = optimum.found;
   json["message"] = optimum.message;
   json["iterations"] = optimum.iterations;
   json["contact_evaluations"] = optimum.contact_evaluations;
@@ -142,6 +157,7 @@ Json to_json(const OptimumSummary& summary) {
   json["whole_curves"] = optimum.n_curves;
   json["seconds"] = optimum.seconds;
   json["bracket"] = std::move(bracket);
+  json["bracket_left_out"] = summary.bracket.left_out;
   json["trace"] = std::move(trace);
   return json;
 }

@@ -70,7 +70,7 @@ struct CurveSummary {
 struct OptimumSummary {
   OptimumRequest request;
   solver::Optimum optimum;
-  std::vector<OptimumOfFactor> bracket;
+  OptimumBracket bracket;
   double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
 };
 

@@ -1,5 +1,7 @@
 #include "solver/common_harmonics.hpp"
 
+#include <algorithm>
+
 #include "solver/harmonic_choice.hpp"
 #include "solver/start_point.hpp"
 
@@ -13,8 +15,12 @@ ContinuationOptions with_common_harmonics(const SceneFamily& family,
   for (const double value : values) {
     const Scene scene = family(value);
     set = set.united(first_harmonics(scene, range).orders());
-    for (const ResponsePoint& point : trace_response(scene, range).points) {
-      if (point.mark == PointMark::peak) set = set.united(point.orders);
+    const std::vector<ResponsePoint> points = trace_response(scene, range).points;
+    const auto largest = std::max_element(
+        points.begin(), points.end(),
+        [](const ResponsePoint& a, const ResponsePoint& b) { return a.amplitude < b.amplitude; });
+    for (auto point = points.begin(); point != points.end(); ++point) {
+      if (point == largest || point->mark == PointMark::peak) set = set.united(point->orders);
     }
   }
   ContinuationOptions common = range;

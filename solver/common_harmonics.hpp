@@ -11,7 +11,8 @@
 namespace microslip::solver {
 
 /// @param values  of the parameter, whose curves are traced with harmonics of their own choice.
-/// @return `range` with the harmonics of all their peaks given; unchanged where they are given already.
+/// @return `range` with the harmonics of all their peaks, and of the largest amplitude where that is at an
+///         end, given; unchanged where they are given already.
 [[nodiscard]] ContinuationOptions with_common_harmonics(const SceneFamily& family,
                                                         const std::vector<double>& values,
                                                         const ContinuationOptions& range);

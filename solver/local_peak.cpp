@@ -62,6 +62,78 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   return peak;
 }
 
+/// Sign of the frequencies that lie in the range, seen from one of its ends; 0: it is one frequency.
+double inward(double frequency, const ContinuationOptions& range) {
+  const double other = range.frequency_begin + range.frequency_end - frequency;
+  return other > frequency ? 1.0 : other < frequency ? -1.0 : 0.0;
+}
+
+/// @param direction  as of made_peak().
+LocalPeak made_end(const HarmonicBalance& balance, const NewtonResult& at, BranchVector direction,
+                   const Scaling& scaling, const ContinuationOptions& range) {
+  const double sign = inward(at.point.parameter, range);
+  if (direction.parameter * sign < 0.0) {
+    direction.x *= -1.0;
+    direction.parameter *= -1.0;
+  }
+  LocalPeak end = made_peak(balance, at, direction, scaling);
+  const Slope slope = slope_along(balance, at.point.x, end.tangent, end.scaling);
+  end.place = PeakPlace::range_end;
+  end.rises = sign != 0.0 && slope.value > level * slope.amplitude;
+  return end;
+}
+
+/// A solution on the plane of the constraint, on a force that suits it.
+NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
+                    const BranchVector& constraint, const Scaling& scaling,
+                    const ContinuationOptions& range, PeakWork& work) {
+  const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
+    return balance.evaluate(x, frequency);
+  };
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  static_cast<void>(refit_to(balance, {guess}));
+  NewtonOptions newton;
+  newton.tolerance = range.residual_tolerance;
+  NewtonResult result;
+  result.point = guess;
+  do {
+    result = solve_newton(system, result.point, constraint, scaling, newton);
+    work.iterations += result.iterations;
+    work.contact_evaluations += result.evaluations;
+  } while (result.converged && refit_to(balance, {result.point}).is_replaced);
+  return result;
+}
+
+std::optional<LocalPeak> follow_end(const HarmonicBalance& balance, const LocalPeak& from,
+                                    BranchVector guess, const ContinuationOptions& range,
+                                    PeakWork& work) {
+  guess.parameter = from.point.parameter;
+  Scaling scaling = natural_scaling(balance, guess.x, guess.parameter);
+  scaling.parameter = from.scaling.parameter;
+  const BranchVector hold{Eigen::VectorXd::Zero(guess.x.size()), 1.0};
+  const NewtonResult at = solved(balance, guess, hold, scaling, range, work);
+  if (!at.converged || distance(at.point, guess, scaling) > farthest) return std::nullopt;
+  const auto tangent = null_vector(at.evaluation, scaling, 1.0);
+  if (!tangent) return std::nullopt;
+  return made_end(balance, at, *tangent, scaling, range);
+}
+
+/// A solved point of a curve with the evaluation there.
+NewtonResult evaluated(const HarmonicBalance& balance, const ResponsePoint& point) {
+  NewtonResult at;
+  at.point = {balance.unknowns(point.q), point.frequency};
+  if (balance.scene().contact) balance.scene().contact->begin_point();
+  static_cast<void>(refit_to(balance, {at.point}));
+  at.evaluation = balance.evaluate(at.point.x, point.frequency);
+  return at;
+}
+
+Scaling widest_scaling(const HarmonicBalance& balance, const BranchVector& at) {
+  Scaling scaling = natural_scaling(balance, at.x, at.parameter);
+  scaling.parameter = widest * at.parameter;
+  return scaling;
+}
+
 /// The first peak of the last step, on a force that suits it. A refit may move it out of the step.
 std::optional<SpecialPoint> peak_of_step(const HarmonicBalance& balance, BranchWalker& walker) {
   if (balance.scene().contact) balance.scene().contact->begin_point();
@@ -102,21 +174,26 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
 }  // namespace
 
 std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const ResponsePoint& peak) {
-  NewtonResult at;
-  at.point = {balance.unknowns(peak.q), peak.frequency};
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  static_cast<void>(refit_to(balance, {at.point}));
-  at.evaluation = balance.evaluate(at.point.x, peak.frequency);
-  Scaling scaling = natural_scaling(balance, at.point.x, peak.frequency);
-  scaling.parameter = widest * peak.frequency;
+  const NewtonResult at = evaluated(balance, peak);
+  const Scaling scaling = widest_scaling(balance, at.point);
   const auto tangent = null_vector(at.evaluation, scaling, 1.0);
   if (!tangent) return std::nullopt;
   return made_peak(balance, at, *tangent, scaling);
 }
 
+std::optional<LocalPeak> local_end(const HarmonicBalance& balance, const ResponsePoint& end,
+                                   const ContinuationOptions& range) {
+  const NewtonResult at = evaluated(balance, end);
+  const Scaling scaling = widest_scaling(balance, at.point);
+  const auto tangent = null_vector(at.evaluation, scaling, 1.0);
+  if (!tangent) return std::nullopt;
+  return made_end(balance, at, *tangent, scaling, range);
+}
+
 std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const LocalPeak& from,
                                      const BranchVector& guess, const ContinuationOptions& range,
                                      PeakWork& work) {
+  if (from.place == PeakPlace::range_end) return follow_end(balance, from, guess, range, work);
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
     return balance.evaluate(x, frequency);
   };
@@ -128,18 +205,7 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
   NewtonResult guessed;
   guessed.point = guess;
   const Scaling scaling = rule(guessed);
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  static_cast<void>(refit_to(balance, {guess}));
-  NewtonOptions newton;
-  newton.tolerance = range.residual_tolerance;
-  NewtonResult start = solve_newton(system, guess, from.tangent, scaling, newton);
-  work.iterations += start.iterations;
-  work.contact_evaluations += start.evaluations;
-  while (start.converged && refit_to(balance, {start.point}).is_replaced) {
-    start = solve_newton(system, start.point, from.tangent, scaling, newton);
-    work.iterations += start.iterations;
-    work.contact_evaluations += start.evaluations;
-  }
+  NewtonResult start = solved(balance, guess, from.tangent, scaling, range, work);
   if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
 
   BranchVector tangent = branch_tangent(start.evaluation, from.tangent, scaling).direction;

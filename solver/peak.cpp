@@ -72,21 +72,35 @@ std::string sentence(const char* text, double value) {
 }
 
 constexpr double as_good = 1.01;  // times the minimum
+// Two solutions of one amplitude differ by less: what is closer does not depend on the parameter.
+constexpr double the_same = 1.0 + 1e-7;
+// A smooth minimum is as level as that over some 1e-3 of its parameter; of the scale.
+constexpr double flat_width = 0.02;
+
+/// A share of the scale as a distance of positions.
+double on_scale(const OptimumOptions& options, double share) {
+  return share *
+         (options.scale == ParameterScale::logarithmic ? 1.0 : options.upper - options.lower);
+}
+
+using Place = std::vector<PeakOfParameter>::const_iterator;
+
+/// The values about the best one whose amplitude is at most `limit`: first and one past the last. `trace` is
+/// sorted by parameter.
+std::array<Place, 2> below(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best,
+                           double limit) {
+  const auto above = [limit](const PeakOfParameter& one) { return one.amplitude > limit; };
+  const auto centre = std::find_if(trace.begin(), trace.end(), [&](const PeakOfParameter& one) {
+    return one.parameter == best.parameter;
+  });
+  const auto left = std::find_if(std::make_reverse_iterator(centre), trace.rend(), above).base();
+  return {left, std::find_if(centre, trace.end(), above)};
+}
 
 /// How well the minimum is determined: the interval about it that is as good to 1 %, and other minima as
 /// good to 2 %. `trace` is sorted by parameter.
 std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best) {
-  const auto level = [&](double factor) {
-    return [limit = factor * best.amplitude](const PeakOfParameter& one) {
-      return one.amplitude > limit;
-    };
-  };
-  const auto centre = std::find_if(trace.begin(), trace.end(), [&](const PeakOfParameter& one) {
-    return one.parameter == best.parameter;
-  });
-  const auto right = std::find_if(centre, trace.end(), level(as_good));
-  const auto left =
-      std::find_if(std::make_reverse_iterator(centre), trace.rend(), level(as_good)).base();
+  const auto [left, right] = below(trace, best, as_good * best.amplitude);
   std::ostringstream text;
   text.precision(6);
   text << "as good to 1 % from " << left->parameter << " to " << std::prev(right)->parameter;
@@ -95,7 +109,7 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
     const bool lowest =
         (one == trace.begin() || std::prev(one)->amplitude > one->amplitude) &&
         (std::next(one) == trace.end() || std::next(one)->amplitude > one->amplitude);
-    if (elsewhere && lowest && !level(1.02)(*one)) {
+    if (elsewhere && lowest && one->amplitude <= 1.02 * best.amplitude) {
       text << "; another minimum of nearly the same height near " << one->parameter;
     }
   }
@@ -116,7 +130,9 @@ void check(const OptimumOptions& options) {
 class Search {
  public:
   Search(const SceneFamily& family, const ContinuationOptions& range, const OptimumOptions& options)
-      : options_(options), peaks_(family, range, trace_options(options)) {}
+      : options_(options),
+        one_frequency_(range.frequency_begin == range.frequency_end),
+        peaks_(family, range, trace_options(options)) {}
 
   Optimum run() {
     peaks_.trace();
@@ -129,11 +145,13 @@ class Search {
     // repeated; each round finds one more.
     constexpr int rounds = 4;
     for (int i = 0; i < rounds; ++i) {
-      if (!refine(followed) || peaks_.confirm(result_.best.parameter)) return finished();
+      refine(followed);
+      if (settled()) return finished();
     }
     result_.notes.emplace_back(
         "peaks followed kept missing the highest one; search on whole curves");
-    static_cast<void>(refine(on_whole_curves));
+    refine(on_whole_curves);
+    static_cast<void>(settled());
     return finished();
   }
 
@@ -153,13 +171,21 @@ class Search {
     return options_.scale == ParameterScale::logarithmic ? std::log(parameter) : parameter;
   }
 
-  static std::vector<PeakOfParameter>::const_iterator lowest(
-      const std::vector<PeakOfParameter>& peaks) {
+  static Place lowest(const std::vector<PeakOfParameter>& peaks) {
     return std::min_element(peaks.begin(), peaks.end(),
                             [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
   }
 
-  using Place = std::vector<PeakOfParameter>::const_iterator;
+  /// A value next to one at the end of those known: where it is lower, there is a minimum between.
+  void probe_beside(const std::vector<PeakOfParameter>& peaks, Place place,
+                    const PeakFunction& amplitude) {
+    if (peaks.size() < 2) return;
+    constexpr double close = 0.05;  // of the way to the neighbour
+    const Place neighbour = place == peaks.begin() ? std::next(place) : std::prev(place);
+    const double here = position(place->parameter);
+    static_cast<void>(
+        amplitude(parameter(here + close * (position(neighbour->parameter) - here))));
+  }
 
   /// The minimum between the neighbours of a peak, neither of them lower.
   void search_beside(const std::vector<PeakOfParameter>& peaks, Place place,
@@ -167,53 +193,62 @@ class Search {
     if (place == peaks.begin() || place == std::prev(peaks.end())) return;
     const Bracket bracket{position(std::prev(place)->parameter), position(place->parameter),
                           position(std::next(place)->parameter), place->amplitude};
-    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
-    const double tolerance =
-        relative_tolerance * (logarithmic ? 1.0 : options_.upper - options_.lower);
-    minimise([&](double at) { return amplitude(parameter(at)); }, bracket, tolerance);
+    minimise([&](double at) { return amplitude(parameter(at)); }, bracket,
+             on_scale(options_, relative_tolerance));
   }
 
-  /// The minimum between the neighbours of the lowest peak known. False: there is none inside.
-  bool refine(const PeakFunction& amplitude) {
-    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
-    result_.found = false;
-    if (peaks.empty()) {
-      result_.message = "no peak was found inside the frequency range for any value";
-      return false;
-    }
-    const auto least = lowest(peaks);
-    result_.best = *least;
-    if (least == peaks.begin() || least == std::prev(peaks.end())) {
-      result_.message = sentence("the smallest peak lies at the bound ", least->parameter) + "; " +
-                        valley(peaks, *least);
-      return false;
-    }
-    // Other valleys that the scan shows only roughly may be the deeper ones.
+  /// Valleys that the scan shows only roughly may be deeper than the lowest value known.
+  void search_rivals(const PeakFunction& amplitude) {
     constexpr double rough = 1e-2;
     constexpr double rival = 1.1;
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    const double limit = rival * lowest(peaks)->amplitude;
     std::vector<Place> valleys;
-    for (auto one = std::next(peaks.begin()); one != std::prev(peaks.end()); ++one) {
+    for (auto one = peaks.begin(); one != peaks.end(); ++one) {
+      if (one == peaks.begin() || std::next(one) == peaks.end()) continue;
       const bool lower =
           one->amplitude < std::prev(one)->amplitude && one->amplitude < std::next(one)->amplitude;
-      if (lower && one->amplitude < rival * least->amplitude) valleys.push_back(one);
+      if (lower && one->amplitude < limit) valleys.push_back(one);
     }
-    if (valleys.size() > 1) {
-      for (const Place one : valleys) search_beside(peaks, one, amplitude, rough);
-    }
-    const std::vector<PeakOfParameter> known = peaks_.result().peaks;
-    search_beside(known, lowest(known), amplitude, options_.relative_tolerance);
-    const std::vector<PeakOfParameter> all = peaks_.result().peaks;
-    result_.best = *lowest(all);
-    result_.found = true;
-    return true;
+    const bool only_the_lowest = valleys.size() == 1 && valleys.front() == lowest(peaks);
+    if (only_the_lowest) return;
+    for (const Place one : valleys) search_beside(peaks, one, amplitude, rough);
   }
 
-  /// Solves for where the peak is 1 % above the minimum, from the last value known to be lower towards
-  /// the first known to be higher; nothing to do where no value on that side is higher.
-  void search_edge(double direction) {
+  /// Searches the minimum between the neighbours of the lowest value known.
+  void refine(const PeakFunction& amplitude) {
+    if (peaks_.result().peaks.empty()) return;
+    search_rivals(amplitude);
+    std::vector<PeakOfParameter> known = peaks_.result().peaks;
+    const Place least = lowest(known);
+    if (least == known.begin() || least == std::prev(known.end())) {
+      probe_beside(known, least, amplitude);
+      known = peaks_.result().peaks;
+    }
+    search_beside(known, lowest(known), amplitude, options_.relative_tolerance);
+  }
+
+  /// Whether the lowest value is confirmed by its curve, and stays the lowest while the edges of its
+  /// valley are solved for.
+  bool settled() {
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    if (peaks.empty()) return true;
+    result_.best = *lowest(peaks);
+    if (!peaks_.confirm(result_.best.parameter)) return false;
+    const bool flat = flat_interval(peaks_.result().peaks).has_value();
+    for (const double direction : {-1.0, 1.0}) {
+      if (flat) search_edge(direction, the_same * result_.best.amplitude);
+      search_edge(direction, as_good * result_.best.amplitude);
+    }
+    const std::vector<PeakOfParameter> all = peaks_.result().peaks;
+    return lowest(all)->amplitude * the_same >= result_.best.amplitude;
+  }
+
+  /// Solves for where the amplitude passes a limit, from the last value known to be lower towards the first
+  /// known to be higher; nothing to do where no value on that side is higher.
+  void search_edge(double direction, double limit) {
     constexpr double enough = 2e-3;  // of the scale: an interval is told, not a number
     const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
-    const double limit = as_good * result_.best.amplitude;
     const double best = position(result_.best.parameter);
     double inside = best;
     double outside = direction * std::numeric_limits<double>::infinity();
@@ -227,32 +262,81 @@ class Search {
       const double at = position(peak.parameter);
       if ((at - inside) * direction > 0.0 && (outside - at) * direction > 0.0) inside = at;
     }
-    const bool logarithmic = options_.scale == ParameterScale::logarithmic;
-    const double tolerance = enough * (logarithmic ? 1.0 : options_.upper - options_.lower);
+    const double tolerance = on_scale(options_, enough);
     while (std::abs(outside - inside) > tolerance) {
       const double middle = 0.5 * (inside + outside);
       (peaks_.highest(parameter(middle)).amplitude <= limit ? inside : outside) = middle;
     }
   }
 
-  Optimum finished() {
-    if (result_.found) {
-      for (const double direction : {-1.0, 1.0}) search_edge(direction);
+  [[nodiscard]] std::optional<std::array<double, 2>> flat_interval(
+      const std::vector<PeakOfParameter>& trace) const {
+    const auto [first, end] = below(trace, result_.best, the_same * result_.best.amplitude);
+    const std::array<double, 2> flat{first->parameter, std::prev(end)->parameter};
+    const bool wide =
+        position(flat[1]) - position(flat[0]) > on_scale(options_, flat_width);
+    return wide ? std::optional(flat) : std::nullopt;
+  }
+
+  [[nodiscard]] bool at_bound() const {
+    // Values of the scan are made from positions and rounded.
+    const double rounding = on_scale(options_, 1e-9);
+    const double here = position(result_.best.parameter);
+    return std::abs(here - position(options_.lower)) <= rounding ||
+           std::abs(here - position(options_.upper)) <= rounding;
+  }
+
+  /// Why the lowest value is not the optimum; empty: it is.
+  [[nodiscard]] std::string objection() const {
+    if (result_.flat) {
+      return sentence("flat: the smallest amplitude is the same from ", (*result_.flat)[0]) +
+             sentence(" to ", (*result_.flat)[1]);
     }
+    if (at_bound()) return sentence("the smallest amplitude lies at the bound ", result_.best.parameter);
+    const double here = result_.best.parameter;
+    if (here == result_.trace.front().parameter || here == result_.trace.back().parameter) {
+      return sentence("beside the smallest amplitude, at ", here) +
+             ", the values searched have no solution";
+    }
+    if (!result_.best.whole_curve) {
+      return sentence("the curve at the smallest amplitude, at ", here) +
+             ", is incomplete: a higher peak may be missing";
+    }
+    if (result_.best.place == PeakPlace::unsolved) {
+      return sentence("the peak of the curve at the smallest amplitude, at ", here) +
+             ", was not solved for";
+    }
+    return "";
+  }
+
+  Optimum finished() {
     const PeakTrace trace = peaks_.result();
     result_.trace = trace.peaks;
     result_.notes.insert(result_.notes.begin(), trace.notes.begin(), trace.notes.end());
     result_.n_curves = trace.n_curves;
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;
-    if (result_.found) {
-      result_.best = *lowest(result_.trace);
-      result_.message = valley(result_.trace, result_.best);
+    if (result_.trace.empty()) {
+      result_.message = result_.objection = "no solution was found for any value";
+      return std::move(result_);
+    }
+    // The one confirmed: others of the valley are lower by rounding at most.
+    result_.best = *std::find_if(
+        result_.trace.begin(), result_.trace.end(),
+        [&](const PeakOfParameter& one) { return one.parameter == result_.best.parameter; });
+    result_.flat = flat_interval(result_.trace);
+    result_.objection = objection();
+    result_.found = result_.objection.empty();
+    result_.message = valley(result_.trace, result_.best);
+    if (!result_.found) result_.message = result_.objection + "; " + result_.message;
+    if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
+      result_.message += "; the largest amplitude lies at an end of the frequency range";
     }
     return std::move(result_);
   }
 
   OptimumOptions options_;
+  bool one_frequency_;
   PeakFamilies peaks_;
   Optimum result_;
 };

@@ -1,9 +1,11 @@
 /// @file
-/// The best value of one scene parameter: minimum over the parameter of the highest solved peak. The
-/// peaks are followed from value to value (peak_trace.hpp); the optimum itself is confirmed on a whole
-/// curve, and where that keeps failing every value is.
+/// The best value of one scene parameter: minimum over the parameter of the largest amplitude on the
+/// frequency range, its ends included. Peaks and ends are followed from value to value (peak_trace.hpp);
+/// the optimum itself is confirmed on a whole curve, and where that keeps failing every value is.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +15,14 @@ namespace microslip::solver {
 
 struct Optimum {
   PeakOfParameter best;
-  std::vector<PeakOfParameter> trace;  ///< all peaks solved, sorted by parameter
-  bool found = false;  ///< false: minimum at an end of the bracket, or peaks not found
-  /// Found: the interval that is as good to 1 % among the peaks solved, and minima nearly as good
-  /// elsewhere; else why not.
+  std::vector<PeakOfParameter> trace;  ///< all values solved for, sorted by parameter
+  bool found = false;  ///< false: minimum at a bound of the parameter, flat, or not confirmed
+  /// Where the minimum does not depend on the parameter: the interval over which it is the same; `best` is
+  /// then one of many.
+  std::optional<std::array<double, 2>> flat;
+  std::string objection;  ///< why not found; empty: found
+  /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly as good
+  /// elsewhere, and whether an end of the frequency range counts.
   std::string message;
   std::vector<std::string> notes;  ///< see PeakTrace
   int n_curves = 0;                ///< traced whole

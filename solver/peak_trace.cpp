@@ -22,7 +22,7 @@ constexpr double finest = 1.0 / 64.0;
 // A pair of peaks closer than this share of the step ahead tells rounding errors, not a direction.
 constexpr double shortest_base = 0.05;
 constexpr std::size_t most_seeds =
-    4;  // peaks of one curve that are followed, from the highest down
+    4;  // peaks and ends of one curve that are followed, from the highest down
 // A peak lost below this share of the highest cannot become the highest within one step.
 constexpr double of_interest = 0.5;
 
@@ -94,16 +94,42 @@ void PeakFamilies::note(const std::string& text, double position) {
   result_.notes.push_back(stream.str());
 }
 
-PeakOfParameter PeakFamilies::highest_at(double position) const {
-  PeakOfParameter best{parameter(position), 0.0, -1.0, curves_.contains(position)};
+const LocalPeak* PeakFamilies::highest_followed(double position) const {
+  const LocalPeak* best = nullptr;
   for (const Peaks& peaks : families_) {
     const auto peak = peaks.find(position);
-    if (peak == peaks.end() || peak->second.amplitude <= best.amplitude) continue;
-    best.amplitude = peak->second.amplitude;
-    best.frequency = peak->second.point.parameter;
+    if (peak == peaks.end()) continue;
+    if (best == nullptr || peak->second.amplitude > best->amplitude) best = &peak->second;
   }
-  if (best.amplitude < 0.0) best.amplitude = std::numeric_limits<double>::infinity();
   return best;
+}
+
+PeakOfParameter PeakFamilies::highest_at(double position) const {
+  PeakOfParameter best{parameter(position), 0.0, std::numeric_limits<double>::infinity()};
+  const LocalPeak* followed = highest_followed(position);
+  if (followed != nullptr) {
+    best.amplitude = followed->amplitude;
+    best.frequency = followed->point.parameter;
+    best.place = followed->place;
+  }
+  const auto curve = curves_.find(position);
+  if (curve == curves_.end()) return best;
+  best.whole_curve = curve->second.complete;
+  if (curve->second.high.empty()) return best;
+  const HighPoint& solved = curve->second.high.front();
+  if (followed == nullptr || solved.point.amplitude > (1.0 + same_amplitude) * best.amplitude) {
+    best.amplitude = solved.point.amplitude;
+    best.frequency = solved.point.frequency;
+    best.place = solved.place;
+  }
+  return best;
+}
+
+/// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
+bool PeakFamilies::needs_curve(double position) const {
+  if (curves_.contains(position)) return false;
+  const LocalPeak* followed = highest_followed(position);
+  return followed == nullptr || followed->rises;
 }
 
 const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
@@ -115,14 +141,15 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
   if (!curve.complete) note("curve incomplete (" + curve.diagnosis + ")", position);
-  Curve kept;
-  kept.complete = curve.complete;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(kept.peaks),
-               [](const ResponsePoint& point) { return point.mark == PointMark::peak; });
-  std::stable_sort(kept.peaks.begin(), kept.peaks.end(),
-                   [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
-  if (choosing_.harmonic_tolerance > 0.0 && !kept.peaks.empty() &&
-      left_out_at(scene, kept.peaks.front(), choosing_) > choosing_.harmonic_tolerance) {
+  Curve kept{high_points(scene, curve, range_), curve.complete};
+  if (std::any_of(kept.high.begin(), kept.high.end(), [](const auto& one) { return one.climbed; })) {
+    note("a peak that the curve passes was solved for from the points beside it", position);
+  }
+  if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
+    note("the highest point of the curve is not a solved peak: the peak may be higher", position);
+  }
+  if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
+      left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {
     note("the highest peak lacks harmonics that the checks did not need", position);
   }
   return curves_.emplace(position, std::move(kept)).first->second;
@@ -130,9 +157,9 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
 
 bool PeakFamilies::agrees(const Peaks& peaks, double position) const {
   const LocalPeak& here = peaks.at(position);
-  const std::vector<ResponsePoint>& solved = curves_.at(position).peaks;
+  const std::vector<HighPoint>& solved = curves_.at(position).high;
   return std::any_of(solved.begin(), solved.end(),
-                     [&](const ResponsePoint& peak) { return same(here, peak); });
+                     [&](const HighPoint& peak) { return same(here, peak.point); });
 }
 
 bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
@@ -253,12 +280,16 @@ void PeakFamilies::seed(double position) {
   }
   const Scene scene = family_(parameter(position));
   const HarmonicBalance balance(scene, first_harmonics(scene, range_));
-  for (std::size_t i = 0; i < std::min(most_seeds, curve.peaks.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_seeds, curve.high.size()); ++i) {
+    const HighPoint& high = curve.high[i];
     const bool known = std::any_of(families_.begin(), families_.end(), [&](const Peaks& peaks) {
       const auto here = peaks.find(position);
-      return here != peaks.end() && same(here->second, curve.peaks[i]);
+      return here != peaks.end() && same(here->second, high.point);
     });
-    std::optional<LocalPeak> peak = known ? std::nullopt : local_peak(balance, curve.peaks[i]);
+    if (known || high.place == PeakPlace::unsolved) continue;
+    std::optional<LocalPeak> peak = high.place == PeakPlace::peak
+                                        ? local_peak(balance, high.point)
+                                        : local_end(balance, high.point, range_);
     if (!peak) continue;
     families_.push_back({{position, std::move(*peak)}});
     follow_values(families_.size() - 1, position, 1.0);
@@ -282,7 +313,7 @@ void PeakFamilies::trace() {
   settle();
   for (int i = 0; i <= last; ++i) {
     const double here = value_position(i);
-    if (curves_.contains(here) || std::isfinite(highest_at(here).amplitude)) continue;
+    if (!needs_curve(here)) continue;
     seed(here);
     settle();
   }
@@ -307,9 +338,9 @@ bool PeakFamilies::confirm(double parameter) {
   seed(here);
   settle();
   const Curve& curve = curve_at(here);
-  if (!curve.complete || curve.peaks.empty())
+  if (!curve.complete || curve.high.empty())
     return true;  // named in the notes; nothing better is known
-  const double solved = curve.peaks.front().amplitude;
+  const double solved = curve.high.front().point.amplitude;
   const bool confirmed = std::abs(followed - solved) <= same_amplitude * solved;
   if (!confirmed) note("the curve has another highest peak than those followed", here);
   return confirmed;

@@ -1,11 +1,13 @@
 /// @file
-/// Peak against parameter: the highest resonance peak of a family of scenes, carried from value to value
-/// as an unknown (local_peak.hpp) instead of being searched on a whole curve for each.
+/// Peak against parameter: the largest amplitude over a frequency range of a family of scenes, carried from
+/// value to value as an unknown (local_peak.hpp) instead of being searched on a whole curve for each.
 ///
-/// Every peak of the curves at a few values of the parameter ("checks") is followed both ways; the
-/// result is the highest of all. What following alone cannot see is caught by the checks:
+/// Every peak of the curves at a few values of the parameter ("checks"), and the solution at either end of
+/// the range, is followed both ways; the result is the highest of all. Peaks thus may enter and leave the
+/// range: there an end is the highest. What following alone cannot see is caught by the checks:
 ///
 ///   a peak that appears or overtakes   it stands on the curve of a check and is followed back from there
+///   a peak that enters the range       the amplitude at the end grows into it: the curve is traced whole
 ///   a peak that vanishes or jumps      following stops, the curve there is traced whole
 ///   a branch that comes off the curve  its peak is missing on the curve of the next check; all values up to
 ///                                      the last agreement are traced whole
@@ -23,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/high_points.hpp"
 #include "solver/local_peak.hpp"
 
 namespace microslip::solver {
@@ -37,7 +40,8 @@ struct PeakOfParameter {
   double frequency = 0.0;  ///< [rad/s]
   double amplitude = 0.0;  ///< [m]
   bool whole_curve =
-      false;  ///< the peak is the highest of a whole curve, not only of those followed
+      false;  ///< the peak is the highest of a complete curve, not only of those followed
+  PeakPlace place = PeakPlace::peak;  ///< what has this amplitude
 };
 
 struct PeakTraceOptions {
@@ -49,7 +53,7 @@ struct PeakTraceOptions {
 };
 
 struct PeakTrace {
-  std::vector<PeakOfParameter> peaks;  ///< sorted by parameter; values without a peak are left out
+  std::vector<PeakOfParameter> peaks;  ///< sorted by parameter; values without a solution are left out
   std::vector<std::string> notes;      ///< what following met, in words; the fall-backs among them
   int n_curves = 0;                    ///< traced whole
   long iterations = 0;
@@ -67,8 +71,8 @@ class PeakFamilies {
 
   /// Follows all peaks over all values.
   void trace();
-  /// The highest peak at any value between the bounds, followed from the nearest values; +∞ amplitude
-  /// where there is none.
+  /// The highest of peaks and ends at any value between the bounds, followed from the nearest values; +∞
+  /// amplitude where no solution is known.
   [[nodiscard]] PeakOfParameter highest(double parameter);
   /// Traces the curve at a value whole. True: it confirms what highest() says there; else the peaks
   /// missing are followed from here on.
@@ -77,9 +81,9 @@ class PeakFamilies {
   [[nodiscard]] PeakTrace result() const;
 
  private:
-  using Peaks = std::map<double, LocalPeak>;  // what one peak is, by position
+  using Peaks = std::map<double, LocalPeak>;  // what one peak or end is, by position
   struct Curve {
-    std::vector<ResponsePoint> peaks;  // from the highest down
+    std::vector<HighPoint> high;  // from the highest down
     bool complete = false;
   };
 
@@ -89,7 +93,9 @@ class PeakFamilies {
   [[nodiscard]] double parameter(double position) const;
   [[nodiscard]] double value_position(int index) const;
   [[nodiscard]] double check_position(int index) const;
+  [[nodiscard]] const LocalPeak* highest_followed(double position) const;
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
+  [[nodiscard]] bool needs_curve(double position) const;
   const Curve& curve_at(double position);
   void seed(double position);
   void settle();

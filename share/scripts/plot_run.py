@@ -57,11 +57,11 @@ STATES = [
 
 
 def read_table(path):
-    """Columns of a CSV file by name: floats, with `mark` as text."""
+    """Columns of a CSV file by name: floats, with `mark` and `at` as text."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     names = rows[0].keys() if rows else []
-    return {name: [row[name] for row in rows] if name == "mark"
+    return {name: [row[name] for row in rows] if name in ("mark", "at")
             else np.array([number_in(row[name], path, line, name) for line, row in enumerate(rows, 2)])
             for name in names}
 

@@ -144,5 +144,24 @@ TEST(WriteCsv, OptimumIsMarkedInItsTrace) {
   EXPECT_EQ(rows[2].front(), "20");
 }
 
+TEST(WriteCsv, TraceTellsEndsOfTheRangeAndAFlatMinimum) {
+  const synthetic::Folder folder("write_flat");
+  solver::Optimum optimum;
+  optimum.trace = {{10.0, 100.0, 3.0}, {20.0, 110.0, 1.0}, {30.0, 110.0, 1.0}};
+  optimum.trace[0].place = solver::PeakPlace::range_end;
+  optimum.best = optimum.trace[1];
+  optimum.flat = {20.0, 30.0};
+  write_optimum_csv(folder.path(), {"contact.friction_coefficient", std::nullopt, 0.0}, optimum);
+  const auto rows = rows_of(std::ifstream(folder.path() / "peak_against_parameter.csv"));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0], (Row{"value", "frequency_Hz", "amplitude_m", "at", "mark"}));
+  EXPECT_EQ(rows[1][3], "range_end");
+  EXPECT_EQ(rows[1].back(), "");
+  for (const std::size_t i : {2U, 3U}) {
+    EXPECT_EQ(rows[i][3], "peak");
+    EXPECT_EQ(rows[i].back(), "flat");
+  }
+}
+
 }  // namespace
 }  // namespace microslip::pipelines

@@ -48,7 +48,8 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   OptimumSummary& found = run.optimum.emplace();
   found.request.key = "preload";
   found.optimum = optimum;
-  found.bracket = {{"contact_stiffness", 2.0, optimum.trace[2], true}};
+  found.bracket.entries = {{"contact_stiffness", 2.0, optimum}};
+  found.bracket.left_out = {"friction_coefficient: friction is a law of the slip speed"};
   write_optimum_csv(folder, found.request, optimum);
   for (const CurveResult& curve : curves) {
     write_curve(folder, curve, synthetic::n_modes);
@@ -86,6 +87,7 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("| 100 | 305.0000 | 5e-05 |"), std::string::npos) << report;
   EXPECT_NE(report.find("| free | 296.0000 | 0.0002 |"), std::string::npos) << report;
   EXPECT_NE(report.find("Best preload: 200 N"), std::string::npos) << report;
+  EXPECT_NE(report.find("Not varied: friction_coefficient"), std::string::npos) << report;
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
 

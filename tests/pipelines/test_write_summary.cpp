@@ -28,6 +28,7 @@ RunSummary small_run() {
                 summarise({"free", LimitName::free, {}, {}})};
   solver::Optimum optimum;
   optimum.best = {5e4, 2.0 * std::numbers::pi * 310.0, 3e-5};
+  optimum.trace = {optimum.best};
   optimum.found = true;
   run.optimum.emplace();
   run.optimum->request.key = "preload";

@@ -33,11 +33,11 @@ PeakTraceOptions between(double lower, double upper, int n_values) {
   return options;
 }
 
-/// The highest peak of a whole curve; 0: none.
+/// The largest amplitude of a whole curve, ends of the range included.
 double highest_of_curve(const Scene& scene, const ContinuationOptions& options) {
   double highest = 0.0;
   for (const auto& point : trace_response(scene, options).points) {
-    if (point.mark == PointMark::peak) highest = std::max(highest, point.amplitude);
+    highest = std::max(highest, point.amplitude);
   }
   return highest;
 }
@@ -137,6 +137,27 @@ TEST(PeakTrace, OfRandomScenesIsThatOfWholeCurves) {
     }
   }
   EXPECT_GT(values, 20);
+}
+
+TEST(PeakTrace, OfPeaksThatEnterAndLeaveTheRangeIsThatOfWholeCurves) {
+  int at_an_end = 0;
+  int at_a_peak = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    ContinuationOptions options = tests::random_scene(seed).options;
+    const double width = options.frequency_end - options.frequency_begin;
+    options.frequency_begin += 0.35 * width;
+    options.frequency_end -= 0.35 * width;
+    const auto family = [&](double factor) { return with_preload(seed, factor); };
+    const PeakTrace trace = trace_peaks(family, options, between(0.1, 10.0, 9));
+    EXPECT_EQ(trace.peaks.size(), 9U) << seed;
+    for (const PeakOfParameter& peak : trace.peaks) {
+      (peak.place == PeakPlace::range_end ? at_an_end : at_a_peak) += 1;
+      const double whole = highest_of_curve(family(peak.parameter), options);
+      EXPECT_NEAR(peak.amplitude, whole, 1e-8 * whole) << seed << " factor " << peak.parameter;
+    }
+  }
+  EXPECT_GT(at_an_end, 5);
+  EXPECT_GT(at_a_peak, 5);
 }
 
 }  // namespace
