@@ -4,30 +4,15 @@
 #include <cmath>
 
 #include "contact/bracketed_root.hpp"
+#include "contact/planar_stick.hpp"
 
 namespace microslip::contact {
 namespace {
 
 using Eigen::Vector2d;
 
-/// What |K (x − s)| may exceed r by and still count as stuck: rounding of numbers of order one.
-constexpr double stick_slack = 4e-15;
 /// Shortest advance of a walk that would otherwise not move: what it skips is below rounding.
 constexpr double shortest_step = 1e-11;
-
-/// Guard of a stuck point, |F| − r with F = K (x − s), and its rate.
-struct Guard {
-  double value = 0.0;
-  double rate = 0.0;
-};
-
-Guard stick_guard(const PlanarInstant& now, const Vector2d& slider) {
-  const Vector2d force = now.force(slider);
-  const Vector2d force_rate = now.force_rate(slider);
-  const double size = force.norm();
-  const double growth = size > stick_slack ? force.dot(force_rate) / size : force_rate.norm();
-  return {size - now.radius, growth - now.radius_rate};
-}
 
 /// Length of a step for a tolerance. The share of the highest polynomial falls as εⁿ with its degree n,
 /// so that the error of a step, of degree nine, is its power 9/5; 3/2 leaves room.
@@ -134,76 +119,9 @@ class Walk {
         time_ == interval_->begin ? interval_->grid.front() : motion_.at(time_);
     open_piece(ContactState::stick, entry_, now);
     entry_ = PlanarEntry::continued;
-    time_ = end_of_stick(now);
+    time_ = end_of_stick(motion_, *interval_, slider_, now);
     slipping_ = time_ < interval_->end;
     orbit_.pieces.back().end = time_;
-  }
-
-  [[nodiscard]] double end_of_stick(const PlanarInstant& from) const {
-    const auto& grid = interval_->grid;
-    const auto after = [](double phase, const PlanarInstant& x) { return phase < x.phase; };
-    PlanarInstant low = from;
-    for (auto next = std::upper_bound(grid.begin(), grid.end(), from.phase, after);
-         next != grid.end(); ++next) {
-      const double found = breach_in_cell(low, *next);
-      if (found <= next->phase) return found;
-      low = *next;
-    }
-    return interval_->end;
-  }
-
-  [[nodiscard]] double force_growth(const PlanarInstant& now) const {
-    return now.force(slider_).dot(now.force_rate(slider_));
-  }
-
-  /// First phase at which the guard of stick is broken, or beyond the cell. Where the force passes
-  /// through a minimum the guard may have an edge: both sides are looked at.
-  [[nodiscard]] double breach_in_cell(const PlanarInstant& low, const PlanarInstant& high) const {
-    const double growth_low = force_growth(low);
-    const double growth_high = force_growth(high);
-    if (!(growth_low < 0.0 && growth_high > 0.0)) return breach_between(low, high);
-    const auto growth = [this](double phase) { return force_growth(motion_.at(phase)); };
-    const double smallest = bracketed_root(growth, low.phase, high.phase, growth_low, growth_high);
-    const double aside = 1e-6 * (high.phase - low.phase);  // the force is no larger in between
-    const PlanarInstant left = motion_.at(std::max(smallest - aside, low.phase));
-    const PlanarInstant right = motion_.at(std::min(smallest + aside, high.phase));
-    const double found = breach_between(low, left);
-    return found <= left.phase ? found : breach_between(right, high);
-  }
-
-  /// Whether the cubic through two guards and their rates comes closer to 0 than half of what it varies by:
-  /// then a peak between them may pass it.
-  static bool may_peak(const Guard& a, const Guard& b, double length) {
-    const auto [low, high] = std::minmax(
-        {a.value, a.value + a.rate * length / 3.0, b.value - b.rate * length / 3.0, b.value});
-    return high > 0.5 * (low - high);
-  }
-
-  /// The same where the force has no minimum inside.
-  /// @param depth  how often the cell may be halved.
-  [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high,
-                                      int depth = 5) const {
-    const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
-    const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
-    const Guard before = guard(low);
-    const Guard after = guard(high);
-    const bool peaks = before.rate > 0.0 && after.rate < 0.0;
-    if (after.value <= stick_slack && !peaks && depth > 0 &&
-        may_peak(before, after, high.phase - low.phase)) {
-      const PlanarInstant middle = motion_.at(0.5 * (low.phase + high.phase));
-      const double found = breach_between(low, middle, depth - 1);
-      return found <= middle.phase ? found : breach_between(middle, high, depth - 1);
-    }
-    double end = high.phase;
-    double value = after.value - stick_slack;
-    if (value <= 0.0 && peaks) {
-      const auto rate = [&](double phase) { return guard(motion_.at(phase)).rate; };
-      end = bracketed_root(rate, low.phase, end, before.rate, after.rate);
-      value = excess(end);
-    }
-    if (value <= 0.0) return high.phase + 1.0;
-    const double start = before.value - stick_slack;
-    return start < 0.0 ? bracketed_root(excess, low.phase, end, start, value) : low.phase;
   }
 
   void slip() {

@@ -5,9 +5,9 @@
 ///   slip       by collocation (planar_slip.hpp) until the slip rate ρ falls to 0
 ///   separated  no force; s = x where contact begins, slipping at once if |K x'| > r'
 ///
-/// The end of stick is bracketed on samples and on the maximum between two of them, and found to
-/// rounding. The end of slip is solved for as the length of a last step. Steps are chosen so that the
-/// error of forces and slider is about the tolerance; measured factors are in the tests.
+/// The end of stick is found to rounding (planar_stick.hpp). The end of slip is solved for as the length of a
+/// last step. Steps are chosen so that the error of forces and slider is about the tolerance; measured
+/// factors are in the tests.
 #pragma once
 
 #include <cstdint>

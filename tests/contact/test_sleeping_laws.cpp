@@ -204,7 +204,9 @@ TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
   Seen gaussian;
   expect_same(random_patch(50, make(RoughSurface::matching_gaussian(0.5)), Directions::one, random),
               2, rounding, random, gaussian);
-  EXPECT_EQ(gaussian.least, 1.0);
+  // Nine deviations beyond the mean height they are open as well.
+  EXPECT_LT(gaussian.least, 0.9);
+  EXPECT_GT(gaussian.least, 0.5);
 }
 
 // Whatever was asked before.
