@@ -11,7 +11,8 @@
 ///
 ///   δ = −J⁻¹R / (1 + gᵀ J⁻¹R)
 ///
-/// What is found is followed both ways to the ends of its branch; at a single frequency it is a point. Nothing found proves nothing.
+/// What is found is followed both ways to the ends of its branch; at a single frequency it is a point.
+/// Nothing found proves nothing.
 ///
 /// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015) A2026,
 /// power 2, shift 1; starts and following are this project's.
