@@ -283,6 +283,9 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
     summary.preload_scale = *scale;
     summary.preload = *scale * model.weights.dot(model.preload);
   }
+  if (curve.complete && !curve.message.empty()) {
+    progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
+  }
   if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);

@@ -251,6 +251,9 @@ constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, f
                              "harmonic_balance | time: integrated to the steady state, frequencies swept from → to"};
 constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
                                   "of method = \"time\": number of frequencies; continuation chooses its own"};
+constexpr KeySpec steps_key{
+    "steps_per_period", integer, "", "0", 0, 10'000'000, false,
+    "of method = \"time\": fixed steps of fourth-order Runge-Kutta as in paper B; 0: every change of contact located"};
 constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false,
                                 "highest harmonic, a list such as [1, 3, 5], or \"auto\": chosen point by point"};
 constexpr KeySpec harmonic_tolerance_key{
@@ -285,8 +288,9 @@ constexpr auto joined(const std::array<KeySpec, sizes>&... parts) {
 }
 
 // What every kind has in common, so that a key added here is known to all of them.
-constexpr std::array method_keys{frequency_key, method_key,             time_points_key,
-                                 harmonics_key, harmonic_tolerance_key, search_key};
+constexpr std::array method_keys{frequency_key, method_key,    time_points_key,
+                                 steps_key,     harmonics_key, harmonic_tolerance_key,
+                                 search_key};
 constexpr std::array result_keys{optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key};
 
 constexpr auto loaded_keys = joined(method_keys, std::array{preload_key}, result_keys);

@@ -23,22 +23,50 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   return frequencies;
 }
 
-void mark_peak(solver::ResponseCurve& curve) {
-  const auto best = std::max_element(
-      curve.points.begin(), curve.points.end(),
-      [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
-  // Read off the list of frequencies, not solved for: an end of it is no peak.
-  if (curve.points.size() > 2 && best != curve.points.begin() && best + 1 != curve.points.end()) {
-    best->mark = solver::PointMark::peak;
+solver::TimeOptions options_of(const ResponseDescription& response) {
+  solver::TimeOptions options;
+  options.n_harmonics = std::max(response.harmonics, least_harmonics_of_time);
+  if (response.steps_per_period > 0) {
+    options.method = solver::TimeMethod::rk4;
+    options.steps_per_period = response.steps_per_period;
   }
+  return options;
 }
+
+/// What is no periodic motion, or has another period than the excitation.
+struct Irregular {
+  int n_aperiodic = 0;
+  int n_subharmonic = 0;
+  double first = 0.0;  ///< subharmonic [rad/s]
+
+  void add(const solver::TimePoint& point) {
+    if (!point.periodic) ++n_aperiodic;
+    if (point.period_multiple <= 1) return;
+    if (n_subharmonic++ == 0) first = point.response.frequency;
+  }
+
+  void tell(const solver::TimeOptions& options, solver::ResponseCurve& curve) const {
+    const auto n = static_cast<int>(curve.points.size()) + n_aperiodic;
+    curve.complete = n_aperiodic == 0;
+    if (n_aperiodic > 0) {
+      curve.diagnosis = "not-periodic";
+      curve.message = fmt::format("{} of {} frequencies have no periodic motion within {} periods",
+                                  n_aperiodic, n, options.max_periods);
+    }
+    if (n_subharmonic == 0) return;
+    if (!curve.message.empty()) curve.message += "; ";
+    curve.message += fmt::format(
+        "at {} of {} frequencies, the first {:.6g} Hz, the motion repeats after several periods of the "
+        "excitation only: not the solution of harmonic balance there (stable = -1)",
+        n_subharmonic, n, first / (2.0 * std::numbers::pi));
+  }
+};
 
 solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescription& response,
                             const solver::PointObserver& observe) {
-  solver::TimeOptions options;
-  options.n_harmonics = std::max(response.harmonics, least_harmonics_of_time);
+  const solver::TimeOptions options = options_of(response);
   solver::ResponseCurve curve;
-  int n_left_out = 0;
+  Irregular irregular;
   solver::TimeState state;
   bool started = false;
   for (const double frequency : swept_frequencies(response)) {
@@ -48,10 +76,8 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescriptio
     try {
       const solver::TimePoint point = solver::integrate_to_steady_state(system, options, state);
       curve.iterations += point.n_periods;
-      if (!point.periodic) {
-        ++n_left_out;
-        continue;
-      }
+      irregular.add(point);
+      if (!point.periodic) continue;
       curve.points.push_back(point.response);
     } catch (const solver::TimeError& error) {
       curve.diagnosis = error.diagnosis();
@@ -63,14 +89,7 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescriptio
       return curve;
     }
   }
-  curve.complete = n_left_out == 0;
-  if (n_left_out > 0) {
-    curve.diagnosis = "not-periodic";
-    curve.message = fmt::format("{} of {} frequencies have no periodic motion within {} periods",
-                                n_left_out, n_left_out + static_cast<int>(curve.points.size()),
-                                options.max_periods);
-  }
-  mark_peak(curve);
+  irregular.tell(options, curve);
   return curve;
 }
 

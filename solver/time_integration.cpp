@@ -34,7 +34,7 @@ void fill_response(const TimeSystem& system, const TimeRecorder& recorder, TimeP
   response.mean = output.mean;
   response.phase = output.phase;
   response.report = recorder.report();
-  response.stability = point.periodic ? Stability::stable : Stability::not_assessed;
+  response.stability = point.period_multiple == 1 ? Stability::stable : Stability::not_assessed;
   response.iterations = point.n_periods;
   point.work = recorder.work();
   const PeriodWork& w = point.work;

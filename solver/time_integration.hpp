@@ -19,7 +19,7 @@ struct TimePoint {
   /// As far as it applies: harmonics, `amplitude` as half the peak-to-peak value of the motion itself,
   /// first harmonic, mean, phase; `residual` the distance to the periodic motion against its size;
   /// `energy_imbalance` and `dissipation_mismatch` from the work of forces and sliders; contact report;
-  /// stable = 1 when periodic, not assessed else; `iterations` the periods integrated.
+  /// stable = 1 with the period of the excitation, not assessed else; `iterations` the periods integrated.
   ResponsePoint response;
   bool periodic = false;          ///< with period 1 to 4
   int period_multiple = 0;        ///< 1: the period of the excitation; 0: none was found
