@@ -496,12 +496,12 @@ def layout_of(contact):
     return 3 * 2.9 + 1.2, 2 * (2.9 * ratio + 0.6) + 0.8
 
 
-def state_legend(figure, contact):
+def state_legend(figure, contact, lines=()):
     present = set(np.unique(contact.state)) | {0, 1, 2, 3}
     handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
                for value, name, colour in STATES if value in present]
     handles += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
-                for guard, (name, style) in GUARDS.items() if guard in contact.lines]
+                for guard, (name, style) in GUARDS.items() if guard in lines]
     legend_below(figure, handles)
 
 
@@ -582,7 +582,7 @@ def plot_map(path, folder, title):
     else:
         row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
         figure = plot_row(contact) if row else plot_patch(contact)
-        state_legend(figure, contact)
+        state_legend(figure, contact, contact.lines)
     unit, size = length_unit(contact.amplitude)
     stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
     figure.suptitle(f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}", x=0.01,
