@@ -20,6 +20,10 @@ constexpr int most_periods = 60;
 /// The same for a march without help, at the corner of two ellipses.
 constexpr int longest_march = 300;
 
+/// The same where it is to tell rest from hardly any slip: a march that rests does so after a few periods, at
+/// the corner it finds; one that creeps for longer tells nothing, and Newton's slider stands.
+constexpr int deciding_march = 12;
+
 /// Slip of a period that may be what is left of a search that ends at the tolerance, whatever the angle
 /// between the edges it is pushed by: their corner loses the root of it at the most.
 constexpr double hardly_any = 1e-4;
@@ -112,12 +116,12 @@ class FixedPoint {
 
   SteadyOrbit solve() {
     SteadyOrbit steady = iterate();
-    bool stuck = !steady.orbit.slips || rests_;
+    bool stuck = !steady.orbit.slips || (rests_ && !helped_);
     if (helped_ && (stuck || hardly_slips(steady.orbit))) {
       // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips
       // still is the little it has not converged by. Where the march rests is told by the march
       // alone.
-      SteadyOrbit marched = march();
+      SteadyOrbit marched = march(stuck ? longest_march : deciding_march);
       stuck = stuck || !marched.orbit.slips;
       if (stuck) steady = std::move(marched);
     }
@@ -175,10 +179,10 @@ class FixedPoint {
   }
 
   /// From the virgin slider, period by period, until it no longer moves.
-  SteadyOrbit march() {
+  SteadyOrbit march(int most) {
     SteadyOrbit steady;
     Vector2d slider = motion_.virgin_slider();
-    for (int period = 0; period < longest_march; ++period) {
+    for (int period = 0; period < most; ++period) {
       if (period > 0) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
