@@ -31,8 +31,9 @@ constexpr double searches_of_an_optimum = 5 * 6.0;
 constexpr double closed_form_cost = 1.4e-6;
 constexpr double event_cost = 1e-5;
 constexpr double planar_cost = 1.5e-4;
+constexpr double chosen_cost = 5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
 constexpr double iterations_per_curve = 350.0;
-// Cells that cost as much as a rule fitted to the motion: 40 to 80 times the default 300 on the blade.
+// Cells that cost as much as a rule fitted to the motion: 40 to 70 times the default 300 on the blade.
 constexpr double fitted_cells = 18'000.0;
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 
@@ -48,7 +49,9 @@ double curve_seconds(const SceneDescription& scene, bool second_direction) {
                           : modal != nullptr ? static_cast<double>(modal->points.size())
                                              : 0.0;
   const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
-  const double cost = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
+  const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
+  const bool chosen = scene.response->harmonic_tolerance > 0.0;
+  const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
   return iterations_per_curve * n_points * cost;
 }
 

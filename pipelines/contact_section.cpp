@@ -91,6 +91,7 @@ FieldDescription field_in(SectionReader& s, std::string_view key,
     }
     if (expression) {
       field.value = FieldExpression{*text};
+      static_cast<void>(Field(field));  // its mistakes are those of the scene
       return field;
     }
     const std::filesystem::path file = *text;
@@ -110,6 +111,7 @@ FieldDescription field_in(SectionReader& s, std::string_view key,
     field.value = to_si(text, unit);
   } catch (const UnitError&) {  // no quantity, so an expression: its own messages follow
     field.value = FieldExpression{text};
+    static_cast<void>(Field(field));
   }
   return field;
 }

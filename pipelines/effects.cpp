@@ -128,6 +128,16 @@ std::vector<std::string> scene_warnings(const SceneDescription& scene) {
           kinetic, law->at_rest()));
     }
   }
+  if (!scene.response) return warnings;
+  const auto [low, high] =
+      std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
+  for (const MapEntry& entry : scene.response->maps) {
+    const auto* frequency = std::get_if<double>(&entry);
+    if (frequency == nullptr || (*frequency >= low && *frequency <= high)) continue;
+    warnings.push_back(fmt::format(
+        "response.maps: {:g} Hz lies outside the range {:g} to {:g} Hz: there will be no map of it",
+        *frequency, low, high));
+  }
   return warnings;
 }
 

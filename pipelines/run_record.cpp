@@ -155,7 +155,8 @@ int RunRecord::run(const std::function<void()>& stages) {
       if (stop.stop_requested()) return;
       std::this_thread::sleep_for(20ms);
     }
-    fail(ExitCode::incomplete, "interrupted");  // a library is in the way: end here
+    keep_unfinished();
+    fail(ExitCode::incomplete, "interrupted");  // a library or a long evaluation is in the way: end here
     std::_Exit(static_cast<int>(ExitCode::incomplete));
   });
   try {
@@ -317,11 +318,46 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   if (curve.complete && !curve.message.empty()) {
     progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
   }
+  for (const solver::DetachedBranch& branch : curve.detached) {
+    const auto highest = std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
+    if (highest == branch.points.end()) continue;
+    progress_.info(fmt::format(
+        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}", result.name,
+        branch.points.size() == 1 ? "another solution"
+                                  : fmt::format("a branch of {} points", branch.points.size()),
+        highest->amplitude, to_hz * highest->frequency,
+        highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
+  }
   if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
+  unfinished_.erase(result.name);
   summary_.curves.push_back(std::move(summary));
   write_curve(folder_, result, model.frequency.size());
+}
+
+void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+                           const solver::ResponsePoint& point) {
+  const std::lock_guard lock(mutex_);
+  CurveResult& result = unfinished_[curve];
+  result.name = curve;
+  result.preload = preload;
+  result.curve.points.push_back(point);
+  result.curve.iterations += point.iterations;
+}
+
+void RunRecord::keep_unfinished() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [name, result] : unfinished_) {
+    solver::ResponseCurve& curve = result.curve;
+    curve.diagnosis = "interrupted";
+    curve.message = fmt::format("stopped at {:.8g} Hz", to_hz * curve.points.back().frequency);
+    progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
+                               curve.points.size(), curve.message));
+    summary_.curves.push_back(summarise(result));
+    write_curve(folder_, result, curve.points.back().q.rows().cols());
+  }
+  unfinished_.clear();
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {

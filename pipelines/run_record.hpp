@@ -6,9 +6,11 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "pipelines/progress.hpp"
 #include "pipelines/run_results.hpp"
@@ -54,6 +56,11 @@ class RunRecord {
   void keep_harmonics(const SceneDescription& scene);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
+  /// A point of a curve that is being solved: kept, should the process have to end within it.
+  void note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+                  const solver::ResponsePoint& point);
+  /// Writes the curves that note_point() has points of and keep_curve() has not seen, as interrupted.
+  void keep_unfinished();
   /// A modal scene's scale is told as the total force it means.
   void keep_curve(const CurveResult& result, const ReducedModel& model);
   void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
@@ -89,6 +96,7 @@ class RunRecord {
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
   RunSummary summary_;
+  std::map<std::string, CurveResult> unfinished_;  ///< under mutex_
   std::optional<Structure> structure_;
   int lock_ = -1;
 };

@@ -103,6 +103,20 @@ std::string gap_text(const Json& curve) {
       preload_text(curve), pressed, pressed - gaps);
 }
 
+/// A sentence where the search found other solutions.
+std::string detached_text(const Json& curve) {
+  const long n = curve.value("detached_branches", 0L);
+  if (n == 0) return {};
+  const std::string name = curve.at("name").get<std::string>();
+  std::string files;
+  for (long i = 1; i <= n; ++i) {
+    files += fmt::format("{}[{}_detached_{}](curves/{}_detached_{}.csv)", i > 1 ? ", " : "", name, i, name, i);
+  }
+  return fmt::format("\nPreload {}: the search found {} beside this curve: {}.\n", preload_text(curve),
+                     n == 1 ? "another branch or solution" : fmt::format("{} other branches or solutions", n),
+                     files);
+}
+
 /// Value, amplitude and frequency of a best peak as cells of a table.
 std::string optimum_cells(const Json& peak) {
   if (peak.at("amplitude_m").is_null()) return "– | – | – |\n";
@@ -150,7 +164,7 @@ std::string curves_text(const Json& run) {
       "| preload [N] | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n"
       "|---:|---:|---:|---|---|---|\n";
   for (const Json& curve : run.at("curves")) text += curve_row(curve);
-  for (const Json& curve : run.at("curves")) text += gap_text(curve);
+  for (const Json& curve : run.at("curves")) text += gap_text(curve) + detached_text(curve);
   if (const Json& optimum = run.at("optimum"); !optimum.is_null()) text += optimum_text(optimum);
   return text;
 }

@@ -111,5 +111,16 @@ TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
   EXPECT_TRUE(warnings("{ law = \"hyperbolic\", static = 0.5, rate = 1 }").empty());
 }
 
+TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
+  const auto warnings_of = [](const std::string& maps) {
+    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere",
+                                      {"response.frequency=[10, 14]", "response.maps=" + maps}));
+  };
+  EXPECT_TRUE(warnings_of("[10, 12, 14, \"peak\"]").empty());
+  const std::vector<std::string> warnings = warnings_of("[12, 15]");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos) << warnings[0];
+}
+
 }  // namespace
 }  // namespace microslip::pipelines

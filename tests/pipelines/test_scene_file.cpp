@@ -417,6 +417,10 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   expect_complaint(complaint(blade_text, {"effects.residual=off"}), {"modes.residual = \"none\""});
   EXPECT_EQ(parse(blade_text, {"effects.residual=off", "modes.residual=none"}).effects.size(), 9U);
   expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
+  for (const char* friction : {"0.3 m", "0.3 +* p"}) {
+    expect_complaint(complaint(blade_text, {std::string("contact.friction_coefficient='") + friction + "'"}),
+                     {"contact.friction_coefficient"});
+  }
   for (const char* harmonics : {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
                      {"response.harmonics"});
