@@ -104,9 +104,11 @@ OptimumBracket OptimumSearch::bracket() {
       bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
     }
   };
-  const auto varies = [&](const char* parameter, const char* searched, const std::string& obstacle) {
+  const auto varies = [&](const char* parameter, const char* searched, std::string obstacle) {
     const std::string_view key = request_.key;
-    if (key.starts_with("contact") && key.find(searched) != key.npos) return false;
+    if (key.starts_with("contact") && key.find(searched) != key.npos) {
+      obstacle = fmt::format("{} is the number that is searched", key);
+    }
     if (!obstacle.empty()) bracket.left_out.push_back(fmt::format("{}: {}", parameter, obstacle));
     return obstacle.empty();
   };

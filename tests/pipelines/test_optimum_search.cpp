@@ -144,6 +144,17 @@ TEST(OptimumSearch, DoesNotVaryWhatTheContactDoesNotHave) {
   EXPECT_NE(no_friction_factor(model).find("no contact"), std::string::npos);
 }
 
+TEST(OptimumSearch, SaysWhichNumberIsNotVariedBecauseItIsSearched) {
+  const Found found = search(
+      parse_scene(bar_text, "bar", ".", {"response.optimum=contact.friction_coefficient",
+                                         "response.optimum_range=[0.1, 0.6]", "response.preload_scale=[1]"}));
+  ASSERT_EQ(found.bracket.left_out.size(), 1U);
+  EXPECT_NE(found.bracket.left_out[0].find("contact.friction_coefficient is the number that is searched"),
+            std::string::npos)
+      << found.bracket.left_out[0];
+  EXPECT_EQ(found.bracket.entries.size(), 2U);  // those of the stiffness
+}
+
 TEST(OptimumSearch, SaysThatItDoesNotIntegrateInTime) {
   const Overrides settings{"response.method=time", "response.optimum_range=[0.5, 4]",
                            "response.optimum=preload"};
