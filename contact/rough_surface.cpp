@@ -63,8 +63,17 @@ double rounding_of_argument(double x, double density_per_share) {
 NormalState normal_tail(double x) {
   const int n = 6 + static_cast<int>(110.0 / x);
   double t = 2.0 * (n + 0.5) / (x + std::sqrt(x * x + 4.0 * (n + 0.5)));
-  for (int k = n; k >= 2; --k) {
-    t = k / (x + t);
+  if (x > 100.0) {
+    for (int k = n; k >= 2; --k) t = k / (x + t);
+  } else {
+    // As a fraction above/below: one division instead of n, and below stays under 1e60 for these x.
+    double below = 1.0;
+    for (int k = n; k >= 2; --k) {
+      const double next = x * below + t;
+      t = k * below;
+      below = next;
+    }
+    t /= below;
   }
   const double r = 1.0 / (x + t);
   const double share = 0.5 * std::erfc(x * root_half) * (1.0 + rounding_of_argument(x, x + r));
