@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/bracketed_root.hpp"
+#include "contact/planar_reversal.hpp"
 #include "contact/planar_stick.hpp"
 
 namespace microslip::contact {
@@ -131,7 +131,7 @@ class Walk {
     entry_ = PlanarEntry::continued;
     while (slipping_ && time_ < interval_->end) {
       SlipStep step = longest_step();
-      const double fraction = first_reversal(step);
+      const double fraction = first_reversal(motion_, *interval_, step);
       if (fraction <= 1.0) {
         finish_slip(step, fraction);
         slipping_ = false;
@@ -196,58 +196,12 @@ class Walk {
     return true;
   }
 
-  [[nodiscard]] double rate_at(const SlipStep& step, double x) const {
-    const PlanarInstant now = motion_.at(step.begin + x * step.length);
-    const Vector2d force = now.force(step.slider_at(x));
-    const double size = force.norm();
-    return size > 0.0 ? slip_rate(now, force / size) : 0.0;
-  }
-
-  /// Fraction of the step at which the slip rate first falls to 0; above 1 if it does not.
-  [[nodiscard]] double first_reversal(const SlipStep& step) const {
-    const RadauNodes& rule = radau_nodes();
-    double low = 0.0;
-    double rate_low = 1.0;
-    std::array<double, n_stages> rate;
-    for (int i = 0; i < n_stages; ++i) {
-      rate[static_cast<std::size_t>(i)] = step.rate(i);
-    }
-    const auto rate_of = [&](double x) { return rate_at(step, x); };
-    for (std::size_t i = 0; i < n_stages; ++i) {
-      if (rate[i] <= 0.0) {
-        if (low == 0.0) rate_low = std::max(rate[i] * -1.0, 1e-300);
-        return bracketed_root(rate_of, low, rule.node[i], rate_low, rate[i]);
-      }
-      if (i > 0 && i + 1 < n_stages && rate[i] < rate[i - 1] && rate[i] < rate[i + 1]) {
-        const double dip = lowest_between(rule, rate, i);
-        const double rate_dip = rate_of(dip);
-        if (rate_dip <= 0.0) {
-          return bracketed_root(rate_of, rule.node[i - 1], dip, rate[i - 1], rate_dip);
-        }
-      }
-      low = rule.node[i];
-      rate_low = rate[i];
-    }
-    return 2.0;
-  }
-
-  /// Vertex of the parabola through three nodes.
-  static double lowest_between(const RadauNodes& rule, const std::array<double, n_stages>& rate,
-                               std::size_t i) {
-    const double left = rule.node[i - 1] - rule.node[i];
-    const double right = rule.node[i + 1] - rule.node[i];
-    const double slope_left = (rate[i - 1] - rate[i]) / left;
-    const double slope_right = (rate[i + 1] - rate[i]) / right;
-    const double curvature = (slope_right - slope_left) / (right - left);
-    return rule.node[i] - 0.5 * (slope_left - curvature * left) / curvature;
-  }
-
   /// Solves for the length of a step that ends where the slip rate is 0.
   void finish_slip(SlipStep& step, double fraction) const {
     constexpr double delta = 1e-4;
-    const double slope =
-        (rate_at(step, fraction) - rate_at(step, std::max(fraction - delta, 0.0))) /
-        (step.length * std::min(delta, fraction));
+    const double slope = (slip_rate_at(motion_, step, fraction) -
+                          slip_rate_at(motion_, step, std::max(fraction - delta, 0.0))) /
+                         (step.length * std::min(delta, fraction));
     double length = fraction * step.length;
     double before = 0.0;
     double rate_before = 0.0;

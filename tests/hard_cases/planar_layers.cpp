@@ -13,6 +13,7 @@
 #include "contact/planar_cycle.hpp"
 #include "contact/surface_event_law.hpp"
 #include "support/motion_cases.hpp"
+#include "support/planar_events.hpp"
 
 namespace microslip::test {
 namespace {
@@ -87,6 +88,44 @@ TEST(PlanarLayers, ContactLostForAMomentIsLost) {
   EXPECT_NEAR(traction.force.mean()[1], 0.11503068952, 1e-11);
   EXPECT_NEAR(traction.force.sine(1)[1], -0.0915037544, 1e-10);
   EXPECT_NEAR(traction.force.sine(1)[2], -0.00687214670, 1e-10);
+}
+
+/// Largest error of the friction of a point whose coefficient falls with the rate, relative to its force
+/// scale.
+double error_of_events(const EventCase& c, double tolerance) {
+  const EventReference reference = planar_events(c, 20);
+  EXPECT_TRUE(reference.settled);
+  const double mu = c.point.point.friction_coefficient;
+  PointTraction traction;
+  PlanarLaw(SurfaceLaw(c.point.point, c.point.second_stiffness,
+                       FrictionLaw::exponential(mu, c.kinetic, c.rate)),
+            tolerance)
+      .traction(c.point.motion, 1.0, traction);
+  double error = 0.0;
+  for (std::size_t i = 0; i < reference.first.size(); ++i) {
+    const auto& force = traction.force.rows().row(static_cast<Eigen::Index>(i));
+    error = std::max({error, std::abs(static_cast<double>(reference.first[i]) - force[0]),
+                      std::abs(static_cast<double>(reference.second[i]) - force[2])});
+  }
+  return error / planar_scale(c.point);
+}
+
+// The motion across is a millionth of that along: μ rises as the speed falls, until within 1e-6 of
+// the slowest phase it rises no more. The slider stops 0.013 before and begins again 0.003 after,
+// but within the layer its rate is that of slip: 1e-7 of the force scale was lost.
+TEST(PlanarLayers, RestAroundTheTurnOfANearlyStraightMotionIsSeen) {
+  EventCase c;
+  c.point.motion = Harmonics(1, 3);
+  c.point.motion.rows() << 2.4251673855241804e-05, 0.0, 3.1615147279646294e-11,  //
+      -0.003001722862335924, 0.000150089803158537, 1.9217273838134028e-09,       //
+      -0.002035826254260553, 5.088469791673126e-05, 2.298889408107178e-09;
+  c.point.point = {2e4, 3e4, 0.5, 10.0};
+  c.point.second_stiffness = 2e4;
+  c.kinetic = 0.3;
+  c.rate = 3.0 * omega;  // 3 s/m
+  for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
+    EXPECT_LE(error_of_events(c, tolerance), 10.0 * tolerance) << tolerance;
+  }
 }
 
 constexpr double angle = 0.7;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace microslip::test {
 namespace {
@@ -194,21 +195,63 @@ class Cycle {
     return slip_rate(now, slider(), e) > 0.0L;
   }
 
+  /// How far the spring of a resting slider is beyond the limit.
+  [[nodiscard]] Real excess_at(Real phase) const {
+    const Now now = at(phase);
+    return norm(force(now, slider())) - now.limit;
+  }
+
+  /// The largest excess between two phases that have one maximum between them, and its phase.
+  [[nodiscard]] Pair highest_between(Real low, Real high) const {
+    constexpr Real golden = 0.381966011250105151795413165634L;
+    Real a = low + golden * (high - low);
+    Real b = high - golden * (high - low);
+    Real at_a = excess_at(a);
+    Real at_b = excess_at(b);
+    for (int i = 0; i < 40; ++i) {  // the top is flat: 8 digits of its phase give 16 of its height
+      if (at_a > at_b) {
+        high = std::exchange(b, a);
+        at_b = at_a;
+        a = low + golden * (high - low);
+        at_a = excess_at(a);
+      } else {
+        low = std::exchange(a, b);
+        at_a = at_b;
+        b = high - golden * (high - low);
+        at_b = excess_at(b);
+      }
+    }
+    return at_a > at_b ? Pair{a, at_a} : Pair{b, at_b};
+  }
+
   void stick() {
-    const auto over = [this](Real phase) {
-      const Now now = at(phase);
-      return norm(force(now, slider())) - now.limit;
-    };
+    const Real nothing = 1e-18L * size_;
+    const auto over = [&](Real phase) { return excess_at(phase) - nothing; };
     Real until = end_;
     const Real fine = longest_ / 16.0L;
-    bool left = false;  // the edge, on which stick begins
+    Real before = time_;
+    Real guard_before = over(before);
+    Real guard = guard_before;
+    bool left = guard < -20.0L * nothing;  // the edge, on which stick begins
     for (Real from = time_; from < end_; from += fine) {
       const Real to = std::min(from + fine, end_);
-      const Real guard = over(to);
-      left = left || guard < -1e-17L * size_;
-      if (guard <= 0.0L || !left) continue;
-      until = first_above(from, to, over);
-      break;
+      const Real next = over(to);
+      const bool peak = guard > guard_before && guard >= next && from > time_;
+      const Pair top = peak && left && guard <= 0.0L ? highest_between(before, to) : Pair{to, next};
+      if (left && top[1] > (peak ? nothing : 0.0L)) {
+        until = first_above(peak ? before : from, top[0], over);
+        break;
+      }
+      if (!left && next > 0.0L) {  // off the edge and back within this cell
+        Real inside = to;
+        for (int i = 0; i < 40 && over(inside) > 0.0L; ++i) inside = from + 0.5L * (inside - from);
+        until = first_above(inside, to, over);
+        break;
+      }
+      left = left || next < -20.0L * nothing;
+      before = from;
+      guard_before = guard;
+      guard = next;
     }
     advance(until, false);
   }
