@@ -9,10 +9,12 @@ namespace microslip::contact {
 
 /// @param f          function of one number.
 /// @param low, high  ends of the bracket; f(low) and f(high) have opposite signs or one is zero.
-/// @return a point where f changes sign, to the rounding of `low` and `high`.
+/// @param tolerance  of the point: it is returned once two guesses differ by no more; 0 for the rounding of
+///                   `low` and `high`.
+/// @return a point where f changes sign.
 template <typename Function>
 [[nodiscard]] double bracketed_root(const Function& f, double low, double high, double f_low,
-                                    double f_high) {
+                                    double f_high, double tolerance = 0.0) {
   if (f_low == 0.0) return low;
   if (f_high == 0.0) return high;
   for (int i = 0; i < 200; ++i) {
@@ -23,6 +25,7 @@ template <typename Function>
     const bool inside = (middle - low) * (high - middle) > 0.0;
     if (!inside || i % 3 == 2) middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
+    if (std::abs(middle - high) <= tolerance) return middle;
     const double f_middle = f(middle);
     if (f_middle == 0.0) return middle;
     if ((f_middle > 0.0) == (f_high > 0.0)) {

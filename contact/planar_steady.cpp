@@ -6,27 +6,18 @@
 
 #include <Eigen/LU>
 
+#include "contact/planar_rest.hpp"
+
 namespace microslip::contact {
 namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Newton's method helps after this many periods: most sliders pushed into full stick have come to rest
-/// by then, and where they do is history.
-constexpr int patience = 2;
-/// Beyond this the last orbit stands, with its defect; onset of slip converges like 1/periods.
+/// Beyond this the last orbit stands, with its defect.
 constexpr int most_periods = 60;
-/// The same for a march without help, at the corner of two ellipses.
+/// The same for a march into full stick, without help but that of a corner.
 constexpr int longest_march = 300;
-
-/// The same where it is to tell rest from hardly any slip: a march that rests does so after a few periods, at
-/// the corner it finds; one that creeps for longer tells nothing, and Newton's slider stands.
-constexpr int deciding_march = 12;
-
-/// Slip of a period that may be what is left of a search that ends at the tolerance, whatever the angle
-/// between the edges it is pushed by: their corner loses the root of it at the most.
-constexpr double hardly_any = 1e-4;
 
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
@@ -115,48 +106,43 @@ class FixedPoint {
       : motion_(motion), intervals_(intervals), options_(options) {}
 
   SteadyOrbit solve() {
-    SteadyOrbit steady = iterate();
-    bool stuck = !steady.orbit.slips || (rests_ && !helped_);
-    if (helped_ && (stuck || hardly_slips(steady.orbit))) {
-      // Newton's steps may have come to the edge of the sliders that rest, from outside: what slips
-      // still is the little it has not converged by. Where the march rests is told by the march
-      // alone.
-      SteadyOrbit marched = march(stuck ? longest_march : deciding_march);
-      stuck = stuck || !marched.orbit.slips;
-      if (stuck) steady = std::move(marched);
+    SteadyOrbit steady;
+    steady.orbit = walk_orbit(motion_, intervals_, motion_.virgin_slider(), options_);
+    steady.regime = CycleRegime::full_stick;
+    if (!steady.orbit.slips) return steady;
+    const RestPlace place = best_rest(motion_, intervals_, steady.orbit.end);
+    if (place.answer == RestPlace::Answer::rests) {
+      march(steady);
+    } else {
+      const bool near = place.converged && place.answer == RestPlace::Answer::slips;
+      steady = iterate(near ? place.slider : steady.orbit.end);
+      if (steady.orbit.slips) steady.regime = CycleRegime::stick_slip;
     }
-    steady.regime = stuck ? CycleRegime::full_stick : CycleRegime::stick_slip;
     return steady;
   }
 
  private:
-  [[nodiscard]] bool hardly_slips(const PlanarOrbit& orbit) const {
-    return force_of(motion_, Vector2d::Constant(period_move(orbit).path)) <= hardly_any;
-  }
-
-  SteadyOrbit iterate() {
+  SteadyOrbit iterate(const Vector2d& start) const {
     SteadyOrbit steady;
-    Vector2d slider = motion_.virgin_slider();
+    Vector2d slider = start;
     Vector2d fallback = slider;
     Progress progress;
     int failures = 0;
     bool tried = false;
     for (int period = 0;; ++period) {
-      if (period > 0 && !helped_) steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = 0.0;
       steady.closes = true;
-      rests_ = false;
       if (!steady.orbit.slips) break;
-      if (period + 1 == patience && rest_in_corner(steady)) break;
       const PeriodMove moved = period_move(steady.orbit);
       const Vector2d newton =
           solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
       steady.defect = force_of(motion_, newton);
       const double size = force_of(motion_, moved.change);
       const double path = force_of(motion_, Vector2d::Constant(moved.path));
-      rests_ = path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
-      steady.closes = rests_ || size <= rounding * std::min(1.0, 1e3 * path);
+      const bool rests =
+          path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
+      steady.closes = rests || size <= rounding * std::min(1.0, 1e3 * path);
       if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
       if (period >= most_periods) break;
       const bool improved = progress.add(steady.defect, size);
@@ -170,28 +156,23 @@ class FixedPoint {
         continue;
       }
       fallback = steady.orbit.end;
-      tried =
-          period + 1 >= patience && newton.allFinite() && steady.defect < 4.0;  // none is farther
+      tried = newton.allFinite() && steady.defect < 4.0;  // none is farther
       slider = tried ? Vector2d(slider + newton) : fallback;
-      helped_ = helped_ || tried;
     }
     return steady;
   }
 
-  /// From the virgin slider, period by period, until it no longer moves.
-  SteadyOrbit march(int most) {
-    SteadyOrbit steady;
-    Vector2d slider = motion_.virgin_slider();
-    for (int period = 0; period < most; ++period) {
-      if (period > 0) steady.history.push_back(std::move(steady.orbit));
+  /// From a first period on, period by period, until the slider no longer moves.
+  void march(SteadyOrbit& steady) const {
+    for (int period = 1; period < longest_march; ++period) {
+      const Vector2d slider = steady.orbit.end;
+      steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       steady.closes = steady.defect <= rounding;
       if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
-      if (period + 1 >= patience && rest_in_corner(steady)) break;
-      slider = steady.orbit.end;
+      if (rest_in_corner(steady)) break;
     }
-    return steady;
   }
 
   /// Whether the two windows that push in the last period leave the slider in their corner. If so the
@@ -215,8 +196,6 @@ class FixedPoint {
   const PlanarMotion& motion_;
   const std::vector<PlanarInterval>& intervals_;
   const OrbitOptions& options_;
-  bool helped_ = false;
-  bool rests_ = false;  // the last period slipped by no more than rounding
 };
 
 bool any_contact(const std::vector<PlanarInterval>& intervals) {

@@ -1,19 +1,23 @@
 /// @file
 /// The steady cycle of a planar slider: the orbit that ends where it began.
 ///
-/// With separation one period from touch-down is exact. Else the period map Φ of the slider is
-/// non-expansive; from the virgin slider it is iterated, and helped by Newton's method on Φ(s) = s with
-/// its derivative M once two periods have passed:
+/// With separation one period from touch-down is exact. Else the virgin slider is walked through one period;
+/// if it slips, the least excess of any slider over the ellipses of all phases tells what becomes of it
+/// (planar_rest.hpp):
+///
+/// Rest is possible: the slider is pushed into the ellipses period by period. Where it comes to rest is history
+/// (theory sections 4.2, 9) and marched without help, except where two windows push it in turn: then it goes to
+/// their corner at once (planar_corner.hpp).
+///
+/// Rest is not possible: the cycle is unique, and Newton's method finds it as the fixed point Φ(s) = s of the
+/// period map, with its derivative M,
 ///
 ///   s ← s + (I − M)⁻¹ (Φ(s) − s),   kept while these steps or the moves Φ(s) − s shrink, else s ← Φ(s)  (1)
 ///
-/// Φ(s) − s is summed from the slip of the period, not from two positions: near the onset of slip I − M is
-/// as small as that slip, and both keep their digits.
-///
+/// Next to the onset of slip the slider of least excess is where it begins, and Φ(s) − s is summed from the
+/// slip of the period, not from two positions: I − M is as small as that slip, and both keep their digits.
 /// The size of the step in (1) estimates the distance from the fixed point; it judges and ends the
-/// iteration. What a point that ends up stuck throughout reaches is history: the virgin slider pushed into
-/// the ellipses of all phases (theory sections 4.2, 9). It is marched without help, except where two
-/// windows push it in turn: then it goes to their corner at once (planar_corner.hpp).
+/// iteration.
 ///
 /// Source: theory section 9.
 #pragma once
