@@ -93,7 +93,7 @@ std::optional<SliderCorner> meeting_corner(const PlanarMotion& motion,
     turn = divisor;
     const Vector2d step(-(a.excess * b.gradient[1] - b.excess * a.gradient[1]) / divisor,
                         -(b.excess * a.gradient[0] - a.excess * b.gradient[0]) / divisor);
-    const double size = step.norm();
+    const double size = motion.stiffness().cwiseProduct(step).norm();
     const bool exhausted = std::abs(a.excess) + std::abs(b.excess) <= 4.0 * rounding;
     if (exhausted || size <= rounding || (size < 1e-7 && size >= last)) return corner;
     if (size > 4.0) return std::nullopt;

@@ -40,13 +40,11 @@ class RestSearch {
       is_end_.resize(grid_.size(), false);
       is_end_.back() = true;
     }
-    guard_.resize(grid_.size());
   }
 
   RestPlace run(const Vector2d& slider) {
     place_ = scale_.cwiseProduct(slider);
-    windows_ = windows_at(place_);
-    best_ = highest(windows_);
+    look();
     RestPlace result;
     double radius = 1.0;
     constexpr int most_steps = 60;
@@ -55,15 +53,18 @@ class RestSearch {
       lower_ = std::max(lower_, lower_bound(balance));
       const double size = balance.step.norm();
       if (size <= 1e-15 || (size <= small_step && best_ - balance.level <= rest_rounding)) {
-        result.converged = true;
-        break;
+        result.converged = best_ > rest_rounding || !fine_.empty();
+        if (result.converged) break;
+        refine();
+        look();
+        continue;
       }
       if (lower_ > much) break;
       radius = attempt(balance, radius);
     }
     result.slider = place_.cwiseQuotient(scale_);
     result.excess = best_;
-    if (best_ <= rest_rounding) {
+    if (best_ <= -certain || (result.converged && best_ <= rest_rounding)) {
       result.answer = RestPlace::Answer::rests;
     } else if (result.converged || lower_ > rest_rounding) {
       result.answer = RestPlace::Answer::slips;
@@ -73,7 +74,7 @@ class RestSearch {
 
  private:
   static constexpr double small_step = 1e-8;  ///< along the edges the error of G is its square
-  static constexpr double certain = 1e-9;     ///< well inside every ellipse
+  static constexpr double certain = 1e-3;     ///< inside every ellipse, whatever the grid misses
   static constexpr double much = 1e-2;  ///< slip for which the minimum is no good start anyway
   static constexpr std::size_t most_windows = 8;
 
@@ -81,6 +82,30 @@ class RestSearch {
     double value = -INFINITY;
     for (const Window& window : windows) value = std::max(value, window.value);
     return value;
+  }
+
+  void look() {
+    windows_ = windows_at(place_);
+    best_ = highest(windows_);
+  }
+
+  /// A grid of finer cells: two maxima of the coarse one may be in the same or in neighbouring cells, their
+  /// difference that of the fourth order of a cell.
+  void refine() {
+    constexpr int parts = 8;
+    std::vector<bool> is_end;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      fine_.push_back(*grid_[i]);
+      is_end.push_back(is_end_[i]);
+      for (int k = 1; k < parts && !is_end_[i]; ++k) {
+        const double length = grid_[i + 1]->phase - grid_[i]->phase;
+        fine_.push_back(motion_.at(grid_[i]->phase + length * k / parts));
+        is_end.push_back(false);
+      }
+    }
+    is_end_ = std::move(is_end);
+    grid_.clear();
+    for (const PlanarInstant& now : fine_) grid_.push_back(&now);
   }
 
   [[nodiscard]] Vector2d slider_of(const Vector2d& place) const {
@@ -253,6 +278,7 @@ class RestSearch {
   /// The maxima of g over the period, the highest few.
   std::vector<Window> windows_at(const Vector2d& place) {
     const Vector2d slider = slider_of(place);
+    guard_.resize(grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       guard_[i] = grid_[i]->force(slider).norm() - grid_[i]->radius;
     }
@@ -325,6 +351,7 @@ class RestSearch {
   const PlanarMotion& motion_;
   Vector2d scale_;
   std::vector<const PlanarInstant*> grid_;
+  std::vector<PlanarInstant> fine_;
   std::vector<bool> is_end_;
   std::vector<double> guard_;
   std::vector<Window> windows_;
