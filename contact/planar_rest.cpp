@@ -48,7 +48,11 @@ class RestSearch {
     RestPlace result;
     double radius = 1.0;
     constexpr int most_steps = 60;
-    for (int i = 0; i < most_steps && best_ > -certain; ++i) {
+    for (int i = 0; i < most_steps && !rests(); ++i) {
+      if (best_ <= -inside) {
+        refine();
+        continue;
+      }
       const Balance balance = balanced(radius);
       lower_ = std::max(lower_, lower_bound(balance));
       const double size = balance.step.norm();
@@ -56,15 +60,15 @@ class RestSearch {
         result.converged = best_ > rest_rounding || !fine_.empty();
         if (result.converged) break;
         refine();
-        look();
         continue;
       }
       if (lower_ > much) break;
       radius = attempt(balance, radius);
     }
+    if (best_ <= rest_rounding && fine_.empty()) refine();
     result.slider = place_.cwiseQuotient(scale_);
     result.excess = best_;
-    if (best_ <= -certain || (result.converged && best_ <= rest_rounding)) {
+    if (best_ <= rest_rounding) {
       result.answer = RestPlace::Answer::rests;
     } else if (result.converged || lower_ > rest_rounding) {
       result.answer = RestPlace::Answer::slips;
@@ -75,13 +79,18 @@ class RestSearch {
  private:
   static constexpr double small_step = 1e-8;  ///< along the edges the error of G is its square
   static constexpr double certain = 1e-3;     ///< inside every ellipse, whatever the grid misses
-  static constexpr double much = 1e-2;  ///< slip for which the minimum is no good start anyway
+  static constexpr double much = 1e-2;    ///< slip for which the minimum is no good start anyway
+  static constexpr double inside = 1e-9;  ///< inside every ellipse the grid sees
   static constexpr std::size_t most_windows = 8;
 
   static double highest(const std::vector<Window>& windows) {
     double value = -INFINITY;
     for (const Window& window : windows) value = std::max(value, window.value);
     return value;
+  }
+
+  [[nodiscard]] bool rests() const {
+    return best_ <= -certain || (best_ <= -inside && !fine_.empty());
   }
 
   void look() {
@@ -106,6 +115,7 @@ class RestSearch {
     is_end_ = std::move(is_end);
     grid_.clear();
     for (const PlanarInstant& now : fine_) grid_.push_back(&now);
+    look();
   }
 
   [[nodiscard]] Vector2d slider_of(const Vector2d& place) const {

@@ -122,44 +122,78 @@ class FixedPoint {
   }
 
  private:
+  /// One period from a slider, and what Newton's method makes of it.
+  struct Trial {
+    Vector2d slider = Vector2d::Zero();
+    Vector2d moved = Vector2d::Zero();
+    Vector2d newton = Vector2d::Zero();
+    double size = 0.0;  ///< of the move, in f / F₀
+  };
+
+  Trial walk_from(const Vector2d& slider, SteadyOrbit& steady) const {
+    steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
+    const PeriodMove moved = period_move(steady.orbit);
+    Trial trial{slider, moved.change, {}, force_of(motion_, moved.change)};
+    trial.newton = solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
+    steady.defect = steady.orbit.slips ? force_of(motion_, trial.newton) : 0.0;
+    const double path = force_of(motion_, Vector2d::Constant(moved.path));
+    const bool rests =
+        path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
+    steady.closes = rests || trial.size <= rounding * std::min(1.0, 1e3 * path);
+    return trial;
+  }
+
+  /// ⟨K (Φ(s) − s), d⟩: falls along d, since Φ brings no two sliders farther apart in the measure of K.
+  [[nodiscard]] double pull(const Trial& trial, const Vector2d& along) const {
+    return trial.moved.dot(motion_.stiffness().cwiseProduct(along));
+  }
+
+  [[nodiscard]] bool is_done(const SteadyOrbit& steady) const {
+    return !steady.orbit.slips || steady.closes || steady.defect <= 0.1 * options_.tolerance;
+  }
+
   SteadyOrbit iterate(const Vector2d& start) const {
     SteadyOrbit steady;
-    Vector2d slider = start;
-    Vector2d fallback = slider;
+    Trial now = walk_from(start, steady);
     Progress progress;
     int failures = 0;
-    bool tried = false;
-    for (int period = 0;; ++period) {
-      steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
-      steady.defect = 0.0;
-      steady.closes = true;
-      if (!steady.orbit.slips) break;
-      const PeriodMove moved = period_move(steady.orbit);
-      const Vector2d newton =
-          solve_fixed_point(period_derivative(motion_, steady.orbit), moved.change);
-      steady.defect = force_of(motion_, newton);
-      const double size = force_of(motion_, moved.change);
-      const double path = force_of(motion_, Vector2d::Constant(moved.path));
-      const bool rests =
-          path <= 30.0 * rounding;  // slip of a few roundings at its two or more places
-      steady.closes = rests || size <= rounding * std::min(1.0, 1e3 * path);
-      if (steady.closes || steady.defect <= 0.1 * options_.tolerance) break;
-      if (period >= most_periods) break;
-      const bool improved = progress.add(steady.defect, size);
-      failures += tried && !improved ? 1 : 0;
+    for (int period = 0; period < most_periods && !is_done(steady); ++period) {
+      const bool improved = progress.add(steady.defect, now.size);
+      failures += improved ? 0 : 1;
       // No progress this close: it is the steps of the walk that differ from period to period.
       if (failures >= 3 && steady.defect <= 1e4 * options_.tolerance) break;
-      if (tried && !improved) {
-        slider = fallback;
-        tried = false;
-        progress = {};
-        continue;
-      }
-      fallback = steady.orbit.end;
-      tried = newton.allFinite() && steady.defect < 4.0;  // none is farther
-      slider = tried ? Vector2d(slider + newton) : fallback;
+      const bool tries =
+          improved && now.newton.allFinite() && steady.defect < 4.0;  // none is farther
+      if (!improved) progress = {};
+      const Trial before = now;
+      const Vector2d step = tries ? now.newton : now.moved;
+      now = walk_from(before.slider + step, steady);
+      if (tries) period += shorten(before, step, now, steady);
     }
     return steady;
+  }
+
+  /// A step across a kink of the period map, where a window of slip appears or goes, may turn the pull round:
+  /// the zero of it is looked for on the way. Returns the number of periods this takes.
+  int shorten(const Trial& before, const Vector2d& step, Trial& now, SteadyOrbit& steady) const {
+    constexpr double enough = 0.3;  // of the pull before the step
+    constexpr int most = 8;
+    const double whole = pull(before, step);
+    double low = 0.0;
+    double high = 1.0;
+    double pull_low = whole;
+    double pull_high = pull(now, step);
+    if (!(pull_high < -enough * whole)) return 0;
+    for (int i = 1; i <= most; ++i) {
+      const double share =
+          low + (high - low) * std::clamp(pull_low / (pull_low - pull_high), 0.1, 0.9);
+      now = walk_from(before.slider + share * step, steady);
+      const double here = pull(now, step);
+      if (is_done(steady) || std::abs(here) <= enough * whole) return i;
+      (here > 0.0 ? low : high) = share;
+      (here > 0.0 ? pull_low : pull_high) = here;
+    }
+    return most;
   }
 
   /// From a first period on, period by period, until the slider no longer moves.
