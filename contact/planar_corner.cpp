@@ -38,7 +38,8 @@ class Windows {
         if (slope_low >= 0.0) break;
       }
     }
-    const double phase = bracketed_root(rate, low, high, slope_low, slope_high);
+    constexpr double enough = 1e-11;  // the guard is flat there: its error is the square
+    const double phase = bracketed_root(rate, low, high, slope_low, slope_high, enough);
     return at(phase, slider);
   }
 

@@ -79,7 +79,8 @@ class Reversal {
  private:
   [[nodiscard]] double root(const Descent& d) const {
     const auto rate = [this](double x) { return slip_rate_at(motion_, step_, x); };
-    return bracketed_root(rate, d.high, d.low, d.rate_high, d.rate_low);
+    constexpr double enough = 1e-6;  // the step that ends there is solved for its length
+    return bracketed_root(rate, d.high, d.low, d.rate_high, d.rate_low, enough);
   }
 
   /// The rate is above 0 where the cell begins and not where it ends; slip that is about to end as the step

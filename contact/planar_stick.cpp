@@ -53,8 +53,9 @@ class RestingSlider {
     const double growth_high = force_growth(high);
     if (!(growth_low < 0.0 && growth_high > 0.0)) return breach_between(low, high);
     const auto growth = [this](double phase) { return force_growth(motion_.at(phase)); };
-    const double smallest = bracketed_root(growth, low.phase, high.phase, growth_low, growth_high);
     const double aside = 1e-6 * (high.phase - low.phase);  // the force is no larger in between
+    const double smallest =
+        bracketed_root(growth, low.phase, high.phase, growth_low, growth_high, 0.01 * aside);
     const PlanarInstant left = motion_.at(std::max(smallest - aside, low.phase));
     const PlanarInstant right = motion_.at(std::min(smallest + aside, high.phase));
     const double found = breach_between(low, left);
@@ -74,7 +75,6 @@ class RestingSlider {
   [[nodiscard]] double breach_between(const PlanarInstant& low, const PlanarInstant& high,
                                       int depth = 5) const {
     const auto guard = [this](const PlanarInstant& now) { return stick_guard(now, slider_); };
-    const auto excess = [&](double phase) { return guard(motion_.at(phase)).value - stick_slack; };
     const Guard before = guard(low);
     const Guard after = guard(high);
     const bool peaks = before.rate > 0.0 && after.rate < 0.0;
@@ -88,12 +88,17 @@ class RestingSlider {
     double value = after.value - stick_slack;
     if (value <= 0.0 && peaks) {
       const auto rate = [&](double phase) { return guard(motion_.at(phase)).rate; };
-      end = bracketed_root(rate, low.phase, end, before.rate, after.rate);
-      value = excess(end);
+      constexpr double enough = 1e-9;  // the guard is flat there: its error is the square
+      end = bracketed_root(rate, low.phase, end, before.rate, after.rate, enough);
+      value = guard(motion_.at(end)).value - stick_slack;
     }
     if (value <= 0.0) return high.phase + 1.0;
     const double start = before.value - stick_slack;
-    return start < 0.0 ? bracketed_root(excess, low.phase, end, start, value) : low.phase;
+    const auto excess = [&](double phase) {
+      const Guard now = guard(motion_.at(phase));
+      return Guard{now.value - stick_slack, now.rate};
+    };
+    return start < 0.0 ? bracketed_newton(excess, low.phase, end, start, value) : low.phase;
   }
 
   const PlanarMotion& motion_;
