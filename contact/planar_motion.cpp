@@ -47,7 +47,12 @@ Eigen::Vector2d tangential(const Eigen::Vector3d& x) { return {x[0], x[2]}; }
 }  // namespace
 
 PlanarMotion::PlanarMotion(const SurfaceLaw& law, const Harmonics& motion, double frequency)
-    : law_(law), harmonics_(motion), frequency_(frequency) {
+    : law_(law),
+      harmonics_(motion),
+      frequency_(frequency),
+      is_smooth_(law.is_smooth()),
+      depends_on_rate_(law.is_rate_dependent()),
+      mean_approach_(motion.mean()[1]) {
   set_scales();
 }
 
@@ -71,11 +76,14 @@ void PlanarMotion::set_scales() {
   const double scale = radius + spring;
   // Below this, products of scaled numbers would be subnormal; the force is zero to 1e-290.
   constexpr double smallest = 1e-290;
-  force_scale_ = scale > smallest && std::isfinite(scale) ? scale : 0.0;
+  const bool counts = scale > smallest && std::isfinite(scale) && std::isfinite(largest / scale);
+  force_scale_ = counts ? scale : 0.0;
   if (force_scale_ == 0.0) return;
   friction_share_ = 2.0 * std::min(radius, spring) / scale;
   length_scale_ = force_scale_ / largest;
   active_ = (k.array() > 0.0).cast<double>();
+  per_length_ = active_ * (largest / scale);
+  per_force_ = 1.0 / scale;
   stiffness_ = (k.array() > 0.0).select(k / largest, 1.0);
 }
 
@@ -83,30 +91,32 @@ PlanarInstant PlanarMotion::at(double phase) const {
   const Signals x = signals(harmonics_, phase);
   PlanarInstant now;
   now.phase = phase;
-  now.position = tangential(x.value).cwiseProduct(active_) / length_scale_;
-  now.velocity = tangential(x.rate).cwiseProduct(active_) / length_scale_;
+  now.position = tangential(x.value).cwiseProduct(per_length_);
+  now.velocity = tangential(x.rate).cwiseProduct(per_length_);
   now.approach_rate = x.rate[1];
-  const Eigen::Vector2d velocity = tangential(x.rate);
   double speed_rate = 0.0;
-  if (law_.is_rate_dependent()) {
+  if (depends_on_rate_) {
+    const Eigen::Vector2d velocity = tangential(x.rate);
     now.speed = std::hypot(velocity[0], velocity[1]);
     if (now.speed > 0.0) {
       now.heading = velocity / now.speed;
       speed_rate = now.heading.dot(tangential(x.second));
     }
   }
-  now.surface = law_.at(harmonics_.mean()[1] + x.value[1], frequency_ * now.speed);
+  now.surface = law_.at(mean_approach_ + x.value[1], frequency_ * now.speed);
   const SurfaceState& y = now.surface;
   now.stiffness = stiffness_;
-  now.stiffness[1] *= y.ratio_of_stiffness;
-  now.stiffness_by_approach[1] = stiffness_[1] * y.ratio_of_stiffness_by_approach;
-  now.stiffness_rate[1] = now.stiffness_by_approach[1] * now.approach_rate;
+  if (!is_smooth_) {
+    now.stiffness[1] *= y.ratio_of_stiffness;
+    now.stiffness_by_approach[1] = stiffness_[1] * y.ratio_of_stiffness_by_approach;
+    now.stiffness_rate[1] = now.stiffness_by_approach[1] * now.approach_rate;
+  }
   if (force_scale_ == 0.0 || y.load <= 0.0 || y.stiffness_ratio <= 0.0) return now;
   const double mu = y.friction_coefficient;
-  const double ratio = y.load_per_ratio;
-  now.radius = mu * ratio / force_scale_;
-  now.radius_by_approach = mu * y.load_per_ratio_by_approach / force_scale_;
-  now.radius_by_rate = y.friction_coefficient_by_rate * ratio / force_scale_;
+  const double ratio = y.load_per_ratio * per_force_;
+  now.radius = mu * ratio;
+  now.radius_by_approach = mu * (y.load_per_ratio_by_approach * per_force_);
+  now.radius_by_rate = y.friction_coefficient_by_rate * ratio;
   now.radius_rate =
       now.radius_by_approach * now.approach_rate + now.radius_by_rate * frequency_ * speed_rate;
   return now;

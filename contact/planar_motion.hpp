@@ -73,7 +73,7 @@ class PlanarMotion {
 
   /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
-  [[nodiscard]] double force_scale() const { return force_scale_; }    ///< F₀ [Pa]
+  [[nodiscard]] double force_scale() const { return force_scale_; }  ///< F₀ [Pa]
   /// Twice the smaller of k a and max μn/g, / F₀: the size of friction, at most 1; 0 without friction.
   [[nodiscard]] double friction_share() const { return friction_share_; }
   [[nodiscard]] double length_scale() const { return length_scale_; }  ///< L₀ [m]
@@ -94,11 +94,16 @@ class PlanarMotion {
   const SurfaceLaw& law_;
   const Harmonics& harmonics_;
   double frequency_;
+  bool is_smooth_;
+  bool depends_on_rate_;
+  double mean_approach_;
   double force_scale_ = 0.0;
+  double per_force_ = 1.0;
   double friction_share_ = 0.0;
   double length_scale_ = 1.0;
   Eigen::Vector2d stiffness_ = Eigen::Vector2d::Ones();
   Eigen::Vector2d active_ = Eigen::Vector2d::Ones();
+  Eigen::Vector2d per_length_ = Eigen::Vector2d::Ones();  ///< 1/L₀, 0 where no friction acts
 };
 
 }  // namespace microslip::contact

@@ -102,12 +102,14 @@ class RestSearch {
   /// difference that of the fourth order of a cell.
   void refine() {
     constexpr int parts = 8;
+    const Vector2d slider = slider_of(place_);
     std::vector<bool> is_end;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       fine_.push_back(*grid_[i]);
       is_end.push_back(is_end_[i]);
-      for (int k = 1; k < parts && !is_end_[i]; ++k) {
-        const double length = grid_[i + 1]->phase - grid_[i]->phase;
+      if (is_end_[i] || !may_reach(*grid_[i], *grid_[i + 1], slider)) continue;
+      const double length = grid_[i + 1]->phase - grid_[i]->phase;
+      for (int k = 1; k < parts; ++k) {
         fine_.push_back(motion_.at(grid_[i]->phase + length * k / parts));
         is_end.push_back(false);
       }
@@ -116,6 +118,17 @@ class RestSearch {
     grid_.clear();
     for (const PlanarInstant& now : fine_) grid_.push_back(&now);
     look();
+  }
+
+  /// Whether the cubic through g and its rates at two instants comes closer to the highest value than it varies.
+  [[nodiscard]] bool may_reach(const PlanarInstant& a, const PlanarInstant& b,
+                               const Vector2d& slider) const {
+    const double third = (b.phase - a.phase) / 3.0;
+    const double at_a = a.force(slider).norm() - a.radius;
+    const double at_b = b.force(slider).norm() - b.radius;
+    const auto [low, high] = std::minmax(
+        {at_a, at_a + third * guard_rate(a, slider), at_b - third * guard_rate(b, slider), at_b});
+    return high + (high - low) > best_;
   }
 
   [[nodiscard]] Vector2d slider_of(const Vector2d& place) const {
