@@ -18,6 +18,8 @@ using Eigen::Vector2d;
 constexpr int most_periods = 60;
 /// The same for a march into full stick, without help but that of a corner.
 constexpr int longest_march = 300;
+/// A march that takes longer goes along a valley between two windows.
+constexpr int slow_march = 20;
 
 /// A slider of order one that moves by less in a period cannot be told from one that rests.
 constexpr double rounding = 4e-15;
@@ -205,26 +207,36 @@ class FixedPoint {
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       steady.closes = steady.defect <= rounding;
       if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
-      if (rest_in_corner(steady)) break;
+      if (rest_in_corner(steady, period >= slow_march)) break;
     }
   }
 
   /// Whether the two windows that push in the last period leave the slider in their corner. If so the
-  /// orbit is that of the slider at rest there.
-  bool rest_in_corner(SteadyOrbit& steady) const {
-    const std::vector<double> ends = ends_of_slip(steady.orbit);
-    if (ends.size() != 2) return false;
-    const std::optional<SliderCorner> corner =
-        meeting_corner(motion_, {ends[0], ends[1]}, steady.orbit.end);
-    if (!corner.has_value()) return false;
-    PlanarOrbit rest = walk_orbit(motion_, intervals_, corner->slider, options_);
-    if (rest.slips) return false;
-    steady.orbit = std::move(rest);
-    steady.corner = corner;
-    steady.history.clear();
-    steady.defect = 0.0;
-    steady.closes = true;
-    return true;
+  /// orbit is that of the slider at rest there. A slow march along the valley between two windows may be
+  /// taken over by a third before their corner: it is followed to the corner of the two that push then.
+  bool rest_in_corner(SteadyOrbit& steady, bool is_slow) const {
+    constexpr int most_windows = 4;
+    std::vector<double> ends = ends_of_slip(steady.orbit);
+    Vector2d slider = steady.orbit.end;
+    for (int i = 0; i < most_windows && ends.size() == 2; ++i) {
+      const std::optional<SliderCorner> corner =
+          meeting_corner(motion_, {ends[0], ends[1]}, slider);
+      if (!corner.has_value()) return false;
+      PlanarOrbit rest = walk_orbit(motion_, intervals_, corner->slider, options_);
+      if (!rest.slips) {
+        steady.orbit = std::move(rest);
+        steady.corner = corner;
+        steady.history.clear();
+        steady.defect = 0.0;
+        steady.closes = true;
+        return true;
+      }
+      if (!is_slow) return false;
+      const PlanarOrbit next = walk_orbit(motion_, intervals_, rest.end, options_);
+      ends = ends_of_slip(next);
+      slider = next.end;
+    }
+    return false;
   }
 
   const PlanarMotion& motion_;
