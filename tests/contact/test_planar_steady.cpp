@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/planar_cycle.hpp"
+#include "contact/planar_rest.hpp"
 #include "support/planar_cases.hpp"
 
 namespace microslip::contact {
@@ -96,6 +97,57 @@ TEST(PlanarSteady, NoMeanIsHeldNextToTheOnsetOfSlip) {
     EXPECT_EQ(traction.defect, 0.0) << i;
   }
   EXPECT_GT(slipping, 1800);
+}
+
+/// The same motion with another tangential amplitude.
+test::PlanarCase amplified(test::PlanarCase c, double factor) {
+  auto moving = c.motion.rows().bottomRows(c.motion.rows().rows() - 1);
+  moving.col(0) *= factor;
+  moving.col(2) *= factor;
+  return c;
+}
+
+/// Least excess of any slider.
+double least_excess(const test::PlanarCase& c) {
+  const SurfaceLaw law(c.point, c.second_stiffness);
+  const PlanarMotion motion(law, c.motion, 1.0);
+  return best_rest(motion, planar_intervals(motion), motion.virgin_slider()).excess;
+}
+
+/// The amplitude beyond which no slider rests, as a factor.
+double onset_factor(const test::PlanarCase& c) {
+  double low = 0.0;
+  double high = 1.0;
+  while (least_excess(amplified(c, high)) <= 0.0) low = std::exchange(high, 2.0 * high);
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (least_excess(amplified(c, middle)) > 0.0 ? high : low) = middle;
+  }
+  return high;
+}
+
+// Several harmonics and load that varies, down to 1e-9 of the amplitude from where rest becomes
+// impossible: three and more windows, thin valleys, a window that comes and goes between two
+// sliders.
+TEST(PlanarSteady, SearchesNextToAnyOnsetMeetTheirTolerance) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> digits(-9.0, -1.0);
+  for (int i = 0; i < 150; ++i) {
+    const test::PlanarCase drawn = test::creeping_planar(random);
+    const double side = random() % 2 == 0 ? -1.0 : 1.0;
+    const double aside = side * std::pow(10.0, digits(random));
+    const test::PlanarCase c = amplified(drawn, onset_factor(drawn) * (1.0 + aside));
+    PointTraction traction;
+    PointTraction loose;
+    const SurfaceLaw surface(c.point, c.second_stiffness);
+    PlanarLaw(surface, tight).traction(c.motion, 1.0, traction);
+    PlanarLaw(surface, 1e-9).traction(c.motion, 1.0, loose);
+    EXPECT_EQ(traction.regime, aside > 0.0 ? CycleRegime::stick_slip : CycleRegime::full_stick)
+        << i;
+    EXPECT_EQ(traction.defect, 0.0) << i;
+    const Eigen::VectorXd apart = traction.force.vector() - loose.force.vector();
+    EXPECT_LE(apart.cwiseAbs().maxCoeff(), 1e-8 * test::planar_scale(c)) << i;  // ten tolerances
+  }
 }
 
 struct March {
