@@ -318,6 +318,11 @@ class RestSearch {
       if (guard_[i] < guard_[i - 1] || guard_[i] <= after) continue;
       found.push_back(window_of(peak_near(i, slider), place));
     }
+    if (found.empty()) {  // the same at all phases
+      const auto highest = std::max_element(guard_.begin(), guard_.end());
+      const auto i = static_cast<std::size_t>(highest - guard_.begin());
+      found.push_back(window_of(*grid_[i], place));
+    }
     const auto higher = [](const Window& a, const Window& b) { return a.value > b.value; };
     std::sort(found.begin(), found.end(), higher);
     if (found.size() > most_windows / 2) found.resize(most_windows / 2);

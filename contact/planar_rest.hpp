@@ -18,6 +18,7 @@
 /// quadratic programming).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "contact/planar_intervals.hpp"

@@ -114,7 +114,7 @@ class FixedPoint {
     if (!steady.orbit.slips) return steady;
     const RestPlace place = best_rest(motion_, intervals_, steady.orbit.end);
     if (place.answer == RestPlace::Answer::rests) {
-      march(steady);
+      if (!march(steady)) rest_towards(place.slider, steady);
     } else {
       const bool near = place.converged && place.answer == RestPlace::Answer::slips;
       steady = iterate(near ? place.slider : steady.orbit.end);
@@ -198,17 +198,37 @@ class FixedPoint {
     return most;
   }
 
-  /// From a first period on, period by period, until the slider no longer moves.
-  void march(SteadyOrbit& steady) const {
+  /// From a first period on, period by period, until the slider no longer moves; whether it has come so far.
+  bool march(SteadyOrbit& steady) const {
     for (int period = 1; period < longest_march; ++period) {
       const Vector2d slider = steady.orbit.end;
       steady.history.push_back(std::move(steady.orbit));
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       steady.closes = steady.defect <= rounding;
-      if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) break;
-      if (rest_in_corner(steady, period >= slow_march)) break;
+      if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) return true;
+      if (rest_in_corner(steady, period >= slow_march)) return true;
     }
+    return false;
+  }
+
+  /// The first slider that rests on the way from the end of a march to a place where rest is known: such as
+  /// around a circle, where the sliders that rest are few and the march comes close like 1/periods. The way
+  /// on to that place estimates how far apart such sliders are.
+  void rest_towards(const Vector2d& place, SteadyOrbit& steady) const {
+    const Vector2d begin = steady.orbit.end;
+    double slips = 0.0;
+    double rests = 1.0;
+    constexpr int halvings = 40;  // to 1e-12 of the way
+    for (int i = 0; i < halvings; ++i) {
+      const double share = 0.5 * (slips + rests);
+      const Vector2d slider = begin + share * (place - begin);
+      (walk_orbit(motion_, intervals_, slider, options_).slips ? slips : rests) = share;
+    }
+    const Vector2d slider = begin + rests * (place - begin);
+    steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
+    steady.defect = 2.0 * force_of(motion_, place - slider);
+    steady.closes = false;
   }
 
   /// Whether the two windows that push in the last period leave the slider in their corner. If so the

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/planar_cycle.hpp"
 #include "support/planar_cases.hpp"
 
 namespace microslip::contact {
@@ -57,6 +58,40 @@ TEST(PlanarRest, TheOnsetOfSlipIsTheLargerHalfAxis) {
     EXPECT_NEAR(place.excess, expected, 1e-14) << i;  // 50 roundings
   }
   EXPECT_LE(undecided, 3);
+}
+
+// All phases are alike where nothing moves: a mean beyond the limit is let slip to it, once.
+TEST(PlanarRest, AMeanWithoutMotionRestsAtTheLimit) {
+  Harmonics motion(2, 3);
+  motion.rows()(0, 0) = 3.0;
+  motion.rows()(0, 2) = -4.0;
+  const PlanarLaw law(SurfaceLaw({1.0, 1.0, 0.5, 2.0}, 1.0));
+  PointTraction traction;
+  law.traction(motion, 1.0, traction);
+  EXPECT_EQ(traction.regime, CycleRegime::full_stick);
+  EXPECT_NEAR(traction.force.mean()[0], 0.6, 1e-9);
+  EXPECT_NEAR(traction.force.mean()[2], -0.8, 1e-9);
+}
+
+// Around a circle under constant load every phase is a window of the middle. Next to the onset the
+// march comes close like 1/periods: what rests is found on the way to the middle, and the defect
+// says how far apart such sliders are.
+TEST(PlanarRest, ACircleIsDecidedByItsRadius) {
+  for (const double aside : {-1e-2, -1e-6, -1e-9, 1e-9, 1e-6, 1e-2}) {
+    Harmonics motion(1, 3);
+    motion.rows()(0, 0) = 0.7;
+    motion.rows()(1, 0) = 1.0 + aside;
+    motion.rows()(2, 2) = 1.0 + aside;
+    PointTraction traction;
+    PlanarLaw(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), 1e-11).traction(motion, 1.0, traction);
+    EXPECT_EQ(traction.regime, aside > 0.0 ? CycleRegime::stick_slip : CycleRegime::full_stick);
+    const double mean = std::hypot(traction.force.mean()[0], traction.force.mean()[2]);
+    EXPECT_LE(mean, aside > 0.0 ? 1e-10 : -1.01 * aside) << aside;
+    EXPECT_LE(traction.defect, aside > 0.0 ? 0.0 : 3.0 * std::abs(aside)) << aside;
+    if (aside < 0.0) {
+      EXPECT_NEAR(traction.force.sine(1)[0], 1.0 + aside, 1e-12) << aside;
+    }
+  }
 }
 
 // Several harmonics, load that varies, different stiffness: no slider nearby has less excess.
