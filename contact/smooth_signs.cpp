@@ -73,9 +73,8 @@ class Search {
   Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
       : functions_(functions), size_(size), found_(found) {}
 
-  /// @param ends    limits known at the ends of the cell.
   /// @param before  tail of the cell twice as long.
-  void cover(double begin, double end, const SmoothEnds& ends, double before = INFINITY) {
+  void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
     Eigen::Matrix<double, n, 2> values;
     for (int i = 0; i < n; ++i) {
@@ -88,35 +87,22 @@ class Search {
     // 3/2.
     constexpr double tolerance = 1e-10;
     const double largest = values.cwiseAbs().maxCoeff();
-    const double allowed = std::max(tolerance * size_, 1e-14 * largest);
+    const double allowed = std::max(tolerance * size_, 0.1 * tolerance * largest);
     const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
-    const double missed = std::max(misses(c, -1.0, ends.begin), misses(c, 1.0, ends.end));
     // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
-    const bool rounded = tail > 0.25 * before && tail <= 1e-6 * largest;
-    const bool resolved = rounded || tail <= allowed;
-    const bool meets = missed <= n * std::max(allowed, tail);
-    constexpr double narrowest = 1e-9;  // of a layer that is not resolved: it holds even less
-    if (!(resolved && meets) && end - begin > narrowest) {
-      cover(begin, begin + half, {ends.begin, std::nullopt}, tail);
-      cover(begin + half, end, {std::nullopt, ends.end}, tail);
+    const bool small = tail <= 1e-9 * largest || tail * (end - begin) <= 1e-14 * size_;
+    const bool rounded = tail > 0.25 * before && small;
+    if (!rounded && tail > allowed && depth > 0) {
+      cover(begin, begin + half, depth - 1, tail);
+      cover(begin + half, end, depth - 1, tail);
       return;
     }
-    for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, i);
-    for (std::size_t i = 0; i < 2 && ends.end.has_value(); ++i) {
-      pass(begin, (*ends.end)[i] > 0.0, static_cast<int>(i));  // turned somewhere in the last layer
-    }
+    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
+    for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, narrowest * std::min(1.0, end - begin), i);
   }
 
  private:
-  /// By how much the series misses a known limit at x = ±1.
-  static double misses(const Eigen::Matrix<double, n, 2>& c, double x,
-                       const std::optional<std::array<double, 2>>& limit) {
-    if (!limit.has_value()) return 0.0;
-    return std::max(std::abs(value(c.col(0), x) - (*limit)[0]),
-                    std::abs(value(c.col(1), x) - (*limit)[1]));
-  }
-
-  void isolate(const Series& c, double begin, double end, int function) {
+  void isolate(const Series& c, double begin, double end, double narrowest, int function) {
     const double spread = variation(c);
     constexpr double rounding = 1e-15;
     if (std::abs(c[0]) + spread <= rounding * size_) return;
@@ -125,14 +111,13 @@ class Search {
       return;
     }
     const Series d = derivative(c);
-    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
     if (std::abs(d[0]) > variation(d) || end - begin <= narrowest) {
       cross(c, begin, end, function);
       return;
     }
     const double middle = 0.5 * (begin + end);
-    isolate(tables().left.lazyProduct(c), begin, middle, function);
-    isolate(tables().right.lazyProduct(c), middle, end, function);
+    isolate(tables().left.lazyProduct(c), begin, middle, narrowest, function);
+    isolate(tables().right.lazyProduct(c), middle, end, narrowest, function);
   }
 
   /// One change at most.
@@ -161,18 +146,15 @@ class Search {
 
 }  // namespace
 
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
-                      double cell, double size, std::vector<SmoothSign>& found) {
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found) {
   const double length = end - begin;
-  constexpr double nothing = 1e-12;  // between two events that all but meet
-  if (!(length > nothing)) return;
+  if (!(length > 0.0)) return;
+  constexpr int deepest = 30;  // halvings; what changes within 1e-9 of a cell is not told from a jump
   Search search(functions, size, found);
   const int n_cells = static_cast<int>(std::ceil(length / cell));
   for (int i = 0; i < n_cells; ++i) {
-    SmoothEnds own;
-    if (i == 0) own.begin = ends.begin;
-    if (i + 1 == n_cells) own.end = ends.end;
-    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, own);
+    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, deepest);
   }
 }
 

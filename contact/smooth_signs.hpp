@@ -12,7 +12,6 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace microslip::contact {
@@ -25,18 +24,12 @@ struct SmoothSign {
 /// Two functions at once, as they come from one evaluation.
 using SmoothPair = std::function<std::array<double, 2>(double phase)>;
 
-/// Limits of both functions at the ends of the interval, from inside, where they are known: a layer next to
-/// an end, too thin for the points of a cell, is seen by them.
-struct SmoothEnds {
-  std::optional<std::array<double, 2>> begin;
-  std::optional<std::array<double, 2>> end;
-};
-
 /// @param functions  smooth inside (begin, end).
 /// @param cell       longest cell, as long as the functions are expected to be resolved on.
-/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it.
+/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it; where they are larger than
+///                   that, 1e-11 of what they are.
 /// @param found      sign changes are added, function by function and cell by cell; not sorted.
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
-                      double cell, double size, std::vector<SmoothSign>& found);
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found);
 
 }  // namespace microslip::contact

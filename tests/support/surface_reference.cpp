@@ -376,7 +376,7 @@ void add_extrema(const Point& point, Real begin, Real end, std::vector<Stop>& st
     return side == 0 ? u - r : u + r;
   };
   const auto place = [&](int i) {  // inside: rates jump at the ends
-    return begin + (end - begin) * (i + 0.02L * (i == 0) - 0.02L * (i == n)) / n;
+    return begin + (end - begin) * (i + 1e-6L * (i == 0) - 1e-6L * (i == n)) / n;
   };
   for (int i = 0; i <= n; ++i) {
     const Real u = point.u().at(place(i))[1];
@@ -388,24 +388,38 @@ void add_extrema(const Point& point, Real begin, Real end, std::vector<Stop>& st
       const auto positive = [&](Real x) { return rate(x, side) > 0.0L; };
       if (positive(a) != positive(b)) stops.push_back({bisected(positive, a, b), false});
     };
+    // A pair between two samples of one sign: about the smallest |rate|.
+    const auto add_pair = [&](Real low, Real high, Real sign) {
+      const Real begin_of = low;
+      const Real end_of = high;
+      for (int step = 0; step < 60; ++step) {
+        const Real a = low + (high - low) * 0.45L;
+        const Real b = low + (high - low) * 0.55L;
+        if (sign * rate(a, side) < sign * rate(b, side)) {
+          high = b;
+        } else {
+          low = a;
+        }
+      }
+      if (sign * rate(low, side) < 0.0L) {
+        add_between(begin_of, low);
+        add_between(low, end_of);
+      }
+    };
     for (int i = 0; i < n; ++i) {
       const auto k = static_cast<std::size_t>(i);
       add_between(place(i), place(i + 1));
-      if (i == 0) continue;
-      const Real now = rates[k][side];
-      const Real sign = now > 0.0L ? 1.0L : -1.0L;
-      if (sign * rates[k - 1][side] <= sign * now || sign * rates[k + 1][side] <= sign * now) continue;
-      Real low = place(i - 1);
-      Real high = place(i + 1);
-      for (int step = 0; step < 60; ++step) {  // ternary search of the smallest |rate|
-        const Real a = low + (high - low) * 0.45L;
-        const Real b = low + (high - low) * 0.55L;
-        (sign * rate(a, side) < sign * rate(b, side) ? high : low) =
-            sign * rate(a, side) < sign * rate(b, side) ? b : a;
+      const Real sign = rates[k][side] > 0.0L ? 1.0L : -1.0L;
+      const Real now = sign * rates[k][side];
+      const Real next = sign * rates[k + 1][side];
+      if (next <= 0.0L) continue;
+      const Real before = i > 0 ? sign * rates[k - 1][side] : now;
+      const Real after = i + 1 < n ? sign * rates[k + 2][side] : next;
+      if (now <= before && next <= after && before > 0.0L && after > 0.0L) {
+        add_pair(place(i), place(i + 1), sign);
       }
-      if (sign * rate(low, side) < 0.0L) {
-        add_between(place(i - 1), low);
-        add_between(low, place(i + 1));
+      if (i > 0 && now < before && now < next && before > 0.0L) {
+        add_pair(place(i - 1), place(i + 1), sign);
       }
     }
   }
