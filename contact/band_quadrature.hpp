@@ -72,16 +72,15 @@ class PieceVisitor {
   void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
     evaluate(begin, half);
-    const double top = highest_terms();
-    // The rule is exact to degree 23: what is left out is about the square of the term of
-    // degree 11. Half the length divides that by 2¹¹, unless it is the rounding of a steep law,
-    // of which the integral has the length.
+    const Tail tail = highest_terms();
+    // Half the length divides the highest term by 2¹¹, unless it is the rounding of a steep law, of
+    // which the integral has the length.
     const double length = end - begin;
-    const bool rounded = top > 0.25 * before && top * length <= 1e-14;
-    const bool resolved = top * top * std::min(length, 1.0) <= 1e-20 || rounded;
+    const bool rounded = tail.top > 0.25 * before && tail.top * length <= 1e-16;
+    const bool resolved = tail.left_out * std::min(length, 1.0) <= 1e-18 || rounded;
     if (depth > 0 && !resolved) {
-      cover(begin, begin + half, depth - 1, top);
-      cover(begin + half, end, depth - 1, top);
+      cover(begin, begin + half, depth - 1, tail.top);
+      cover(begin + half, end, depth - 1, tail.top);
       return;
     }
     for (int i = 0; i < n_band_nodes; ++i) {
@@ -101,17 +100,28 @@ class PieceVisitor {
     }
   }
 
-  /// Relative to the sizes of the forces; 0 where these are waves.
-  [[nodiscard]] double highest_terms() const {
-    if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return 0.0;
-    const double friction = top_term(nodes_.friction);
-    const double load = top_term(nodes_.load);
-    return std::max(friction > 0.0 ? friction / band_.friction_size() : 0.0,
-                    load > 0.0 ? load / band_.load_size() : 0.0);
+  /// Relative to the sizes of the forces.
+  struct Tail {
+    double top = 0.0;
+    /// The rule is exact to degree 23. Terms fall off geometrically: as the one of degree 11 is to the
+    /// largest value, so is what is left out to that, and less.
+    double left_out = 0.0;
+  };
+
+  /// None where forces are waves.
+  [[nodiscard]] Tail highest_terms() const {
+    Tail tail;
+    if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return tail;
+    add_tail(nodes_.friction, band_.friction_size(), tail);
+    add_tail(nodes_.load, band_.load_size(), tail);
+    return tail;
   }
 
-  static double top_term(const BandPoints& values) {
-    return (band_panel().top * values).cwiseAbs().maxCoeff();
+  static void add_tail(const BandPoints& values, double size, Tail& tail) {
+    const double top = (band_panel().top * values).cwiseAbs().maxCoeff();
+    if (!(top > 0.0)) return;
+    tail.top = std::max(tail.top, top / size);
+    tail.left_out = std::max(tail.left_out, (top / size) * (top / values.cwiseAbs().maxCoeff()));
   }
 
   SliderBand& band_;

@@ -90,7 +90,7 @@ class Search {
     const double allowed = std::max(tolerance * size_, 0.1 * tolerance * largest);
     const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
     // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
-    const bool small = tail <= 1e-9 * largest || tail * (end - begin) <= 1e-14 * size_;
+    const bool small = tail <= 1e-9 * largest || tail * (end - begin) <= 1e-16 * size_;
     const bool rounded = tail > 0.25 * before && small;
     if (!rounded && tail > allowed && depth > 0) {
       cover(begin, begin + half, depth - 1, tail);

