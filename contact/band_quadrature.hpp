@@ -77,7 +77,7 @@ class PieceVisitor {
     // which the integral has the length.
     const double length = end - begin;
     const bool rounded = tail.top > 0.25 * before && tail.top * length <= 1e-16;
-    const bool resolved = tail.left_out * std::min(length, 1.0) <= 1e-18 || rounded;
+    const bool resolved = tail.left_out * std::min(length, 1.0) <= 1e-16 || rounded;
     if (depth > 0 && !resolved) {
       cover(begin, begin + half, depth - 1, tail.top);
       cover(begin + half, end, depth - 1, tail.top);

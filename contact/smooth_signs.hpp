@@ -3,7 +3,8 @@
 ///
 ///   f(x) = Σ_k c_k T_k(x) on a cell [−1, 1],     |f − c₀| ≤ Σ_{k>0} |c_k|                        (1)
 ///
-/// Cells are halved until the last coefficients are below a tolerance; then (1) for f proves that its sign
+/// Cells are halved until the last coefficients are below a tolerance, or so far below the others that what
+/// follows is beyond doubt; then (1) for f proves that its sign
 /// is kept, (1) for f' that there is one change at most, or the polynomial is halved. Pairs of changes are
 /// told from none as long as f rises between them to the tolerance.
 ///
