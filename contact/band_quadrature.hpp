@@ -79,8 +79,11 @@ class PieceVisitor {
     const bool rounded = tail.top > 0.25 * before && tail.top * length <= 1e-16;
     const bool resolved = tail.left_out * std::min(length, 1.0) <= 1e-16 || rounded;
     if (depth > 0 && !resolved) {
-      cover(begin, begin + half, depth - 1, tail.top);
-      cover(begin + half, end, depth - 1, tail.top);
+      constexpr double far = 1e-6;  // that a halving, by 2⁻²², would not be enough
+      const int n = tail.left_out > far ? 4 : 2;
+      for (int i = 0; i < n; ++i) {
+        cover(begin + length * i / n, begin + length * (i + 1) / n, depth - n / 2, tail.top);
+      }
       return;
     }
     for (int i = 0; i < n_band_nodes; ++i) {
