@@ -1,7 +1,7 @@
 /// @file
 /// Integrals over the pieces of a cycle in its band (band_walk.hpp): Gauss–Legendre panels of twelve points,
-/// halved until the highest terms of the forces are resolved. Pieces know the layers of a coefficient that
-/// depends on the rate beforehand, so that none is missed.
+/// halved until what they leave out is rounding. Layers of a coefficient that depends on the rate have pieces
+/// of their own, so that no panel steps over one.
 #pragma once
 
 #include <algorithm>

@@ -58,7 +58,7 @@ FrictionCoefficient FrictionLaw::at(double rate) const {
 void FrictionLaw::grades(double fastest, std::vector<double>& speeds) const {
   speeds.clear();
   if (!is_rate_dependent()) return;
-  constexpr double flat = 40.0;    // e⁻⁴⁰ is rounding
+  constexpr double flat = 40.0;  // e⁻⁴⁰ is rounding
   constexpr double small = 1e6;
   double grade = 1.0;
   while (grade / decay_ < fastest && std::isfinite(grade)) {

@@ -82,8 +82,8 @@ NormalState normal_tail(double x) {
   return {share * r, share, share * (x + r), r, r * (t - r)};
 }
 
-// r = J/Φ at ζ = −x, 0 ≤ x < 10, from which all the rest follows: polynomials in cells of a quarter.
-// Its nearest pole, a zero of Φ, is 3.4 away: degree 9 leaves 1e-17.
+// r = J/Φ at ζ = −x, 0 ≤ x < 10, from which all the rest follows: polynomials in cells of a
+// quarter. Its nearest pole, a zero of Φ, is 3.4 away: degree 9 leaves 1e-17.
 class ReachTable {
  public:
   static constexpr double end = 10.0;

@@ -6,9 +6,11 @@
 ///
 /// s moves only where a rising w_P or a falling w_N takes it along. (1) is smooth between edges: touch-down
 /// and lift-off, kinks of a rough law, and with a coefficient that depends on the rate where u' = 0; edges
-/// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Where the coefficient changes
-/// within thin layers these are nodes as well (band_layers.hpp). Between nodes w_P' and w_N' are polynomials in Chebyshev form to 1e-10, whose sign changes are isolated, not looked for
-/// (smooth_signs.hpp). What remains are stretches on which both ends of the band are monotone.
+/// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Where the coefficient
+/// changes within thin layers their stops are nodes as well, and phases are counted from the place where the
+/// layer is (band_layers.hpp). Between nodes w_P' and w_N' are polynomials in Chebyshev form to 1e-10, or far
+/// from zero, whose sign changes are isolated, not looked for (smooth_signs.hpp). What remains are stretches
+/// on which both ends of the band are monotone.
 #pragma once
 
 #include <vector>
@@ -117,7 +119,7 @@ class SliderBand {
   TrigonometricPolynomial polynomial_;
   std::vector<SignChange> changes_;
   std::vector<SignChange> contact_;
-  std::vector<double> edges_;   // of a rough law, in [0, 2π]
+  std::vector<double> edges_;  // of a rough law, in [0, 2π]
   BandLayers layers_;
   std::vector<SmoothSign> signs_;
   std::vector<ContactRun> runs_;

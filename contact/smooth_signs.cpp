@@ -89,7 +89,8 @@ class Search {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const double tail = c.col(column).tail<2>().cwiseAbs().sum();
-      resolved[i] = is_resolved(tail, values.col(column).cwiseAbs().maxCoeff(), end - begin, before);
+      resolved[i] =
+          is_resolved(tail, values.col(column).cwiseAbs().maxCoeff(), end - begin, before);
       settled = settled && (resolved[i] || is_clear(c.col(column), tail));
       top = std::max(top, tail);
     }
@@ -189,7 +190,8 @@ void add_smooth_signs(const SmoothPair& functions, double begin, double end, dou
                       double size, std::vector<SmoothSign>& found) {
   const double length = end - begin;
   if (!(length > 0.0)) return;
-  constexpr int deepest = 30;  // halvings; what changes within 1e-9 of a cell is not told from a jump
+  constexpr int deepest =
+      30;  // halvings; what changes within 1e-9 of a cell is not told from a jump
   Search search(functions, size, found);
   const int n_cells = static_cast<int>(std::ceil(length / cell));
   for (int i = 0; i < n_cells; ++i) {

@@ -47,7 +47,7 @@ struct SurfaceReference {
 };
 
 [[nodiscard]] SurfaceReference surface_reference(const ReferenceLaw& law,
-                                                 const contact::Harmonics& motion,
-                                                 double frequency, int n_harmonics);
+                                                 const contact::Harmonics& motion, double frequency,
+                                                 int n_harmonics);
 
 }  // namespace microslip::test
