@@ -15,7 +15,6 @@ import argparse
 import os
 import sys
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -36,7 +35,7 @@ KINDS = [
 
 def line_positions(folder):
     """Coordinate p or r [m] of contact points on a line; None where they lie otherwise, or nowhere."""
-    with h5py.File(os.path.join(folder, "model.h5"), "r") as file:
+    with plot_run.data_file(os.path.join(folder, "model.h5")) as file:
         if "contact/points" not in file or len(file["contact/points"]) < 3:
             return None
         local = file["contact/points"][:] @ file["contact/frame"][:].T
@@ -62,7 +61,7 @@ class LineMap:
     def __init__(self, folder, name, position):
         self.order = np.argsort(position)
         self.x = position[self.order]
-        with h5py.File(os.path.join(folder, "maps", name + ".h5"), "r") as file:
+        with plot_run.data_file(os.path.join(folder, "maps", name + ".h5")) as file:
             read = lambda key: file[key][:][self.order]
             self.frequency = file["frequency_Hz"][0]
             self.phase = file["phase_deg"][:]
@@ -71,7 +70,7 @@ class LineMap:
             self.friction = read("friction_traction_Pa")
             self.u, self.v = read("relative_displacement_m"), read("approach_m")
             self.normal = read("normal_traction_Pa")
-        with h5py.File(os.path.join(folder, "model.h5"), "r") as file:
+        with plot_run.data_file(os.path.join(folder, "model.h5")) as file:
             read = lambda key: file["contact/" + key][:][self.order]
             self.k_u, self.k_v = read("tangential_stiffness"), read("normal_stiffness")
             self.mu = read("friction_coefficient")
