@@ -150,7 +150,7 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
-    require_loads(model, scene);
+    require_curves(model, scene);
     const ResponseDescription& response = *scene.response;
     const std::size_t n_curves = curve_requests(scene).size();
     fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,

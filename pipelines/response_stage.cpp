@@ -79,6 +79,12 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   return map;
 }
 
+solver::Scene integrated_scene(const ReducedModel& model, double load) {
+  solver::Scene problem = solver_scene(model, load);
+  problem.transient = transient_force(model, load);
+  return problem;
+}
+
 }  // namespace
 
 std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
@@ -178,6 +184,16 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
   }
 }
 
+void require_curves(const ReducedModel& model, const SceneDescription& scene) {
+  require_loads(model, scene);
+  if (scene.response->method != ResponseDescription::Method::time) return;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    if (const auto* load = std::get_if<double>(&request.preload)) {
+      require_steps(integrated_scene(model, *load), *scene.response);
+    }
+  }
+}
+
 solver::ContinuationOptions continuation_options(const ResponseDescription& response) {
   solver::ContinuationOptions options;
   options.frequency_begin = two_pi * response.frequency_begin_hz;
@@ -210,9 +226,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   }
   const double load = std::get<double>(request.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    solver::Scene problem = solver_scene(model, load);
-    problem.transient = transient_force(model, load);
-    result.curve = integrate_curve(problem, *scene.response, observe);
+    result.curve = integrate_curve(integrated_scene(model, load), *scene.response, observe);
     result.integrated = true;
     return result;
   }

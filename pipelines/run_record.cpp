@@ -57,6 +57,14 @@ std::string lowest_text(const solver::Optimum& optimum) {
   return optimum.trace.empty() ? "" : "; " + amplitude_text(optimum.best);
 }
 
+/// Where a bracket looks farther than the scene asks for.
+std::string range_text(const OptimumOfFactor& entry) {
+  return entry.widened ? fmt::format(" (searched from {:.6g} to {:.6g}, wider than the range as given: the best preload "
+                                     "moves with 1/friction)",
+                                     entry.range[0], entry.range[1])
+                       : "";
+}
+
 /// An advisory lock that dies with the process: two runs in one folder would mix their files.
 int lock_folder(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ".lock";
@@ -395,7 +403,7 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
   for (const OptimumOfFactor& entry : bracket.entries) {
     const solver::Optimum& optimum = entry.optimum;
     progress_.info(fmt::format(
-        "with {} x {:g}: {}", entry.parameter, entry.factor,
+        "with {} x {:g}{}: {}", entry.parameter, entry.factor, range_text(entry),
         optimum.found ? fmt::format("best {:.6g}, {}", optimum.best.parameter,
                                     amplitude_text(optimum.best))
                       : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));

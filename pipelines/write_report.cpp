@@ -139,6 +139,14 @@ std::string optimum_cells(const JsonEntry& peak) {
                      place_of(peak) == "range_end" ? " (end of the range)" : "");
 }
 
+/// Where the range of a bracket's entry is wider than that of the scene.
+std::string range_text(const JsonEntry& entry) {
+  if (!entry.has("range_widened") || !entry.truth("range_widened")) return {};
+  const std::vector<JsonEntry> range = entry.list("range");
+  return range.size() != 2 ? std::string()
+                           : fmt::format(" (searched wider: {:.6g} … {:.6g})", range[0].as_number(), range[1].as_number());
+}
+
 std::string parameter_of(const JsonEntry& optimum) {
   return optimum.has("parameter") ? optimum.text("parameter") : "preload";
 }
@@ -160,7 +168,7 @@ std::string optimum_text(const JsonEntry& optimum) {
   text += optimum_cells(optimum);
   for (const JsonEntry& entry : optimum.list("bracket")) {
     const std::string objection = is_found(entry) ? "" : text_or_none(entry, "objection");
-    text += fmt::format("| {} × {:g}{} | ", entry.text("parameter"), entry.number("factor"),
+    text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"), range_text(entry),
                         is_found(entry)     ? ""
                         : objection.empty() ? " (lowest, not found)"
                                             : fmt::format(" (lowest: {})", objection)) +

@@ -51,7 +51,8 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   OptimumSummary& found = run.optimum.emplace();
   found.request.key = "preload";
   found.optimum = optimum;
-  found.bracket.entries = {{"contact_stiffness", 2.0, optimum}};
+  found.bracket.entries = {{"contact_stiffness", 2.0, optimum, {100.0, 400.0}, false},
+                           {"friction_coefficient", 0.5, optimum, {100.0, 800.0}, true}};
   found.bracket.left_out = {"friction_coefficient: friction is a law of the slip speed"};
   write_optimum_csv(folder, found.request, optimum);
   for (const CurveResult& curve : curves) {
@@ -91,6 +92,8 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("| free | 296.0000 | 0.0002 |"), std::string::npos) << report;
   EXPECT_NE(report.find("Best preload: 200 N"), std::string::npos) << report;
   EXPECT_NE(report.find("Not varied: friction_coefficient"), std::string::npos) << report;
+  EXPECT_NE(report.find("| friction_coefficient × 0.5 (searched wider: 100 … 800) |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| contact_stiffness × 2 |"), std::string::npos) << report;
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
 
