@@ -118,6 +118,7 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
+  require_folder_name(arguments.output, "-o");
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
     session = std::make_unique<fem::SlepcSession>();
@@ -134,6 +135,7 @@ int mesh(Arguments& arguments) {
     throw SceneError(scene.file.string() +
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
   }
+  require_file_name(arguments.output, "-o");
   const std::filesystem::path file = std::filesystem::absolute(arguments.output);
   if (!std::filesystem::is_directory(file.parent_path())) {
     throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
@@ -158,6 +160,7 @@ int init(const Arguments& arguments) {
   if (!arguments.output.empty() && std::filesystem::exists(arguments.output, ignored)) {
     throw SceneError(arguments.output + ": exists; init overwrites nothing");
   }
+  if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
   put_out(arguments, text);
   return 0;
 }
@@ -166,8 +169,13 @@ int cycle(const Arguments& arguments) {
   if (arguments.plot_folder && arguments.plot_folder->empty()) {
     throw SceneError("--plot: expected the name of a folder");
   }
+  if (arguments.plot_folder) require_folder_name(*arguments.plot_folder, "--plot");
+  if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
   const CsvTable table = CsvTable::read(arguments.input);
   const std::string json = cycles_as_json(table, arguments.harmonics);
+  if (table.n_rows() == 0) {
+    std::cerr << fmt::format("warning: {}: no rows below the header: there is no cycle to compute\n", table.name());
+  }
   std::vector<CyclePlot> plots;
   if (arguments.plot_folder) plots = cycle_plots(table);
   if (arguments.dry_run) {

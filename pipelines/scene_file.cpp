@@ -20,6 +20,7 @@
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
+#include "pipelines/toml_text.hpp"
 #include "pipelines/units.hpp"
 #include "pipelines/write_scene.hpp"
 
@@ -55,15 +56,6 @@ struct Reading {
     return {table(name), spec, std::string(name), file, *position->second.as_table()};
   }
 };
-
-toml::table parse_text(const std::string& text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw SceneError(fmt::format("{}:{}:{}: {}", name, error.source().begin.line,
-                                 error.source().begin.column, error.description()));
-  }
-}
 
 void check_sections(const Reading& reading, std::string_view kind) {
   std::vector<std::string_view> known{"title"};
@@ -389,7 +381,7 @@ void check_optimum(const SceneDescription& scene) {
 SceneDescription parse_scene(const std::string& text, const std::string& name,
                              const std::filesystem::path& folder,
                              const std::vector<std::string>& overrides) {
-  toml::table given = parse_text(text, name);
+  toml::table given = parse_toml(text, name);
   for (const std::string& assignment : overrides) apply_override(given, assignment);
   SceneDescription scene = scene_of(std::move(given), name, folder);
   check_optimum(scene);
@@ -398,7 +390,7 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
 
 SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
   const std::string name = scene.file.string();
-  toml::table given = parse_text(scene.complete_toml, name);
+  toml::table given = parse_toml(scene.complete_toml, name);
   if (toml::table* response = given["response"].as_table()) {
     for (const char* search : {"optimum", "optimum_range", "optimum_at"}) response->erase(search);
   }

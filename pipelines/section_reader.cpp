@@ -151,7 +151,11 @@ int SectionReader::integer(std::string_view key) const {
   const toml::node& found = required(key);
   const KeySpec& spec = spec_of(key);
   const auto value = found.value<std::int64_t>();
-  if (!found.is_integer() || !value) fail(key, "expected a whole number", &found);
+  if (!found.is_integer() || !value) {
+    const bool has_range = spec.low != 0.0 || spec.high != 0.0;
+    fail(key, fmt::format("expected a whole number{}{}", has_range ? ", " : "", has_range ? range_text(spec) : ""),
+         &found);
+  }
   const auto number = static_cast<double>(*value);
   if (number < spec.low || number > spec.high) {
     fail(key, fmt::format("{} is out of range; expected {}", *value, range_text(spec)), &found);

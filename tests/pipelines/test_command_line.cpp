@@ -273,7 +273,7 @@ TEST_F(Program, PlotsCyclesIntoAFolder) {
   }
   EXPECT_EQ(run("cycle t.csv --plot other --dry-run").code, 0);
   EXPECT_FALSE(exists("other"));
-  expect("cycle t.csv --plot t.csv/below", 4, {"t.csv/below"});
+  expect("cycle t.csv --plot t.csv/below", 1, {"t.csv/below", "is a file"});
   expect("cycle t.csv --plot ''", 1, {"--plot", "folder"});
 }
 
@@ -305,9 +305,30 @@ TEST_F(Program, AFullDiskIsExitFour) {
 
 TEST_F(Program, AnOutputThatCannotBeMadeIsExitFour) {
   write(path("scene.toml"), scene_text);
-  write(path("t.csv"), table_header);
-  expect("run scene.toml -o scene.toml/below", 4, {"scene.toml/below"});
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
   expect("cycle t.csv -o no/such/folder/t.json", 4, {"no/such/folder"});
+}
+
+/// Not for want of disk: the command line names the wrong thing.
+TEST_F(Program, AnOutputOfAnotherKindIsBadInput) {
+  write(path("scene.toml"), scene_text);
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
+  for (const char* command : {"run", "modes"}) {
+    expect(std::string(command) + " scene.toml -o t.csv", 1, {"-o t.csv", "is a file", "expected the name of a folder"});
+    expect(std::string(command) + " scene.toml -o t.csv/below", 1, {"-o t.csv/below", "t.csv is a file"});
+  }
+  std::filesystem::create_directory(path("folder"));
+  expect("cycle t.csv -o folder", 1, {"-o folder", "is a folder"});
+  expect("cycle t.csv --plot scene.toml", 1, {"--plot scene.toml", "is a file"});
+  EXPECT_EQ(content_of(path("scene.toml")), scene_text);
+}
+
+TEST_F(Program, ATableWithoutRowsIsAnEmptyListAndANotice) {
+  write(path("t.csv"), table_header);
+  const Outcome outcome = run("cycle t.csv");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "[]\n");
+  EXPECT_NE(outcome.err.find("warning: t.csv: no rows below the header"), std::string::npos) << outcome.err;
 }
 
 // ---- run on a modal scene
