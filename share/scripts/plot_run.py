@@ -169,11 +169,12 @@ def log_scale(axis):
 
 
 def legend_below(figure, handles):
-    """One row under everything, in a strip of its own."""
-    inches = 0.28
+    """One row under everything, two where it would be cut off, in a strip of its own."""
+    rows = 1 if len(handles) <= 6 else 2
+    inches = 0.28 if rows == 1 else 0.44
     strip = inches / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
-    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), ncols=len(handles),
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), ncols=-(-len(handles) // rows),
                   borderaxespad=0.4, columnspacing=1.6)
 
 
@@ -580,13 +581,13 @@ def layout_of(contact):
     return 3 * 2.9 + 1.2, 2 * (2.9 * ratio + 0.6) + 0.8
 
 
-def state_legend(figure, contact, lines=()):
+def state_legend(figure, contact, lines=(), handles=()):
     present = set(np.unique(contact.state)) | {0, 1, 2, 3}
-    handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+    patches = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
                for value, name, colour in STATES if value in present]
-    handles += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
+    patches += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
                 for guard, (name, style) in GUARDS.items() if guard in lines]
-    legend_below(figure, handles)
+    legend_below(figure, patches + list(handles))
 
 
 def draw_states(axes, contact, angle):
