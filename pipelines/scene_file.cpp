@@ -44,7 +44,8 @@ struct Reading {
     throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
                                  node->is_array() && name == "contact"
                                      ? "several contact patches are not available in this version"
-                                     : fmt::format("expected a section [{}]", name)));
+                                     : fmt::format("expected a section [{}]{}", name,
+                                                   node->is_array() ? ", once; found a list, or [[…]]" : "")));
   }
 
   SectionReader section(std::string_view name, std::string_view spec) {
