@@ -2,6 +2,7 @@
 /// The program `microslip`: reads the command line, calls one study, turns its end into an exit code.
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -119,6 +120,7 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
   require_folder_name(arguments.output, "-o");
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may leave; the run is for its folder
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
     session = std::make_unique<fem::SlepcSession>();
@@ -136,6 +138,9 @@ int mesh(Arguments& arguments) {
                      ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
   }
   require_file_name(arguments.output, "-o");
+  if (std::filesystem::path(arguments.output).extension() != ".msh") {
+    throw SceneError(fmt::format("-o {}: expected a name that ends in .msh: gmsh's format is written", arguments.output));
+  }
   const std::filesystem::path file = std::filesystem::absolute(arguments.output);
   if (!std::filesystem::is_directory(file.parent_path())) {
     throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
@@ -233,7 +238,8 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
     return command;
   };
   const auto with_output = [&](CLI::App* command, const char* what) {
-    command->add_option("-o,--output", a.output, what);
+    command->add_option("-o,--output", a.output, what)
+        ->check([](const std::string& name) { return name.empty() ? std::string("expected a name") : std::string(); });
     return command;
   };
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
@@ -306,6 +312,8 @@ int misused(const Arguments& arguments, const std::string& message, int argc, ch
   return code;
 }
 
+constexpr const char* unwritable_output = "standard output cannot be written; is the disk full?";
+
 int guarded(Arguments& arguments, const Action& action) {
   std::string message;
   int code = 0;
@@ -313,15 +321,24 @@ int guarded(Arguments& arguments, const Action& action) {
     refuse_idle_options(arguments);
     code = action();
     std::cout.flush();
-    if (!std::cout) throw ExhaustedError("standard output cannot be written; is the disk full?");
+    if (!std::cout) throw ExhaustedError(unwritable_output);
   } catch (const std::exception& error) {
     const ExitCode verdict = exit_code_of(error);
     code = static_cast<int>(verdict);
     message = verdict == ExitCode::internal ? fmt::format("internal error: {}", error.what())
                                             : std::string(error.what());
+    if (verdict == ExitCode::refused && message.find(arguments.input) == std::string::npos) {
+      message.insert(0, arguments.input + ": ");
+    }
     if (arguments.rank == 0) std::cerr << "microslip: " << message << '\n';
   }
-  if (arguments.json && arguments.rank == 0) print_json_line(arguments, code, message);
+  if (arguments.json && arguments.rank == 0) {
+    print_json_line(arguments, code, message);
+    if (!std::cout && code == 0) {
+      std::cerr << "microslip: " << unwritable_output << '\n';
+      code = static_cast<int>(ExitCode::exhausted);
+    }
+  }
   return code;
 }
 

@@ -436,6 +436,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string_view
 std::string range_text(const KeySpec& key) {
   const bool from = key.low > -unbounded;
   const bool to = key.high < unbounded;
+  if (from && to && key.low == key.high) return fmt::format("{:g}", key.low);
   if (from && to) {
     return key.above_low ? fmt::format("above {:g}, at most {:g}", key.low, key.high)
                          : fmt::format("{:g} to {:g}", key.low, key.high);

@@ -49,6 +49,7 @@ std::vector<std::string> plot_names(const std::filesystem::path& folder) {
 }
 
 std::string preload_text(const JsonEntry& curve) {
+  if (!curve.has("preload_N")) return "–";  // beyond double precision
   const JsonEntry preload = curve.at("preload_N");
   return preload.is_text() ? preload.as_text() : fmt::format("{:g}", preload.as_number());
 }

@@ -134,6 +134,7 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
   expect("run scene.toml -j 0", 1, {"--jobs"});
   expect("run scene.toml -j many", 1, {"--jobs"});
   expect("run scene.toml -q -v", 1, {"--quiet"});
+  expect("run scene.toml -o ''", 1, {"--output", "expected a name"});
   expect("check a.toml b.toml", 1, {"b.toml"});
   expect("mesh scene.toml", 1, {"--output"});
   expect("check scene.toml --set", 1, {"--set"});
@@ -208,13 +209,22 @@ TEST_F(Program, NamesBadScenes) {
   write(path("scene.toml"), scene_text);
   expect("check ''", 1, {"no such file"});
   expect("check none.toml", 1, {"none.toml: no such file"});
-  expect("check .", 1, {"not a file"});
+  expect("check .", 1, {"is a folder, not a file"});
   expect(std::string("check ").append(4200, 'x'), 1, {"too long"});
   expect("check scene.toml --set modal.frequncy=1", 1, {"--set modal.frequncy=1", "\"frequency\""});
   write(path("broken.toml"), std::string(scene_text) + "density = 1e\n");
   expect("check broken.toml", 1, {"broken.toml:11:"});
   write(path("mesh.toml"), run("init mesh").out);
   expect("check mesh.toml", 1, {"blade.msh", "no such file"});
+}
+
+TEST_F(Program, WarnsOfAStructureThatNothingExcitesOrDamps) {
+  write(path("scene.toml"), scene_text);
+  const auto told = [&](const std::string& settings) { return run("check scene.toml" + settings).out; };
+  EXPECT_EQ(told("").find("warning"), std::string::npos) << told("");
+  EXPECT_NE(told(" --set modal.force_sine=[0,0]").find("warning: no force excites"), std::string::npos);
+  EXPECT_NE(told(" --set modal.damping_ratio=[0.01,0]").find("warning: a mode has no damping"), std::string::npos);
+  expect("check scene.toml --set 'modal.frequency=[1e200, 2]'", 1, {"scene.toml: a natural frequency"});
 }
 
 TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
@@ -229,6 +239,7 @@ TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
   EXPECT_TRUE(exists("m.msh"));
   expect("check blade.toml --set contact.surface=contct" + coarse, 1, {"contct", "\"contact\""});
   expect("mesh blade.toml -o no/such/folder/b.msh", 4, {"no/such/folder"});
+  expect("mesh blade.toml -o b.vtk", 1, {"-o b.vtk", ".msh"});
 }
 
 TEST_F(Program, ReadsPathsWithSpacesAndLetters) {
@@ -301,6 +312,20 @@ TEST_F(Program, AFullDiskIsExitFour) {
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 4);
   EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
+  write(path("scene.toml"), scene_text);
+  command = "cd '" + folder() + "' && '" MICROSLIP_PROGRAM "' run scene.toml -q --json > /dev/full 2> err";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
+}
+
+/// Who reads the progress may leave before the end.
+TEST_F(Program, ARunOutlivesTheReaderOfItsProgress) {
+  write(path("scene.toml"), scene_text);
+  const std::string command = "cd '" + folder() + "' && { '" MICROSLIP_PROGRAM "' run scene.toml -o out 2>&1; "
+                              "echo $? > code; } | true";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content_of(path("code")), "0\n");
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
 }
 
 TEST_F(Program, AnOutputThatCannotBeMadeIsExitFour) {
@@ -388,7 +413,7 @@ TEST_F(Program, ARunReplacesAnEarlierOneWhole) {
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
-         {"rigid-body", "contact points"});
+         {"scene.toml: rigid-body", "contact points"});
   EXPECT_EQ(content_of(path(".err")).find("supports"), std::string::npos) << "a modal scene has none";
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
 }
