@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 #include "pipelines/units.hpp"
 
 namespace microslip::pipelines {

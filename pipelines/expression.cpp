@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 
 namespace microslip::pipelines {
 

@@ -16,6 +16,7 @@
 #include "pipelines/effects_section.hpp"
 #include "pipelines/meshed_section.hpp"
 #include "pipelines/modal_scene.hpp"
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/response_section.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"

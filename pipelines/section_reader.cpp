@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/units.hpp"
 
