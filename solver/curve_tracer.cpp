@@ -243,8 +243,14 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   walker_evaluations_ = walker_iterations_ = 0;
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
-  return {system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start),
-          forward, options_.residual_tolerance};
+  BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
+                      std::move(start), forward, options_.residual_tolerance);
+  if (scene_.contact) {
+    walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
+      scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
+    });
+  }
+  return walker;
 }
 
 /// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies

@@ -47,10 +47,6 @@ struct Node {
   BranchVector tangent;   ///< scaled, of length one
 };
 
-double dot(const BranchVector& a, const BranchVector& b) {
-  return a.x.dot(b.x) + a.parameter * b.parameter;
-}
-
 BranchVector minus(const BranchVector& a, const BranchVector& b) {
   return {a.x - b.x, a.parameter - b.parameter};
 }
@@ -141,11 +137,16 @@ class Segment {
   [[nodiscard]] bool crosses_kink(const Node& a, const Node& b) const {
     const auto& contact = balance_.scene().contact;
     if (!contact) return false;
-    const auto regimes = [&](const Node& at) {
-      return contact->regimes(balance_.harmonics(at.at.point.solution.point.x));
+    const auto read = [&](const Node& at, contact::ContactStates& states) {
+      const BranchVector& point = at.at.point.solution.point;
+      contact->states(balance_.harmonics(point.x), point.parameter, states);
     };
-    const std::vector<int> before = regimes(a);
-    return before.size() <= most_kinks && before != regimes(b);
+    contact::ContactStates before;
+    contact::ContactStates after;
+    read(a, before);
+    if (before.size() > most_kinks) return false;
+    read(b, after);
+    return contact::state_change(before, after).n_regimes > 0;
   }
 
   /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole

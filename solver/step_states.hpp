@@ -1,0 +1,66 @@
+/// @file
+/// How far a step along the branch may go before too much of the contact has changed its state: what happens
+/// between two points of a curve is then seen on it.
+///
+///   many points   (area × period) that changes its state ≤ 20 %                                       (1)
+///   up to 32      no point changes it for more than a part of its period: one that turns its phases round
+///                 moves the whole curve, though its kind of cycle is the same at both ends
+///   up to 8       the step ends just beyond the first point whose kind of cycle changes: a kink of the branch
+///
+/// Where in a step that happens is read from the cubic through both ends: nothing is solved for. A step is never
+/// cut below a least length, which grows while one step after another is cut: states that chatter slow the walk
+/// down for a few steps and cannot stop it.
+///
+/// Source: issue of the solver; theory section 16.
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "contact/contact_states.hpp"
+#include "solver/branch_geometry.hpp"
+
+namespace microslip::solver {
+
+/// States of the contact at a point; @param result  written whole, empty: not told.
+using StateReader = std::function<void(const BranchVector& at, contact::ContactStates& result)>;
+
+class StepStates {
+ public:
+  /// Without a reader no step is ever cut.
+  explicit StepStates(StateReader read = {}) : read_(std::move(read)) {}
+
+  /// A step that has converged.
+  /// @return share of its length at which it should end; 1: it may stay.
+  [[nodiscard]] double first_cut(const WalkerPoint& from, const WalkerPoint& to, double length);
+  /// The same for a step that has been cut: it may end beyond one change.
+  [[nodiscard]] double next_cut(const WalkerPoint& from, const WalkerPoint& to, double length);
+  /// What the next step may have of the length of one that was accepted, so that (1) holds.
+  [[nodiscard]] double growth() const;
+
+  /// Steps that were cut, and those among them that change more than (1) all the same.
+  [[nodiscard]] long n_cuts() const { return n_cuts_; }
+  [[nodiscard]] long n_forced() const { return n_forced_; }
+
+ private:
+  enum class Bound { wanted, bearable };
+
+  [[nodiscard]] bool exceeds(const contact::StateChange& change, Bound bound) const;
+  [[nodiscard]] bool is_few() const;
+  [[nodiscard]] double cut(const WalkerPoint& from, const WalkerPoint& to, double length, Bound bound);
+  [[nodiscard]] double located(const WalkerPoint& from, const WalkerPoint& to, Bound bound);
+  void count_cut(double share, double length);
+
+  StateReader read_;
+  contact::ContactStates before_;
+  contact::ContactStates after_;
+  contact::ContactStates between_;
+  contact::StateChange change_;  // over the step looked at last
+  double least_ = 0.0;           // length; 0: the shortest
+  int n_in_a_row_ = 0;
+  long n_cuts_ = 0;
+  long n_forced_ = 0;
+};
+
+}  // namespace microslip::solver
