@@ -159,6 +159,7 @@ bool BranchWalker::change_unknowns(const UnknownMap& map) {
   now_ = std::move(now->point);
   before_orientation_ = before->orientation;
   orientation_ = now->orientation;
+  states_.forget();
   return true;
 }
 

@@ -26,6 +26,8 @@ constexpr int max_parabolas = 8;
 // to separate, makes them differ by more than this factor, and the cubic is not the branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
+// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not.
+constexpr double nearly_level = 0.1;
 // The motion along the branch jumps at a kink by about this share of itself; the slope no more.
 constexpr double kink_reach = 0.3;
 // Of more points each is a small part of the force: their kinks together are a smooth curve.
@@ -128,7 +130,10 @@ class Segment {
     const auto [less, more] = std::minmax(first, second);
     const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
                                     std::abs(b.value.slope) / b.value.steepest);
-    if (first + second > slight_turn && more > uneven * less && nearest < first + second) return true;
+    const double turn = first + second;
+    if (turn > slight_turn && more > uneven * less && nearest < turn) return true;
+    const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
+    if (turn > slight_turn && same_sign && nearest < nearly_level * turn) return true;
     const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
     return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
   }

@@ -40,9 +40,8 @@ double StepStates::next_cut(const WalkerPoint& from, const WalkerPoint& to, doub
 
 double StepStates::cut(const WalkerPoint& from, const WalkerPoint& to, double length, Bound bound) {
   if (!read_) return 1.0;
-  read_(from.solution.point, before_);
+  read_ends(from.solution.point, to.solution.point);
   if (before_.empty()) return 1.0;
-  read_(to.solution.point, after_);
   change_ = contact::state_change(before_, after_);
   const double share = located(from, to, bound);
   constexpr double rest = 0.98;  // the end of the step is as good a place
@@ -59,6 +58,26 @@ double StepStates::cut(const WalkerPoint& from, const WalkerPoint& to, double le
     ++n_forced_;
   }
   return 1.0;
+}
+
+/// A step begins where the one before ended.
+void StepStates::read_ends(const BranchVector& from, const BranchVector& to) {
+  const auto is = [](const BranchVector& a, const BranchVector& b) {
+    return a.parameter == b.parameter && a.x.size() == b.x.size() && a.x == b.x;
+  };
+  if (is(from, after_at_)) {
+    std::swap(before_, after_);
+  } else if (!is(from, before_at_)) {
+    read_(from, before_);
+  }
+  before_at_ = from;
+  read_(to, after_);
+  after_at_ = to;
+}
+
+void StepStates::forget() {
+  before_at_ = {};
+  after_at_ = {};
 }
 
 void StepStates::count_cut(double share, double length) {

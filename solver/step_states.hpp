@@ -39,6 +39,9 @@ class StepStates {
   /// What the next step may have of the length of one that was accepted, so that (1) holds.
   [[nodiscard]] double growth() const;
 
+  /// The contact is another one, or has other points.
+  void forget();
+
   /// Steps that were cut, and those among them that change more than (1) all the same.
   [[nodiscard]] long n_cuts() const { return n_cuts_; }
   [[nodiscard]] long n_forced() const { return n_forced_; }
@@ -50,11 +53,14 @@ class StepStates {
   [[nodiscard]] bool is_few() const;
   [[nodiscard]] double cut(const WalkerPoint& from, const WalkerPoint& to, double length, Bound bound);
   [[nodiscard]] double located(const WalkerPoint& from, const WalkerPoint& to, Bound bound);
+  void read_ends(const BranchVector& from, const BranchVector& to);
   void count_cut(double share, double length);
 
   StateReader read_;
   contact::ContactStates before_;
   contact::ContactStates after_;
+  BranchVector before_at_;
+  BranchVector after_at_;
   contact::ContactStates between_;
   contact::StateChange change_;  // over the step looked at last
   double least_ = 0.0;           // length; 0: the shortest
