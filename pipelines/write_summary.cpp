@@ -110,6 +110,8 @@ Json to_json(const CurveSummary& curve) {
           {"points", curve.points},
           {"iterations", curve.iterations},
           {"contact_evaluations", curve.contact_evaluations},
+          {"state_readings", curve.state_readings},
+          {"state_cuts", curve.state_cuts},
           {"seconds", curve.seconds},
           {"largest_residual", curve.largest_residual},
           {"largest_energy_imbalance", curve.largest_energy_imbalance},
@@ -204,6 +206,8 @@ CurveSummary summarise(const CurveResult& result) {
   summary.points = result.curve.points.size();
   summary.iterations = result.curve.iterations;
   summary.contact_evaluations = result.curve.contact_evaluations;
+  summary.state_readings = result.curve.state_readings;
+  summary.state_cuts = result.curve.state_cuts;
   summary.seconds = result.curve.seconds;
   for (const solver::ResponsePoint& point : result.curve.points) add_point(summary, point);
   const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);

@@ -101,7 +101,7 @@ BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
     share = states_.next_cut(now_, trial.point, distance);
   }
   if (states_.n_forced() > n_forced) remember("states-at-once");
-  step_ = std::min(step_, states_.growth() * distance);
+  step_ = std::min(step_, states_.next_length(distance));
   return trial;
 }
 

@@ -70,8 +70,8 @@ class BranchWalker {
   [[nodiscard]] long iterations() const { return iterations_; }
   [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const std::vector<Remedy>& remedies() const { return remedies_; }
-  /// Steps cut because of changes of state.
-  [[nodiscard]] long state_cuts() const { return states_.n_cuts(); }
+  /// What the step control has seen of the contact.
+  [[nodiscard]] const StepStates& states() const { return states_; }
   /// After advance() was false.
   [[nodiscard]] Stall stall() const;
 

@@ -85,6 +85,7 @@ Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force)
 /// What was evaluated was linear.
 void forget_evaluations(ResponseCurve& curve) {
   curve.contact_evaluations = 0;
+  curve.state_readings = 0;
   for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
 }
 
@@ -131,6 +132,8 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
+    const long readings = curve.state_readings + other.state_readings;
+    const long cuts = curve.state_cuts + other.state_cuts;
     if (other.complete || other.points.size() > curve.points.size()) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, "other-end"});
@@ -138,6 +141,8 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     }
     curve.iterations = iterations;
     curve.contact_evaluations = evaluations;
+    curve.state_readings = readings;
+    curve.state_cuts = cuts;
   }
   note_boundary_peak(curve);
   if (options.search_starts > 0 && curve.diagnosis != "interrupted") {

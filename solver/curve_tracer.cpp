@@ -112,6 +112,10 @@ void CurveTracer::take_stock(const BranchWalker& walker) {
   curve_.iterations += walker.iterations() - walker_iterations_;
   walker_evaluations_ = walker.evaluations();
   walker_iterations_ = walker.iterations();
+  curve_.state_readings += walker.states().n_readings() - walker_readings_;
+  curve_.state_cuts += walker.states().n_cuts() - walker_cuts_;
+  walker_readings_ = walker.states().n_readings();
+  walker_cuts_ = walker.states().n_cuts();
   for (; n_remedies_ < walker.remedies().size(); ++n_remedies_) {
     const Remedy& remedy = walker.remedies()[n_remedies_];
     curve_.log.push_back({remedy.parameter, remedy.name});
@@ -241,6 +245,7 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
     return balance_->evaluate(x, frequency);
   };
   walker_evaluations_ = walker_iterations_ = 0;
+  walker_readings_ = walker_cuts_ = 0;
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },

@@ -91,6 +91,8 @@ class CurveTracer {
   std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
   long walker_evaluations_ = 0;        ///< of the walker, counted already
   long walker_iterations_ = 0;
+  long walker_readings_ = 0;
+  long walker_cuts_ = 0;
   long point_evaluations_ = 0;  ///< of the curve when the last point was added
   Clock::time_point last_time_ = Clock::now();
 };

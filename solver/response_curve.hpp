@@ -44,6 +44,7 @@ struct ResponsePoint {
 struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
+  /// states-at-once: a step that changes more of the contact's states than one should;
   /// harmonics-kept: the equations with more harmonics were not solved, quadrature-kept: those on points
   /// fitted to the motion; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
   /// marked, within the step in which it lies
@@ -80,6 +81,8 @@ struct ResponseCurve {
   int n_starts = 0;  ///< of the search: Newton iterations that looked for another solution
   long iterations = 0;
   long contact_evaluations = 0;
+  long state_readings = 0;  ///< of the step control: what the contact does at a place (step_states.hpp)
+  long state_cuts = 0;      ///< steps it has cut
   double seconds = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace microslip::solver {
@@ -16,8 +17,44 @@ constexpr std::size_t handful = 8;
 
 // In scaled variables, of the amplitude or the width of a resonance: what is shorter shows on no curve.
 constexpr double shortest_cut = 1e-3;
-constexpr int most_in_a_row = 10;  // cuts at full resolution; so many points may follow one another
+// Where more than (1) changes within the shortest, it changes at once: a step across.
+constexpr double across = 0.02;
+// A step to be cut counts 2, another takes 1 back: beyond the patience the least length doubles with each. Ten
+// changes may follow one another closely; states that chatter at every third step run the patience out.
+constexpr int patience = 20;
+constexpr int most_impatient = 40;
 constexpr int n_bisections = 6;
+constexpr double nearly_all = 0.98;  // of a step: its end is as good a place to end it
+
+/// The cubic through both ends of a step.
+class Way {
+ public:
+  Way(const WalkerPoint& from, const WalkerPoint& to)
+      : chord_(difference(to.solution.point, from.solution.point, from.scaling)),
+        size_(normalise(chord_)),
+        from_(from, chord_, size_, from.scaling),
+        to_(to, chord_, size_, from.scaling) {}
+
+  [[nodiscard]] BranchVector at(double share) const { return cubic_between(from_, to_, share, 1.0); }
+
+ private:
+  static double normalise(BranchVector& chord) {
+    const double size = length(chord);
+    if (size == 0.0) return size;
+    chord.x /= size;
+    chord.parameter /= size;
+    return size;
+  }
+
+  BranchVector chord_;
+  double size_;
+  Knot from_;
+  Knot to_;
+};
+
+bool is_same(const BranchVector& a, const BranchVector& b) {
+  return a.parameter == b.parameter && a.x.size() == b.x.size() && a.x == b.x;
+}
 
 }  // namespace
 
@@ -30,114 +67,92 @@ bool StepStates::exceeds(const contact::StateChange& change, Bound bound) const 
   return is_few() && change.n_regimes > (bound == Bound::wanted ? 0 : 1);
 }
 
-double StepStates::first_cut(const WalkerPoint& from, const WalkerPoint& to, double length) {
-  return cut(from, to, length, Bound::wanted);
-}
-
-double StepStates::next_cut(const WalkerPoint& from, const WalkerPoint& to, double length) {
-  return cut(from, to, length, Bound::bearable);
-}
-
-double StepStates::cut(const WalkerPoint& from, const WalkerPoint& to, double length, Bound bound) {
-  if (!read_) return 1.0;
-  read_ends(from.solution.point, to.solution.point);
-  if (before_.empty()) return 1.0;
-  change_ = contact::state_change(before_, after_);
-  const double share = located(from, to, bound);
-  constexpr double rest = 0.98;  // the end of the step is as good a place
-  const double shortest = std::max(shortest_cut, least_) / length;
-  if (share < rest && shortest < rest) {
-    count_cut(share, length);
-    return std::max(share, shortest);
-  }
-  if (bound == Bound::bearable) return 1.0;
-  if (share >= 1.0) {
-    n_in_a_row_ = 0;
-    least_ = 0.0;
-  } else if (exceeds(change_, Bound::bearable)) {
-    ++n_forced_;
-  }
-  return 1.0;
+void StepStates::read(const BranchVector& at, contact::ContactStates& result) {
+  reader_(at, result);
+  ++n_readings_;
 }
 
 /// A step begins where the one before ended.
 void StepStates::read_ends(const BranchVector& from, const BranchVector& to) {
-  const auto is = [](const BranchVector& a, const BranchVector& b) {
-    return a.parameter == b.parameter && a.x.size() == b.x.size() && a.x == b.x;
-  };
-  if (is(from, after_at_)) {
+  if (is_same(from, after_at_)) {
     std::swap(before_, after_);
-  } else if (!is(from, before_at_)) {
-    read_(from, before_);
+  } else if (!is_same(from, before_at_)) {
+    read(from, before_);
   }
   before_at_ = from;
-  read_(to, after_);
+  read(to, after_);
   after_at_ = to;
 }
 
-void StepStates::forget() {
-  before_at_ = {};
-  after_at_ = {};
+void StepStates::forget() { before_at_ = after_at_ = {}; }
+
+double StepStates::first_cut(const WalkerPoint& from, const WalkerPoint& to, double length) {
+  if (!reader_) return 1.0;
+  const double share = located(from, to, Bound::wanted);
+  is_at_once_ = share < 1.0 && !is_few() && share * length < shortest_cut;
+  n_forced_ += is_at_once_ ? 1 : 0;
+  impatience_ = std::clamp(impatience_ + (share < 1.0 ? 2 : -1), 0, most_impatient);
+  return cut(share, length);
 }
 
-void StepStates::count_cut(double share, double length) {
+double StepStates::next_cut(const WalkerPoint& from, const WalkerPoint& to, double length) {
+  if (!reader_) return 1.0;
+  return cut(located(from, to, Bound::bearable), length);
+}
+
+double StepStates::least_length(double patient) const {
+  return std::ldexp(patient, std::max(impatience_ - patience, 0));
+}
+
+double StepStates::cut(double share, double length) {
+  const double least = least_length(is_at_once_ ? across : shortest_cut);
+  if (share >= nearly_all || least >= nearly_all * length) return 1.0;
   ++n_cuts_;
-  if (++n_in_a_row_ <= most_in_a_row) return;
-  least_ = 2.0 * std::max({least_, shortest_cut, share * length});
+  return std::max(share, least / length);
 }
 
 double StepStates::located(const WalkerPoint& from, const WalkerPoint& to, Bound bound) {
-  const Scaling& scaling = from.scaling;
-  BranchVector chord = difference(to.solution.point, from.solution.point, scaling);
-  const double size = length(chord);
-  if (size == 0.0) return 1.0;
-  chord.x /= size;
-  chord.parameter /= size;
-  const Knot a(from, chord, size, scaling);
-  const Knot b(to, chord, size, scaling);
-  bool kink = false;
-  const auto is_beyond = [&](double share) {
-    if (share == 1.0) {
-      kink = change_.n_regimes > 0;
-      return exceeds(change_, bound);
-    }
-    read_(cubic_between(a, b, share, 1.0), between_);
-    const contact::StateChange change = contact::state_change(before_, between_);
-    kink = change.n_regimes > 0;
-    return exceeds(change, bound);
-  };
+  read_ends(from.solution.point, to.solution.point);
+  change_ = contact::state_change(before_, after_);
+  if (before_.empty() || is_same(before_at_, after_at_)) return 1.0;
+  const Way way(from, to);
   // A point of a few may change and change back.
-  constexpr std::array shares{0.25, 0.5, 0.75, 1.0};
+  constexpr std::array inside{0.25, 0.5, 0.75};
   const bool looks_inside = before_.size() <= most_seen && bound == Bound::wanted;
   double good = 0.0;
-  double bad = 0.0;
-  bool ends_at_kink = false;
-  for (const double share : shares) {
-    if (share < 1.0 && !looks_inside) continue;
-    if (is_beyond(share)) {
-      bad = share;
-      ends_at_kink = kink;
+  Place bad{1.0, change_};
+  for (const double share : inside) {
+    if (!looks_inside) break;
+    if (const Place place = look(way.at(share), share); exceeds(place.change, bound)) {
+      bad = place;
       break;
     }
     good = share;
   }
-  if (bad == 0.0) return 1.0;
+  if (!exceeds(bad.change, bound)) return 1.0;
   for (int i = 0; i < n_bisections; ++i) {
-    const double middle = 0.5 * (good + bad);
-    if (is_beyond(middle)) {
-      bad = middle;
-      ends_at_kink = kink;
+    const double middle = 0.5 * (good + bad.share);
+    const Place place = look(way.at(middle), middle);
+    if (exceeds(place.change, bound)) {
+      bad = place;
     } else {
       good = middle;
     }
   }
   // Beyond a kink, so that the next step begins on its other side.
-  return is_few() && ends_at_kink ? bad + (bad - good) : good;
+  return is_few() && bad.change.n_regimes > 0 ? 2.0 * bad.share - good : good;
 }
 
-double StepStates::growth() const {
-  const bool is_bound = read_ && !is_few() && change_.share > 0.5 * share_wanted;
-  return is_bound ? share_wanted / change_.share : std::numeric_limits<double>::infinity();
+StepStates::Place StepStates::look(const BranchVector& at, double share) {
+  read(at, between_);
+  return {share, contact::state_change(before_, between_)};
+}
+
+double StepStates::next_length(double length) const {
+  const bool is_bound =
+      reader_ && !is_few() && !is_at_once_ && change_.share > 0.5 * share_wanted;
+  if (!is_bound) return std::numeric_limits<double>::infinity();
+  return std::max(share_wanted / change_.share * length, least_length(across));
 }
 
 }  // namespace microslip::solver
