@@ -26,8 +26,10 @@ constexpr int max_parabolas = 8;
 // to separate, makes them differ by more than this factor, and the cubic is not the branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
-// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not.
-constexpr double nearly_level = 0.1;
+// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not. Steep
+// parts of a branch, where folds may hide, are few.
+constexpr double level_at_peak = 0.1;
+constexpr double level_at_fold = 0.3;
 // The motion along the branch jumps at a kink by about this share of itself; the slope no more.
 constexpr double kink_reach = 0.3;
 // Of more points each is a small part of the force: their kinks together are a smooth curve.
@@ -122,6 +124,10 @@ class Segment {
     return node(std::move(*point));
   }
 
+  [[nodiscard]] double nearly_level() const {
+    return kind_ == PointMark::fold ? level_at_fold : level_at_peak;
+  }
+
   /// Between two places there is a kink at which the slope may change its sign unseen.
   [[nodiscard]] bool may_hide(const Node& a, const Node& b) const {
     const BranchVector chord = minus(b.position, a.position);
@@ -133,7 +139,7 @@ class Segment {
     const double turn = first + second;
     if (turn > slight_turn && more > uneven * less && nearest < turn) return true;
     const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
-    if (turn > slight_turn && same_sign && nearest < nearly_level * turn) return true;
+    if (turn > slight_turn && same_sign && nearest < nearly_level() * turn) return true;
     const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
     return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
   }
