@@ -74,7 +74,7 @@ struct ResponseCurve {
   ///   interrupted    the observer asked to stop
   std::string diagnosis;
   std::string message;  ///< a sentence with the numbers
-  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
+  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range, or rest.
   std::string certificate;
   std::vector<SolverEvent> log;          ///< remedies in the order they were needed
   std::vector<DetachedBranch> detached;  ///< found by the search, if one was asked for
