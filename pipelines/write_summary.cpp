@@ -69,7 +69,8 @@ Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary)
           {"value", peak.parameter},
           {"amplitude_m", peak.amplitude},
           {"frequency_Hz", hertz(peak.frequency)},
-          {"at", to_string(peak.place)}};
+          {"at", to_string(peak.place)},
+          {"detached", peak.detached}};
 }
 
 /// The lowest value of a search and why it is not the best; nulls where nothing was solved.
@@ -156,6 +157,7 @@ Json to_json(const OptimumSummary& summary) {
   json["iterations"] = optimum.iterations;
   json["contact_evaluations"] = optimum.contact_evaluations;
   json["notes"] = optimum.notes;
+  json["warnings"] = optimum.warnings;
   json["whole_curves"] = optimum.n_curves;
   json["seconds"] = optimum.seconds;
   json["bracket"] = std::move(bracket);
