@@ -117,6 +117,7 @@ Json to_json(const CurveSummary& curve) {
           {"largest_residual", curve.largest_residual},
           {"largest_energy_imbalance", curve.largest_energy_imbalance},
           {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
+          {"stable_unproved", curve.stable_unproved},
           {"largest_three_states_share", curve.largest_three_states_share},
           {"largest_quadrature_change", curve.largest_quadrature_change},
           {"harmonics",
@@ -192,6 +193,9 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
   raise(summary.largest_three_states_share, point.report.three_states_share);
   raise(summary.largest_left_out, point.harmonics_left_out);
   raise(summary.largest_quadrature_change, point.quadrature_change);
+  const bool unproved = point.stability == solver::Stability::stable &&
+                        point.stability_basis == solver::StabilityBasis::hill;
+  summary.stable_unproved += unproved ? 1 : 0;
   summary.harmonic_orders.insert(point.orders.begin(), point.orders.end());
   summary.most_harmonics = std::max(summary.most_harmonics, point.orders.size());
 }

@@ -193,7 +193,8 @@ void PeakFamilies::cut(Peaks& peaks, double position) {
   const std::vector<HighPoint>& solved = curves_.at(position).high;
   const bool higher =
       solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude;
-  const std::string found = " is not on the curve (its branch is detached, or another peak), curves traced whole";
+  const std::string found =
+      " is not on the curve (its branch is detached, or another peak), curves traced whole";
   if (higher) {
     warn("a followed peak, higher than all of the curve," + found, position);
   } else {

@@ -17,6 +17,10 @@ enum class PointMark { none, peak, fold };
 /// 1, 0, −1 in files.
 enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 
+/// What a verdict of stability rests on (stability.hpp). Hill's exponents do not prove that pairs of a hysteretic
+/// force decay: what they call stable is not proved stable.
+enum class StabilityBasis { slow_flow, hill, period_map };
+
 struct ResponsePoint {
   double frequency = 0.0;         ///< ω [rad/s]
   Harmonics q;                    ///< [m√kg]
@@ -32,6 +36,7 @@ struct ResponsePoint {
   double dissipation_mismatch = 0.0;  ///< |W_fric − ∬∮ μn|ds| dA| over the same
   contact::CycleReport report;
   Stability stability = Stability::not_assessed;
+  StabilityBasis stability_basis = StabilityBasis::slow_flow;
   double determinant_sign = 0.0;  ///< of ∂R/∂q
   PointMark mark = PointMark::none;
   int iterations = 0;  ///< Newton steps of this point's own solution
