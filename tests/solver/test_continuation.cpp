@@ -129,7 +129,7 @@ TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
   scene.excitation = Harmonics(1, 3);
   scene.contact = std::make_unique<contact::LawPatchForce>(
       Eigen::VectorXd::Constant(n, 0.13), std::move(cells), std::move(shapes));
-  const ResponseCurve curve = trace_response(scene, from_to(100.0, 400.0));
+  const ResponseCurve curve = trace_response(scene, frequency_range(100.0, 400.0));
   EXPECT_TRUE(curve.complete) << curve.diagnosis << ' ' << curve.message;
   EXPECT_GE(curve.points.size(), 10U);
   for (const ResponsePoint& point : curve.points) {
