@@ -46,6 +46,14 @@ CycleReport AnyHarmonicsForce::report(const Harmonics& q, double frequency) cons
   return q.n_harmonics() == 1 ? closed_.report(q, frequency) : events_.report(q, frequency);
 }
 
+void AnyHarmonicsForce::states(const Harmonics& q, double frequency, ContactStates& result) const {
+  if (q.n_harmonics() == 1) {
+    closed_.states(q, frequency, result);
+  } else {
+    events_.states(q, frequency, result);
+  }
+}
+
 Eigen::MatrixXd AnyHarmonicsForce::stuck_stiffness() const { return closed_.stuck_stiffness(); }
 
 LinearState AnyHarmonicsForce::linear_state(const Harmonics& centre, double radius) const {

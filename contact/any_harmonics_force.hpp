@@ -29,6 +29,8 @@ class AnyHarmonicsForce final : public ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  /// @throws std::invalid_argument  as evaluate().
+  void states(const Harmonics& q, double frequency, ContactStates& result) const override;
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:

@@ -48,6 +48,7 @@ void BandTraction::set(SliderBand& band, const BandCycle& cycle, PointTraction& 
   memory_by_u_.setZero(n, n);
   memory_by_v_.setZero(n, n);
   for (const BandPiece& piece : cycle.pieces) {
+    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
     if (piece.state != ContactState::separated) add_piece(band, piece);
   }
   result.regime = cycle.regime;

@@ -179,6 +179,19 @@ void add_stick_slip(CyclePhases& phases, const SlipFunctions& w) {
 
 }  // namespace
 
+ContactState state_of(PhaseKind kind) {
+  switch (kind) {
+    case PhaseKind::separated:
+      return ContactState::separated;
+    case PhaseKind::positive_slip:
+      return ContactState::positive_slip;
+    case PhaseKind::negative_slip:
+      return ContactState::negative_slip;
+    default:
+      return ContactState::stick;
+  }
+}
+
 CycleRegime cycle_regime(const SlipFunctions& w) {
   if (w.above_open <= 0.0) {
     return CycleRegime::separated;

@@ -31,6 +31,8 @@ enum class PhaseKind : std::uint8_t {
   stick_after_negative,
 };
 
+[[nodiscard]] ContactState state_of(PhaseKind kind);
+
 struct CyclePhase {
   PhaseKind kind = PhaseKind::separated;
   Direction begin;           ///< angle at which it begins; it ends where the next one begins

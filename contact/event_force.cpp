@@ -183,6 +183,9 @@ void EventForce::traction(const PointParameters& point, const EventGuards& guard
   result.jacobian.setZero(size, size);
   result.frequency_derivative.setZero(size);
   result.regime = phases.regime;
+  for (const EventPhase& phase : phases.phases) {
+    result.period.set(phase.state, phase.begin, phase.length);
+  }
   set_force(point, guards, result.force);
   set_springs(point, result.jacobian);
   if (has_friction_) {

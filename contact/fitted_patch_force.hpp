@@ -56,6 +56,10 @@ class FittedPatchForce final : public ModalForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return force_->stuck_stiffness();
   }
+  /// Of the points of the rule in use.
+  void states(const Harmonics& q, double frequency, ContactStates& result) const override {
+    force_->states(q, frequency, result);
+  }
   // linear_state() stays unknown: what is proved of the points of a rule is not proved between them, and
   // the next rule has others.
 

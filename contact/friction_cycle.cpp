@@ -14,19 +14,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-ContactState state_of(PhaseKind kind) {
-  switch (kind) {
-    case PhaseKind::separated:
-      return ContactState::separated;
-    case PhaseKind::positive_slip:
-      return ContactState::positive_slip;
-    case PhaseKind::negative_slip:
-      return ContactState::negative_slip;
-    default:
-      return ContactState::stick;
-  }
-}
-
 double start_angle(const Direction& d) {
   const double a = std::atan2(d.sin, d.cos);
   const double wrapped = a < 0.0 ? a + 2.0 * pi : a;

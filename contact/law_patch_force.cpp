@@ -55,6 +55,10 @@ LawPatchForce::LawPatchForce(Eigen::VectorXd weights,
     shape_.push_back(&shapes_.w);
   }
   sleep_ = SleepingLaws(weights_, laws_, shapes_);
+  const double area = weights_.sum();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    all_states_.push_back({area > 0.0 ? weights_[i] / area : 0.0, {}});
+  }
 }
 
 ForceAndJacobian LawPatchForce::evaluate(const Harmonics& q, double frequency) const {
@@ -68,12 +72,16 @@ ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequen
   motion_.set(shapes_, q);
   sleep_.look_at(motion_, frequency, shapes_);
   sum_.start(shape_, q.n_harmonics(), rows);
+  begin_states(q, frequency);
   for (const Eigen::Index i : sleep_.awake()) {
     const PointLaw& law = *laws_[static_cast<std::size_t>(i)];
     motion_.copy(i, point_motion_);
     traction_.defect = 0.0;  // a law that is exact does not mention it
     law.traction(point_motion_, frequency, traction_);
     sum_.add(i, weights_[i], law.load_at_rest(), traction_);
+    const CycleStates cycle{traction_.regime, traction_.period};
+    const bool frictionless = sleep_.range(i).has_value() && !sleep_.range(i)->rubs();
+    all_states_[static_cast<std::size_t>(i)].cycle = frictionless ? cycle.without_slip() : cycle;
   }
   ForceAndJacobian result = sum_.take();
   if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, rows);
@@ -121,6 +129,29 @@ CycleReport LawPatchForce::report(const Harmonics& q, double frequency) const {
   const auto n_awake = std::count(states.begin(), states.end(), SleepState::awake);
   report.awake_share = static_cast<double>(n_awake) / static_cast<double>(states.size());
   return report;
+}
+
+/// Those of the points asleep; the others follow as they are evaluated.
+void LawPatchForce::begin_states(const Harmonics& q, double frequency) const {
+  states_q_ = q;
+  states_frequency_ = frequency;
+  for (std::size_t i = 0; i < all_states_.size(); ++i) {
+    const SleepState state = sleep_.state(static_cast<Eigen::Index>(i));
+    if (state == SleepState::awake) continue;
+    const bool stuck = state == SleepState::stuck;
+    all_states_[i].cycle = {stuck ? CycleRegime::full_stick : CycleRegime::separated,
+                            PeriodStates(stuck ? ContactState::stick : ContactState::separated)};
+  }
+}
+
+void LawPatchForce::states(const Harmonics& q, double frequency, ContactStates& result) const {
+  const bool known = frequency == states_frequency_ && q.rows().rows() == states_q_.rows().rows() &&
+                     q.vector() == states_q_.vector();
+  if (!known) static_cast<void>(evaluate_rows(q, frequency, {}));
+  result.clear();
+  for (const PointStates& point : all_states_) {
+    if (point.share > 0.0) result.push_back(point);
+  }
 }
 
 LinearState LawPatchForce::linear_state(const Harmonics& centre, double radius) const {

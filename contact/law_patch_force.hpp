@@ -45,10 +45,15 @@ class LawPatchForce final : public ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  /// At another motion than the last one: costs its evaluation, without derivatives by the modes.
+  /// @throws std::invalid_argument  as evaluate().
+  void states(const Harmonics& q, double frequency, ContactStates& result) const override;
   /// Of any number of harmonics; unknown where a law does not know its linear range. See linear_proof.hpp.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:
+  void begin_states(const Harmonics& q, double frequency) const;
+
   Eigen::VectorXd weights_;
   std::vector<std::shared_ptr<const PointLaw>> laws_;
   ModalShapes shapes_;
@@ -59,6 +64,9 @@ class LawPatchForce final : public ModalForce {
   mutable Harmonics point_motion_;
   mutable PointTraction traction_;
   mutable LawProjection sum_;
+  mutable ContactStates all_states_;  // of the motion evaluated last, points without area included
+  mutable Harmonics states_q_;
+  mutable double states_frequency_ = 0.0;
 };
 
 }  // namespace microslip::contact

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/contact_states.hpp"
 #include "contact/harmonics.hpp"
 
 namespace microslip::contact {
@@ -113,9 +114,12 @@ class ModalForce {
     return LinearState::unknown;
   }
 
-  /// The kind of cycle of each point under a motion, as a number: where it changes the force has a kink.
-  /// Empty: not told.
-  [[nodiscard]] virtual std::vector<int> regimes(const Harmonics& /*q*/) const { return {}; }
+  /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
+  /// next to nothing at the motion evaluated last.
+  /// @param result  written whole, storage is used again; empty: not told.
+  virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) const {
+    result.clear();
+  }
 
   // Some forces are discretised to suit the motion. They stay as they are while equations are solved; whoever
   // has solved them asks, and solves again where the discretisation was replaced. The others keep theirs.

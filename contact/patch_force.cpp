@@ -9,6 +9,7 @@
 
 #include "contact/block_kernels.hpp"
 #include "contact/cycle_report.hpp"
+#include "contact/cycle_states.hpp"
 #include "contact/friction_cycle.hpp"
 #include "contact/linear_proof.hpp"
 #include "contact/mode_shape_check.hpp"
@@ -227,14 +228,19 @@ LinearState PatchForce::linear_state(const Harmonics& centre, double radius) con
   return contact::linear_state(patch_, shapes_, centre, radius);
 }
 
-std::vector<int> PatchForce::regimes(const Harmonics& q) const {
-  std::vector<int> list;
-  list.reserve(patch_.points().size());
-  const std::vector<PointMotion> motions = point_motions(shapes_, q);
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    list.push_back(static_cast<int>(cycle_force(patch_.points()[i], motions[i]).regime));
+void PatchForce::states(const Harmonics& q, double /*frequency*/, ContactStates& result) const {
+  require_single_harmonic(q, n_modes());
+  u_.noalias() = shapes_.u * q.rows().transpose();
+  v_.noalias() = shapes_.v * q.rows().transpose();
+  const double area = patch_.weights().sum();
+  result.clear();
+  for (Eigen::Index i = 0; i < patch_.n_points(); ++i) {
+    const double weight = patch_.weights()[i];
+    if (weight == 0.0) continue;
+    const PointMotion motion{u_(i, 0), u_(i, 1), u_(i, 2), v_(i, 0), v_(i, 1), v_(i, 2)};
+    result.push_back(
+        {weight / area, cycle_states(patch_.points()[static_cast<std::size_t>(i)], motion)});
   }
-  return list;
 }
 
 }  // namespace microslip::contact

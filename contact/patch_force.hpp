@@ -41,9 +41,8 @@ class PatchForce final : public ModalForce {
   /// See linear_proof.hpp.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
-  /// CycleRegime of each point.
   /// @throws std::invalid_argument  as evaluate().
-  [[nodiscard]] std::vector<int> regimes(const Harmonics& q) const override;
+  void states(const Harmonics& q, double frequency, ContactStates& result) const override;
 
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }
   [[nodiscard]] const ModalShapes& shapes() const { return shapes_; }
@@ -54,6 +53,7 @@ class PatchForce final : public ModalForce {
   mutable SleepingPoints sleep_;
   // In the order of sleep_: [block][u, v][mode][point of the block], padded with zeros.
   mutable std::vector<double> blocks_;
+  mutable Eigen::MatrixX3d u_, v_;  // motion of the points, for states()
 };
 
 }  // namespace microslip::contact

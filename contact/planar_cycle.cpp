@@ -120,6 +120,9 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   const SteadyOrbit steady = cycle_of(planar, intervals, options);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
   result.regime = steady.regime;
+  for (const PlanarPiece& piece : steady.orbit.pieces) {
+    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
+  }
   result.defect = defect_of(planar, steady, options.tolerance) * point.unit;
   result.force = planar_force(planar, intervals, steady.orbit, H);
   result.force.rows() *= point.unit;

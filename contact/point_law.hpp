@@ -21,6 +21,7 @@
 #include "contact/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/linear_range.hpp"
+#include "contact/period_states.hpp"
 
 namespace microslip::contact {
 
@@ -32,6 +33,7 @@ struct PointTraction {
   Eigen::MatrixXd jacobian;              ///< ∂force/∂motion [N/m³], m × m
   Eigen::VectorXd frequency_derivative;  ///< ∂force/∂ω at fixed motion [Pa·s], m; 0 unless rate-dependent
   CycleRegime regime = CycleRegime::separated;
+  PeriodStates period{ContactState::separated};
   /// What the force may be off by because the search for the steady cycle ended before its tolerance, in
   /// any coefficient [Pa]; 0 where the law met it.
   double defect = 0.0;

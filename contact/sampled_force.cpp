@@ -144,6 +144,9 @@ void SampledForce::traction(const SampledMotion& motion, const SampledSlider& sl
   result.jacobian.setZero(size, size);
   result.frequency_derivative.setZero(size);
   result.regime = slider.regime();
+  for (int j = 0; j < motion.size(); ++j) {
+    result.period.set(slider[j].state, (j - 0.5) * motion.step(), motion.step());
+  }
   for (int i = 0; i < n; ++i) {
     const double g = norm(i) * motion.step();
     result.force.rows().row(i) << g * sums_(i, friction), g * sums_(i, normal), 0.0;

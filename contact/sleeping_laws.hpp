@@ -53,6 +53,10 @@ class SleepingLaws {
   void look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes);
   /// After look_at(): points to be evaluated, ascending.
   [[nodiscard]] const std::vector<Eigen::Index>& awake() const { return awake_; }
+  /// After look_at().
+  [[nodiscard]] SleepState state(Eigen::Index point) const {
+    return state_[static_cast<std::size_t>(point)];
+  }
   /// After look_at(): (1); nullptr: none sleeps.
   [[nodiscard]] const SleepingPart* part() const;
 

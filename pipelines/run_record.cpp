@@ -274,6 +274,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
                                              amplitude_text(optimum.best))
                                : fmt::format("{}: not found: {}{}", what, optimum.message,
                                              lowest_text(optimum)));
+  for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
   const std::lock_guard lock(mutex_);
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;

@@ -69,7 +69,8 @@ Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary)
           {"value", peak.parameter},
           {"amplitude_m", peak.amplitude},
           {"frequency_Hz", hertz(peak.frequency)},
-          {"at", to_string(peak.place)}};
+          {"at", to_string(peak.place)},
+          {"detached", peak.detached}};
 }
 
 /// The lowest value of a search and why it is not the best; nulls where nothing was solved.
@@ -110,10 +111,13 @@ Json to_json(const CurveSummary& curve) {
           {"points", curve.points},
           {"iterations", curve.iterations},
           {"contact_evaluations", curve.contact_evaluations},
+          {"state_readings", curve.state_readings},
+          {"state_cuts", curve.state_cuts},
           {"seconds", curve.seconds},
           {"largest_residual", curve.largest_residual},
           {"largest_energy_imbalance", curve.largest_energy_imbalance},
           {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
+          {"stable_unproved", curve.stable_unproved},
           {"largest_three_states_share", curve.largest_three_states_share},
           {"largest_quadrature_change", curve.largest_quadrature_change},
           {"harmonics",
@@ -156,6 +160,7 @@ Json to_json(const OptimumSummary& summary) {
   json["iterations"] = optimum.iterations;
   json["contact_evaluations"] = optimum.contact_evaluations;
   json["notes"] = optimum.notes;
+  json["warnings"] = optimum.warnings;
   json["whole_curves"] = optimum.n_curves;
   json["seconds"] = optimum.seconds;
   json["bracket"] = std::move(bracket);
@@ -190,6 +195,9 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
   raise(summary.largest_three_states_share, point.report.three_states_share);
   raise(summary.largest_left_out, point.harmonics_left_out);
   raise(summary.largest_quadrature_change, point.quadrature_change);
+  const bool unproved = point.stability == solver::Stability::stable &&
+                        point.stability_basis == solver::StabilityBasis::hill;
+  summary.stable_unproved += unproved ? 1 : 0;
   summary.harmonic_orders.insert(point.orders.begin(), point.orders.end());
   summary.most_harmonics = std::max(summary.most_harmonics, point.orders.size());
 }
@@ -206,6 +214,8 @@ CurveSummary summarise(const CurveResult& result) {
   summary.points = result.curve.points.size();
   summary.iterations = result.curve.iterations;
   summary.contact_evaluations = result.curve.contact_evaluations;
+  summary.state_readings = result.curve.state_readings;
+  summary.state_cuts = result.curve.state_cuts;
   summary.seconds = result.curve.seconds;
   for (const solver::ResponsePoint& point : result.curve.points) add_point(summary, point);
   const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);

@@ -51,6 +51,9 @@ struct CurveSummary {
   std::size_t points = 0;
   long iterations = 0;
   long contact_evaluations = 0;
+  long state_readings = 0;
+  long state_cuts = 0;
+  long stable_unproved = 0;  ///< points called stable by Hill's exponents alone
   double seconds = 0.0;
   double largest_residual = 0.0;
   double largest_energy_imbalance = 0.0;

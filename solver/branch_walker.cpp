@@ -20,68 +20,6 @@ constexpr double angle_wanted = 0.13;  // rad per step
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
 
-double dot(const BranchVector& a, const BranchVector& b) {
-  return a.x.dot(b.x) + a.parameter * b.parameter;
-}
-
-double length(const BranchVector& a) { return std::sqrt(dot(a, a)); }
-
-BranchVector rescaled(const BranchVector& direction, const Scaling& from, const Scaling& to) {
-  BranchVector result{direction.x * (from.x / to.x),
-                      direction.parameter * (from.parameter / to.parameter)};
-  const double size = length(result);
-  result.x /= size;
-  result.parameter /= size;
-  return result;
-}
-
-BranchVector difference(const BranchVector& a, const BranchVector& b, const Scaling& scaling) {
-  return {(a.x - b.x) / scaling.x, (a.parameter - b.parameter) / scaling.parameter};
-}
-
-BranchVector moved(const BranchVector& from, const BranchVector& direction, double distance,
-                   const Scaling& scaling) {
-  return {from.x + distance * scaling.x * direction.x,
-          from.parameter + distance * scaling.parameter * direction.parameter};
-}
-
-/// A point of a step with the derivative of the branch by the share of the way along the chord.
-struct Knot {
-  Knot(const StepPoint& at, const BranchVector& chord, double size, const Scaling& scaling)
-      : point(at.point.solution.point) {
-    const BranchVector tangent = rescaled(at.point.tangent, at.point.scaling, scaling);
-    const double along = dot(tangent, chord);
-    // A branch that runs across the chord, at a kink, has no such derivative: that of the chord.
-    constexpr double across = 0.2;
-    const BranchVector& way = along > across ? tangent : chord;
-    const double factor = along > across ? size / along : size;
-    derivative = {factor * scaling.x * way.x, factor * scaling.parameter * way.parameter};
-  }
-
-  BranchVector point;
-  BranchVector derivative;
-};
-
-BranchVector combined(const BranchVector& a, double factor, const BranchVector& b) {
-  return {a.x + factor * b.x, a.parameter + factor * b.parameter};
-}
-
-/// Guesses for the branch at a share u of the way between two knots, all of them in one plane across the
-/// chord. Where the branch is an arc about a region of another regime, the tangents lie outside of it.
-std::vector<BranchVector> starts_between(const Knot& a, const Knot& b, double u, double width) {
-  const BranchVector line = combined(combined(a.point, -u, a.point), u, b.point);
-  const BranchVector from_a = combined(a.point, u * width, a.derivative);
-  const BranchVector from_b = combined(b.point, -(1.0 - u) * width, b.derivative);
-  // Hermite's cubic, by its distances from the line.
-  const double v = 1.0 - u;
-  const BranchVector rise = combined(b.point, -1.0, a.point);
-  BranchVector cubic = combined(line, u * v * v * width, a.derivative);
-  cubic = combined(cubic, -u * u * v * width, b.derivative);
-  cubic = combined(cubic, u * u * v - u * v * v, rise);
-  if (u < 0.5) return {cubic, from_a, from_b, line};
-  return {cubic, from_b, from_a, line};
-}
-
 }  // namespace
 
 BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start,
@@ -151,6 +89,22 @@ void BranchWalker::choose_step(const Trial& trial) {
   step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
 }
 
+BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
+  constexpr int most_cuts = 3;  // the first is all but right
+  const long n_forced = states_.n_forced();
+  double share = states_.first_cut(now_, trial.point, distance);
+  for (int i = 0; i < most_cuts && share < 1.0; ++i) {
+    Trial shorter = attempt(share * distance, 10);
+    if (!shorter.converged || !smooth(shorter)) break;
+    trial = std::move(shorter);
+    distance *= share;
+    share = states_.next_cut(now_, trial.point, distance);
+  }
+  if (states_.n_forced() > n_forced) remember("states-at-once");
+  step_ = std::min(step_, states_.next_length(distance));
+  return trial;
+}
+
 void BranchWalker::remember(const char* remedy) {
   remedies_.push_back({now_.solution.point.parameter, remedy});
 }
@@ -162,8 +116,9 @@ bool BranchWalker::advance() {
     const bool kink = step_ < kink_step && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
       if (failed) remember("shorter-step");
+      const double distance = step_;
       choose_step(trial);
-      accept(std::move(trial));
+      accept(limited(std::move(trial), distance));
       return true;
     }
     failed = failed || !trial.converged;
@@ -204,6 +159,7 @@ bool BranchWalker::change_unknowns(const UnknownMap& map) {
   now_ = std::move(now->point);
   before_orientation_ = before->orientation;
   orientation_ = now->orientation;
+  states_.forget();
   return true;
 }
 
@@ -291,7 +247,7 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
   const double width = b.share - a.share;
   const double u = (share - a.share) / width;
   for (const BranchVector& start :
-       starts_between(Knot(a, chord, size, scaling), Knot(b, chord, size, scaling), u, width)) {
+       starts_between(Knot(a.point, chord, size, scaling), Knot(b.point, chord, size, scaling), u, width)) {
     if (auto point = corrected(start, chord)) return StepPoint{share, std::move(*point)};
   }
   return std::nullopt;

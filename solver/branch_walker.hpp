@@ -8,7 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "solver/branch_geometry.hpp"
 #include "solver/newton.hpp"
+#include "solver/step_states.hpp"
 
 namespace microslip::solver {
 
@@ -17,13 +19,6 @@ using ScalingRule = std::function<Scaling(const NewtonResult& at)>;
 
 /// Takes a vector of the old unknowns to the new ones.
 using UnknownMap = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
-
-/// A point of the branch with what the next step and the search for peaks and folds need.
-struct WalkerPoint {
-  NewtonResult solution;
-  BranchVector tangent;  ///< in scaled variables of `scaling`
-  Scaling scaling;
-};
 
 /// A point of the last step.
 struct StepPoint {
@@ -34,7 +29,7 @@ struct StepPoint {
 /// What helped where Newton's method had failed.
 struct Remedy {
   double parameter = 0.0;
-  const char* name = "";  ///< shorter-step, kink-turn, long-step
+  const char* name = "";  ///< shorter-step, kink-turn, long-step, states-at-once
 };
 
 /// Why no step was possible.
@@ -47,6 +42,9 @@ class BranchWalker {
   /// @param tolerance  of the residual of every point, as in NewtonOptions.
   BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start, double forward,
                double tolerance = NewtonOptions{}.tolerance);
+
+  /// Steps are chosen by what the contact does as well (step_states.hpp).
+  void watch(StateReader reader) { states_ = StepStates(std::move(reader)); }
 
   /// One accepted step. False: no remedy helped; now() is the last good point.
   [[nodiscard]] bool advance();
@@ -72,6 +70,8 @@ class BranchWalker {
   [[nodiscard]] long iterations() const { return iterations_; }
   [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const std::vector<Remedy>& remedies() const { return remedies_; }
+  /// What the step control has seen of the contact.
+  [[nodiscard]] const StepStates& states() const { return states_; }
   /// After advance() was false.
   [[nodiscard]] Stall stall() const;
 
@@ -91,6 +91,8 @@ class BranchWalker {
   [[nodiscard]] bool smooth(const Trial& trial) const;
   void accept(Trial trial);
   void choose_step(const Trial& trial);
+  /// The trial, or a shorter one that changes fewer states. @param distance  of the trial.
+  [[nodiscard]] Trial limited(Trial trial, double distance);
   void remember(const char* remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
@@ -106,6 +108,7 @@ class BranchWalker {
   double step_ = 0.05;
   double orientation_ = 0.0;  ///< 0: not known yet
   double before_orientation_ = 0.0;
+  StepStates states_;
   std::vector<Remedy> remedies_;
   mutable long evaluations_ = 0;
   mutable long iterations_ = 0;

@@ -50,6 +50,7 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   point.residual = solution.residual;
   point.iterations = solution.iterations;
   point.stability = stability.stability;
+  point.stability_basis = stability.basis;
   point.determinant_sign = stability.determinant_sign;
   if (scene.contact) point.report = scene.contact->report(point.q, frequency);
 

@@ -85,6 +85,8 @@ Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force)
 /// What was evaluated was linear.
 void forget_evaluations(ResponseCurve& curve) {
   curve.contact_evaluations = 0;
+  curve.state_readings = 0;
+  curve.state_cuts = 0;
   for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
 }
 
@@ -108,6 +110,26 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   return curve;
 }
 
+/// The curve of a structure that no force moves, if the contact is in balance at rest: zero. A walk would follow
+/// rounding errors of the preload.
+std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const ContinuationOptions& options,
+                                           const PointObserver& observe) {
+  if (!scene.contact || !scene.excitation.rows().isZero(0.0)) return std::nullopt;
+  const HarmonicBalance balance(scene, first_harmonics(scene, options));
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(balance.size());
+  const BalanceEvaluation at = balance.evaluate(rest, options.frequency_begin);
+  if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
+  const Eigen::Index n = scene.n_modes();
+  const Scene linear = with_force(
+      scene, std::make_unique<LinearForce>(at.jacobian.block(n, n, n, n), *scene.contact));
+  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  forget_evaluations(curve);
+  curve.contact_evaluations = 1;
+  curve.certificate =
+      "at rest: no force acts and the contact is in balance; other solutions may exist";
+  return curve;
+}
+
 }  // namespace
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
@@ -125,12 +147,15 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   }
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
+  if (!certified) certified = trace_at_rest(scene, options, observe);
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
+    const long readings = curve.state_readings + other.state_readings;
+    const long cuts = curve.state_cuts + other.state_cuts;
     if (other.complete || other.points.size() > curve.points.size()) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, "other-end"});
@@ -138,6 +163,8 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     }
     curve.iterations = iterations;
     curve.contact_evaluations = evaluations;
+    curve.state_readings = readings;
+    curve.state_cuts = cuts;
   }
   note_boundary_peak(curve);
   if (options.search_starts > 0 && curve.diagnosis != "interrupted") {

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <sstream>
 #include <utility>
 
-#include "solver/certificate.hpp"
-#include "solver/special_points.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
@@ -37,13 +33,6 @@ bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
 const char* stall_name(Stall stall) {
   if (stall == Stall::fold) return "fold-lost";
   return stall == Stall::chatter ? "event-chatter" : "newton-stall";
-}
-
-std::string at_hertz(const std::string& text, double frequency) {
-  std::ostringstream stream;
-  stream.precision(8);
-  stream << text << " at " << frequency / (2.0 * std::numbers::pi) << " Hz";
-  return stream.str();
 }
 
 }  // namespace
@@ -79,39 +68,16 @@ Scaling CurveTracer::scaling_at(const NewtonResult& at) {
   return scaling;
 }
 
-ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
-                                             at.point.parameter, stability_at(at));
-  if (mark != PointMark::fold) {
-    stability = stability_in_time(*balance_, balance_->harmonics(at.point.x), at.point.parameter,
-                                  std::move(stability));
-  }
-  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
-  point.mark = mark;
-  point.harmonics_left_out = left_out_;
-  point.quadrature_change = change_;
-  // At a fold a multiplier is 1: on which side it falls is rounding.
-  if (mark == PointMark::fold) point.stability = Stability::not_assessed;
-  return point;
-}
-
-bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
-  ResponsePoint point = certified(at, mark);
-  const Clock::time_point now = Clock::now();
-  point.contact_evaluations = curve_.contact_evaluations - point_evaluations_;
-  point.seconds = std::chrono::duration<double>(now - last_time_).count();
-  point_evaluations_ = curve_.contact_evaluations;
-  last_time_ = now;
-  curve_.points.push_back(std::move(point));
-  return !observe_ || observe_(curve_.points.back());
-}
-
 /// Counts what the walker has done since it was asked last.
 void CurveTracer::take_stock(const BranchWalker& walker) {
   curve_.contact_evaluations += walker.evaluations() - walker_evaluations_;
   curve_.iterations += walker.iterations() - walker_iterations_;
   walker_evaluations_ = walker.evaluations();
   walker_iterations_ = walker.iterations();
+  curve_.state_readings += walker.states().n_readings() - walker_readings_;
+  curve_.state_cuts += walker.states().n_cuts() - walker_cuts_;
+  walker_readings_ = walker.states().n_readings();
+  walker_cuts_ = walker.states().n_cuts();
   for (; n_remedies_ < walker.remedies().size(); ++n_remedies_) {
     const Remedy& remedy = walker.remedies()[n_remedies_];
     curve_.log.push_back({remedy.parameter, remedy.name});
@@ -121,71 +87,6 @@ void CurveTracer::take_stock(const BranchWalker& walker) {
 void CurveTracer::stop(const std::string& diagnosis, const std::string& message) {
   curve_.diagnosis = diagnosis;
   curve_.message = message;
-}
-
-std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
-                                                        std::vector<double>& left_out) {
-  std::vector<SpecialPoint> found;
-  const auto any_lacks = [&] {
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (enlarge(walker, found[i].solution.point)) return true;
-      left_out[i] = left_out_;
-    }
-    return false;
-  };
-  if (scene_.contact) scene_.contact->begin_point();
-  do {
-    found = special_points(walker, *balance_);
-    left_out.assign(found.size(), 0.0);
-  } while ((choice_ && any_lacks()) || (!found.empty() && refit(walker, found)));
-  return found;
-}
-
-void CurveTracer::note_unsolved(double frequency, PointMark mark) {
-  curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
-}
-
-bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
-  const double left_out_now = left_out_;
-  const double change_now = change_;
-  std::vector<double> left_out;
-  const std::vector<SpecialPoint> found = settled_specials(walker, left_out);
-  take_stock(walker);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    left_out_ = left_out[i];
-    if (!(found[i].share < share_of_segment)) continue;
-    if (!found[i].solved) note_unsolved(found[i].solution.point.parameter, found[i].mark);
-    if (!add(found[i].solution, found[i].mark)) return false;
-  }
-  left_out_ = left_out_now;
-  if (found.empty()) change_ = change_now;
-  return true;
-}
-
-bool CurveTracer::reach(BranchWalker& walker, double edge) {
-  const double before = walker.before().solution.point.parameter;
-  const double now = walker.now().solution.point.parameter;
-  if (before == edge) return true;  // a branch that was followed from there
-  const double share = (edge - before) / (now - before);
-  if (!add_specials(walker, share)) {
-    stop("interrupted", at_hertz("stopped", edge));
-    return false;
-  }
-  if (scene_.contact) scene_.contact->begin_point();
-  NewtonResult last;
-  do {
-    last = walker.at_parameter(edge, share);
-  } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
-  take_stock(walker);
-  if (!last.converged) {
-    stop("newton-stall", at_hertz("no solution found", edge));
-    return false;
-  }
-  if (!add(last)) {
-    stop("interrupted", at_hertz("stopped", edge));
-    return false;
-  }
-  return true;
 }
 
 /// A branch that was entered by a jump may be detached: then it comes back to where it was entered.
@@ -241,10 +142,17 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
     return balance_->evaluate(x, frequency);
   };
   walker_evaluations_ = walker_iterations_ = 0;
+  walker_readings_ = walker_cuts_ = 0;
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
-  return {system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start),
-          forward, options_.residual_tolerance};
+  BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
+                      std::move(start), forward, options_.residual_tolerance);
+  if (scene_.contact) {
+    walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
+      scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
+    });
+  }
+  return walker;
 }
 
 /// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies

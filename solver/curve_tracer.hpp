@@ -8,6 +8,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/branch_walker.hpp"
@@ -66,6 +67,7 @@ class CurveTracer {
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
   /// What the last step has up to an end of the range, and the point there. False: diagnosis says why.
   [[nodiscard]] bool reach(BranchWalker& walker, double edge);
+  [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
   void stop(const std::string& diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
 
@@ -91,6 +93,8 @@ class CurveTracer {
   std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
   long walker_evaluations_ = 0;        ///< of the walker, counted already
   long walker_iterations_ = 0;
+  long walker_readings_ = 0;
+  long walker_cuts_ = 0;
   long point_evaluations_ = 0;  ///< of the curve when the last point was added
   Clock::time_point last_time_ = Clock::now();
 };

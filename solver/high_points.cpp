@@ -25,7 +25,7 @@ bool is_passed_peak(const std::vector<ResponsePoint>& points, std::size_t i) {
 /// The peak uphill from a point of the curve; the point itself, unsolved, where none is found.
 HighPoint climbed(const HarmonicBalance& balance, const ResponsePoint& from,
                   const ContinuationOptions& range) {
-  HighPoint high{from, PeakPlace::unsolved, false};
+  HighPoint high{from, PeakPlace::unsolved};
   const std::optional<LocalPeak> start = local_peak(balance, from);
   if (!start) return high;
   PeakWork work;
@@ -40,25 +40,42 @@ HighPoint climbed(const HarmonicBalance& balance, const ResponsePoint& from,
   return high;
 }
 
+struct Branch {
+  const std::vector<ResponsePoint>& points;
+  bool detached = false;
+  bool closed = false;
+};
+
+void add_high_points(const HarmonicBalance& balance, const Branch& branch,
+                     const ContinuationOptions& range, std::vector<HighPoint>& high) {
+  const std::vector<ResponsePoint>& points = branch.points;
+  const auto is_edge = [&](const ResponsePoint& point) {
+    return is_at(point, range.frequency_begin) || is_at(point, range.frequency_end);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool outermost = !branch.closed && (i == 0 || i + 1 == points.size());
+    if (points[i].mark == PointMark::peak) {
+      high.push_back({points[i], PeakPlace::peak, false, branch.detached});
+    } else if (outermost) {
+      // An incomplete curve stops anywhere: more amplitude may lie beyond.
+      const PeakPlace place = is_edge(points[i]) ? PeakPlace::range_end : PeakPlace::unsolved;
+      high.push_back({points[i], place, false, branch.detached});
+    } else if (is_passed_peak(points, i)) {
+      high.push_back(climbed(balance, points[i], range));
+      high.back().detached = branch.detached;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<HighPoint> high_points(const Scene& scene, const ResponseCurve& curve,
                                    const ContinuationOptions& range) {
   const HarmonicBalance balance(scene, first_harmonics(scene, range));
   std::vector<HighPoint> high;
-  const std::vector<ResponsePoint>& points = curve.points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool outermost = i == 0 || i + 1 == points.size();
-    const bool at_end =
-        is_at(points[i], range.frequency_begin) || is_at(points[i], range.frequency_end);
-    if (points[i].mark == PointMark::peak) {
-      high.push_back({points[i], PeakPlace::peak, false});
-    } else if (outermost) {
-      // An incomplete curve stops anywhere: more amplitude may lie beyond.
-      high.push_back({points[i], at_end ? PeakPlace::range_end : PeakPlace::unsolved, false});
-    } else if (is_passed_peak(points, i)) {
-      high.push_back(climbed(balance, points[i], range));
-    }
+  add_high_points(balance, {curve.points}, range, high);
+  for (const DetachedBranch& branch : curve.detached) {
+    add_high_points(balance, {branch.points, true, branch.closed}, range, high);
   }
   std::stable_sort(high.begin(), high.end(), [](const HighPoint& a, const HighPoint& b) {
     return a.point.amplitude > b.point.amplitude;

@@ -15,8 +15,10 @@ struct HighPoint {
   ResponsePoint point;
   PeakPlace place = PeakPlace::peak;
   bool climbed = false;  ///< a peak that the curve itself lacks
+  bool detached = false;  ///< on a branch that the sweep does not meet
 };
 
+/// Of the curve and of the detached branches that a search has found beside it.
 /// @param curve  of `scene` over `range`, harmonics given; may be incomplete.
 /// @return from the highest down; equal ones in the order of the curve.
 [[nodiscard]] std::vector<HighPoint> high_points(const Scene& scene, const ResponseCurve& curve,

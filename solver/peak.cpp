@@ -313,6 +313,7 @@ class Search {
     const PeakTrace trace = peaks_.result();
     result_.trace = trace.peaks;
     result_.notes.insert(result_.notes.begin(), trace.notes.begin(), trace.notes.end());
+    result_.warnings = trace.warnings;
     result_.n_curves = trace.n_curves;
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;

@@ -25,6 +25,7 @@ struct Optimum {
   /// elsewhere, and whether an end of the frequency range counts.
   std::string message;
   std::vector<std::string> notes;  ///< see PeakTrace
+  std::vector<std::string> warnings;  ///< likewise
   int n_curves = 0;                ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;

@@ -94,6 +94,11 @@ void PeakFamilies::note(const std::string& text, double position) {
   result_.notes.push_back(stream.str());
 }
 
+void PeakFamilies::warn(const std::string& text, double position) {
+  note(text, position);
+  result_.warnings.push_back(result_.notes.back());
+}
+
 const LocalPeak* PeakFamilies::highest_followed(double position) const {
   const LocalPeak* best = nullptr;
   for (const Peaks& peaks : families_) {
@@ -122,7 +127,15 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
     best.frequency = solved.point.frequency;
     best.place = solved.place;
   }
+  best.detached = is_detached(curve->second, best.amplitude);
   return best;
+}
+
+/// The highest point of a curve is the amplitude's, and stands beside the curve.
+bool PeakFamilies::is_detached(const Curve& curve, double amplitude) {
+  const HighPoint& highest = curve.high.front();
+  const double solved = highest.point.amplitude;
+  return highest.detached && std::abs(amplitude - solved) <= same_amplitude * solved;
 }
 
 /// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
@@ -147,6 +160,9 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
   }
   if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
     note("the highest point of the curve is not a solved peak: the peak may be higher", position);
+  }
+  if (!kept.high.empty() && kept.high.front().detached) {
+    warn("the highest peak stands on a branch detached from the curve: no sweep meets it", position);
   }
   if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
       left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {
@@ -174,10 +190,16 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
 /// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
 /// that had it.
 void PeakFamilies::cut(Peaks& peaks, double position) {
-  note(
-      "a followed peak is not on the curve (its branch is detached, or another peak), curves "
-      "traced whole",
-      position);
+  const std::vector<HighPoint>& solved = curves_.at(position).high;
+  const bool higher =
+      solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude;
+  const std::string found =
+      " is not on the curve (its branch is detached, or another peak), curves traced whole";
+  if (higher) {
+    warn("a followed peak, higher than all of the curve," + found, position);
+  } else {
+    note("a followed peak" + found, position);
+  }
   const auto agreed = [&](const auto& curve) {
     return curve.second.complete && peaks.contains(curve.first) && agrees(peaks, curve.first);
   };

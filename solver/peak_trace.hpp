@@ -12,7 +12,9 @@
 ///   a branch that comes off the curve  its peak is missing on the curve of the next check; all values up to
 ///                                      the last agreement are traced whole
 ///
-/// and named in `notes`. At worst every value is traced whole, which is what a search on curves costs.
+/// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is made with every
+/// whole curve; a peak it finds counts like one of the curve. Without it such a peak is not known, unless the
+/// branch was followed to where it came off the curve: the notes say so then. At worst every value is traced whole, which is what a search on curves costs.
 ///
 /// Where harmonics are chosen, all peaks have those that the peaks of the checks need
 /// (common_harmonics.hpp); a curve whose highest peak needs more is named in `notes`.
@@ -42,6 +44,8 @@ struct PeakOfParameter {
   bool whole_curve =
       false;  ///< the peak is the highest of a complete curve, not only of those followed
   PeakPlace place = PeakPlace::peak;  ///< what has this amplitude
+  /// It was found on a branch that the sweep does not meet; told where the curve was traced whole.
+  bool detached = false;
 };
 
 struct PeakTraceOptions {
@@ -55,6 +59,7 @@ struct PeakTraceOptions {
 struct PeakTrace {
   std::vector<PeakOfParameter> peaks;  ///< sorted by parameter; values without a solution are left out
   std::vector<std::string> notes;      ///< what following met, in words; the fall-backs among them
+  std::vector<std::string> warnings;   ///< the notes that tell of peaks beside the curves
   int n_curves = 0;                    ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;
@@ -96,6 +101,7 @@ class PeakFamilies {
   [[nodiscard]] const LocalPeak* highest_followed(double position) const;
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
+  [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
   const Curve& curve_at(double position);
   void seed(double position);
   void settle();
@@ -107,6 +113,7 @@ class PeakFamilies {
   [[nodiscard]] bool agrees(const Peaks& peaks, double position) const;
   void cut(Peaks& peaks, double position);
   void note(const std::string& text, double position);
+  void warn(const std::string& text, double position);
 
   const SceneFamily& family_;
   ContinuationOptions choosing_;  ///< as given

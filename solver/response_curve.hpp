@@ -17,6 +17,10 @@ enum class PointMark { none, peak, fold };
 /// 1, 0, −1 in files.
 enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 
+/// What a verdict of stability rests on (stability.hpp). Hill's exponents do not prove that pairs of a hysteretic
+/// force decay: what they call stable is not proved stable.
+enum class StabilityBasis { slow_flow, hill, period_map };
+
 struct ResponsePoint {
   double frequency = 0.0;         ///< ω [rad/s]
   Harmonics q;                    ///< [m√kg]
@@ -32,6 +36,7 @@ struct ResponsePoint {
   double dissipation_mismatch = 0.0;  ///< |W_fric − ∬∮ μn|ds| dA| over the same
   contact::CycleReport report;
   Stability stability = Stability::not_assessed;
+  StabilityBasis stability_basis = StabilityBasis::slow_flow;
   double determinant_sign = 0.0;  ///< of ∂R/∂q
   PointMark mark = PointMark::none;
   int iterations = 0;  ///< Newton steps of this point's own solution
@@ -44,6 +49,7 @@ struct ResponsePoint {
 struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
+  /// states-at-once: a step that changes more of the contact's states than one should;
   /// harmonics-kept: the equations with more harmonics were not solved, quadrature-kept: those on points
   /// fitted to the motion; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
   /// marked, within the step in which it lies
@@ -73,13 +79,15 @@ struct ResponseCurve {
   ///   interrupted    the observer asked to stop
   std::string diagnosis;
   std::string message;  ///< a sentence with the numbers
-  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range.
+  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range, or rest.
   std::string certificate;
   std::vector<SolverEvent> log;          ///< remedies in the order they were needed
   std::vector<DetachedBranch> detached;  ///< found by the search, if one was asked for
   int n_starts = 0;  ///< of the search: Newton iterations that looked for another solution
   long iterations = 0;
   long contact_evaluations = 0;
+  long state_readings = 0;  ///< of the step control: what the contact does at a place (step_states.hpp)
+  long state_cuts = 0;      ///< steps it has cut
   double seconds = 0.0;
 };
 

@@ -19,7 +19,8 @@ ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solutio
   if (!settled.settled) curve.log.push_back({frequency, "quadrature-kept"});
   const auto stability = stability_in_time(
       balance, balance.harmonics(solution.point.x), frequency,
-      assess_stability(balance, solution.evaluation.jacobian, frequency));
+      assess_stability(balance, solution.evaluation.jacobian, frequency),
+      PeriodMapEffort::few_points);
   ResponsePoint point = certified_point(balance, solution, frequency, stability);
   point.quadrature_change = settled.change;
   return point;

@@ -26,6 +26,10 @@ constexpr int max_parabolas = 8;
 // to separate, makes them differ by more than this factor, and the cubic is not the branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
+// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not. Steep
+// parts of a branch, where folds may hide, are few.
+constexpr double level_at_peak = 0.1;
+constexpr double level_at_fold = 0.3;
 // The motion along the branch jumps at a kink by about this share of itself; the slope no more.
 constexpr double kink_reach = 0.3;
 // Of more points each is a small part of the force: their kinks together are a smooth curve.
@@ -46,10 +50,6 @@ struct Node {
   BranchVector position;  ///< scaled
   BranchVector tangent;   ///< scaled, of length one
 };
-
-double dot(const BranchVector& a, const BranchVector& b) {
-  return a.x.dot(b.x) + a.parameter * b.parameter;
-}
 
 BranchVector minus(const BranchVector& a, const BranchVector& b) {
   return {a.x - b.x, a.parameter - b.parameter};
@@ -124,6 +124,10 @@ class Segment {
     return node(std::move(*point));
   }
 
+  [[nodiscard]] double nearly_level() const {
+    return kind_ == PointMark::fold ? level_at_fold : level_at_peak;
+  }
+
   /// Between two places there is a kink at which the slope may change its sign unseen.
   [[nodiscard]] bool may_hide(const Node& a, const Node& b) const {
     const BranchVector chord = minus(b.position, a.position);
@@ -132,7 +136,10 @@ class Segment {
     const auto [less, more] = std::minmax(first, second);
     const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
                                     std::abs(b.value.slope) / b.value.steepest);
-    if (first + second > slight_turn && more > uneven * less && nearest < first + second) return true;
+    const double turn = first + second;
+    if (turn > slight_turn && more > uneven * less && nearest < turn) return true;
+    const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
+    if (turn > slight_turn && same_sign && nearest < nearly_level() * turn) return true;
     const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
     return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
   }
@@ -141,11 +148,16 @@ class Segment {
   [[nodiscard]] bool crosses_kink(const Node& a, const Node& b) const {
     const auto& contact = balance_.scene().contact;
     if (!contact) return false;
-    const auto regimes = [&](const Node& at) {
-      return contact->regimes(balance_.harmonics(at.at.point.solution.point.x));
+    const auto read = [&](const Node& at, contact::ContactStates& states) {
+      const BranchVector& point = at.at.point.solution.point;
+      contact->states(balance_.harmonics(point.x), point.parameter, states);
     };
-    const std::vector<int> before = regimes(a);
-    return before.size() <= most_kinks && before != regimes(b);
+    contact::ContactStates before;
+    contact::ContactStates after;
+    read(a, before);
+    if (before.size() > most_kinks) return false;
+    read(b, after);
+    return contact::state_change(before, after).n_regimes > 0;
   }
 
   /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole

@@ -27,6 +27,10 @@ constexpr Eigen::Index most_states = 160;
 constexpr double real_tolerance = 1e-6;
 // Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
 constexpr Eigen::Index most_multipliers = 16;
+// The same where few points are judged: sliders at rest in the period are no states of the matrix, points cost time
+// in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).
+constexpr Eigen::Index most_multipliers_of_few = 60;
+constexpr Eigen::Index most_points_of_few = 100;
 // Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
 constexpr double multiplier_tolerance = 1e-4;
 
@@ -197,6 +201,7 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   if (balance.set().highest() == 1) return slow;
   StabilityReport report = std::move(slow);
   report.stability = Stability::not_assessed;
+  report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
   const Reduced low = reduced(balance, jacobian, low_orders(balance));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
@@ -228,13 +233,19 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
 }
 
 StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
-                                  double frequency, StabilityReport hill) {
+                                  double frequency, StabilityReport hill, PeriodMapEffort effort) {
   const Scene& scene = balance.scene();
   if (balance.set().highest() == 1 || !scene.transient) return hill;
   if (hill.stability == Stability::unstable) return hill;
-  if (2 * scene.n_modes() + scene.transient->n_points() > most_multipliers) return hill;
-  const FloquetMultipliers floquet = floquet_multipliers(scene, frequency, q, most_multipliers);
+  const Eigen::Index n_points = scene.transient->n_points();
+  const bool few = effort == PeriodMapEffort::few_points;
+  if (few ? n_points > most_points_of_few : 2 * scene.n_modes() + n_points > most_multipliers) {
+    return hill;
+  }
+  const FloquetMultipliers floquet = floquet_multipliers(
+      scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
   if (!floquet.known()) return hill;
+  hill.basis = StabilityBasis::period_map;
   const double beyond = floquet.largest_oscillating() - 1.0;
   const double unsure = std::max(multiplier_tolerance, floquet.distance);
   hill.stability = Stability::not_assessed;

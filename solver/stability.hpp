@@ -28,6 +28,7 @@ namespace microslip::solver {
 
 struct StabilityReport {
   Stability stability = Stability::not_assessed;
+  StabilityBasis basis = StabilityBasis::slow_flow;
   double determinant_sign = 0.0;  ///< of ∂R/∂x: 1, −1, or 0 where it is singular
   double growth = 0.0;  ///< largest real part of the eigenvalues judged [rad/s], −∞: there is none
   /// How near, in frequency, a resonance of the linearised structure is, or how wide [rad/s].
@@ -45,14 +46,21 @@ struct StabilityReport {
                                              const Eigen::MatrixXd& jacobian, double frequency,
                                              StabilityReport slow);
 
+/// What a verdict may cost.
+enum class PeriodMapEffort {
+  every_point,  ///< modes, two states each, and points together at most 16: some 10 ms
+  few_points,   ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
+};
+
 /// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the
 /// multipliers of the period map that are not real and positive. Within `distance` of the unit circle, and at
 /// least 1e-4, they tell nothing and the point is not assessed. Real positive ones are those of the
-/// determinant. Left as it is: one harmonic, and more than 16 states of modes (two each) and points.
+/// determinant. Left as it is: one harmonic, and scenes too large for the effort.
 /// @param hill  hill_stability() of the same point.
 /// @param q     its harmonics.
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
-                                                double frequency, StabilityReport hill);
+                                                double frequency, StabilityReport hill,
+                                                PeriodMapEffort effort);
 
 /// slow_flow_stability() and hill_stability().
 [[nodiscard]] StabilityReport assess_stability(const HarmonicBalance& balance,

@@ -201,12 +201,14 @@ TEST(PatchForce, TellsTheRegimeOfEachPoint) {
   const PatchForce force(ContactPatch(Eigen::VectorXd::Ones(4), points), shapes);
   Harmonics q(1, 1);
   q.rows()(1, 0) = 1.0;
-  const auto number = [](CycleRegime regime) { return static_cast<int>(regime); };
-  EXPECT_EQ(force.regimes(q), (std::vector<int>{number(CycleRegime::full_stick),
-                                                number(CycleRegime::stick_slip),
-                                                number(CycleRegime::separation),
-                                                number(CycleRegime::separated)}));
-  EXPECT_THROW(static_cast<void>(force.regimes(Harmonics(2, 1))), std::invalid_argument);
+  ContactStates states;
+  force.states(q, 1.0, states);
+  ASSERT_EQ(states.size(), 4U);
+  EXPECT_EQ(states[0].cycle.regime, CycleRegime::full_stick);
+  EXPECT_EQ(states[1].cycle.regime, CycleRegime::stick_slip);
+  EXPECT_EQ(states[2].cycle.regime, CycleRegime::separation);
+  EXPECT_EQ(states[3].cycle.regime, CycleRegime::separated);
+  EXPECT_THROW(force.states(Harmonics(2, 1), 1.0, states), std::invalid_argument);
 }
 
 TEST(PatchForce, RefusesWhatDoesNotFit) {

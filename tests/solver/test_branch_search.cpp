@@ -12,54 +12,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/solver/duffing.hpp"
+#include "tests/solver/humped_damping.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
 namespace {
 
-/// Damping that depends on the amplitude, G = d(S) (−x_c, x_s) with S = x_s² + x_c² and
-/// d = 0.1 + exp(−(S − 4)²): with F = 0.5 and ω₀ = 1
-///   (1 − ω²)² = F²/S − d²
-/// has solutions for small S, on the curve, and again between S = 5.5 and 25: an isola.
-class HumpedDamping final : public contact::ModalForce {
- public:
-  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
-  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
-    return Eigen::MatrixXd::Zero(1, 1);
-  }
-  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
-    return {};
-  }
-  static double damping(double square) { return 0.1 + std::exp(-(square - 4.0) * (square - 4.0)); }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const Harmonics& q,
-                                                   double /*frequency*/) const override {
-    const double s = q.rows()(1, 0);
-    const double c = q.rows()(2, 0);
-    const double square = s * s + c * c;
-    const double d = damping(square);
-    const double slope = -2.0 * (square - 4.0) * (d - 0.1);
-    contact::ForceAndJacobian result;
-    result.force = Harmonics(1, 1);
-    result.force.vector() << 0.0, -d * c, d * s;
-    result.jacobian = Eigen::MatrixXd::Zero(3, 3);
-    result.jacobian.bottomRightCorner(2, 2) << -2.0 * s * c * slope, -d - 2.0 * c * c * slope,
-        d + 2.0 * s * s * slope, 2.0 * s * c * slope;
-    result.frequency_derivative = Eigen::VectorXd::Zero(3);
-    return result;
-  }
-};
-
-Scene with_isola() {
-  Scene scene;
-  scene.natural_frequency = Eigen::VectorXd::Ones(1);
-  scene.damping_ratio = Eigen::VectorXd::Zero(1);
-  scene.output = Eigen::VectorXd::Ones(1);
-  scene.excitation = Harmonics(1, 1);
-  scene.excitation.rows()(1, 0) = 0.5;
-  scene.contact = std::make_unique<HumpedDamping>();
-  return scene;
-}
+Scene with_isola() { return tests::isola_scene(0.5); }
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
@@ -82,7 +41,7 @@ TEST(BranchSearch, FindsAnIsola) {
   for (const ResponsePoint& point : isola.points) {
     const double square = point.amplitude * point.amplitude;
     const double stiffness = 1.0 - point.frequency * point.frequency;
-    const double d = HumpedDamping::damping(square);
+    const double d = tests::HumpedDamping::damping(square);
     EXPECT_NEAR((stiffness * stiffness + d * d) * square, 0.25, 1e-10);
     largest = std::max(largest, point.amplitude);
   }

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "contact/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
@@ -114,6 +117,30 @@ TEST(Floquet, MotionThatLeavesItsSolutionHasAPairOutsideTheUnitCircle) {
   EXPECT_FALSE(end.periodic);  // with no period of one to four cycles
   EXPECT_GT((end.response.q.rows() - point.q.rows().topRows(11)).middleRows(1, 2).norm(),
             0.05 * point.q.rows().middleRows(1, 2).norm());
+}
+
+TEST(Floquet, JudgesSingleSolutionsOfManyPointsToo) {
+  // The same chain on 40 points that are one: more states than every point of a curve is worth.
+  Scene scene = tests::three_dof_scene(15.0);
+  const auto& one = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  constexpr Eigen::Index n = 40;
+  std::vector<contact::PointParameters> points(n, one.patch().points()[0]);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Constant(n, one.patch().weights()[0] / n);
+  contact::ModalShapes shapes{one.shapes().u.replicate(n, 1), one.shapes().v.replicate(n, 1), {}};
+  scene.contact = std::make_unique<contact::PatchForce>(
+      contact::ContactPatch(weights, std::move(points)), std::move(shapes));
+  tests::add_transient(scene);
+  tests::use_event_cycles(scene);
+  ContinuationOptions options;
+  options.n_harmonics = 5;
+  const ResponseCurve curve = solve_at_frequency(scene, two_pi * 27.78, options);
+  ASSERT_TRUE(curve.complete);
+  EXPECT_EQ(curve.points[0].stability, Stability::unstable);
+  EXPECT_EQ(curve.points[0].stability_basis, StabilityBasis::period_map);
+  scene.transient = nullptr;  // Hill's exponents do not see it, and say so
+  const ResponseCurve unproved = solve_at_frequency(scene, two_pi * 27.78, options);
+  EXPECT_EQ(unproved.points.at(0).stability, Stability::stable);
+  EXPECT_EQ(unproved.points.at(0).stability_basis, StabilityBasis::hill);
 }
 
 TEST(Floquet, IsNotKnownBeyondTheStatesAllowed) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/solver/humped_damping.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
@@ -110,6 +111,26 @@ TEST(PeakTrace, TakesAnyParameterOnALinearScale) {
     EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), frequency_range(0.5, 2.5)),
                 1e-10 * peak.amplitude)
         << peak.parameter;
+  }
+}
+
+TEST(PeakTrace, CountsDetachedBranchesWhereASearchFindsThem) {
+  PeakTraceOptions options = between(0.45, 0.55, 5);
+  options.n_checks = 2;
+  ContinuationOptions searched = frequency_range(0.6, 1.4);
+  searched.search_starts = 12;
+  const PeakTrace with = trace_peaks(tests::isola_scene, searched, options);
+  ASSERT_EQ(with.peaks.size(), 5U);
+  for (const PeakOfParameter& peak : with.peaks) {
+    EXPECT_NEAR(peak.amplitude, 10.0 * peak.parameter, 1e-6);  // of the isola, at its root
+    EXPECT_EQ(peak.detached, peak.whole_curve);  // told where the curve is known
+  }
+  EXPECT_TRUE(with.peaks.front().detached);
+  EXPECT_GE(with.warnings.size(), 2U);  // one for each check
+  for (const PeakOfParameter& peak :
+       trace_peaks(tests::isola_scene, frequency_range(0.6, 1.4), options).peaks) {
+    EXPECT_LT(peak.amplitude, 2.0);
+    EXPECT_FALSE(peak.detached);
   }
 }
 

@@ -161,6 +161,37 @@ TEST(SpecialPoints, APeakWhereAPointBeginsToSlipIsFoundEitherWay) {
   }
 }
 
+TEST(SpecialPoints, TwoFoldsOnASteepPartAreFoundEitherWay) {
+  // 3e-7 of the frequency apart, between two others.
+  tests::RandomScene random = tests::random_scene(121);
+  const auto there = marked(trace_response(random.scene, random.options), PointMark::fold);
+  std::swap(random.options.frequency_begin, random.options.frequency_end);
+  auto back = marked(trace_response(random.scene, random.options), PointMark::fold);
+  std::reverse(back.begin(), back.end());
+  EXPECT_EQ(there.size(), 4U);
+  ASSERT_EQ(there.size(), back.size());
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
+  }
+}
+
+TEST(SpecialPoints, AHumpWhereAPointTurnsItsPhasesIsFoundEitherWay) {
+  // One of 21 points turns its cycle round within a step; a valley and a peak within a long level step.
+  for (const auto& [seed, n_peaks] : {std::pair{402U, 4U}, std::pair{141U, 9U}}) {
+    SCOPED_TRACE(seed);
+    tests::RandomScene random = tests::wild_scene(seed);
+    const auto there = marked(trace_response(random.scene, random.options), PointMark::peak);
+    std::swap(random.options.frequency_begin, random.options.frequency_end);
+    auto back = marked(trace_response(random.scene, random.options), PointMark::peak);
+    std::reverse(back.begin(), back.end());
+    EXPECT_EQ(there.size(), n_peaks);
+    ASSERT_EQ(there.size(), back.size());
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
+    }
+  }
+}
+
 TEST(SpecialPoints, AChangeOfSignThatCannotBeSolvedForIsGivenAndSaidSo) {
   const tests::Duffing duffing;
   const Scene scene = duffing.scene();
