@@ -57,6 +57,7 @@ CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
       range_(std::abs(options.frequency_end - options.frequency_begin)) {
   if (options.harmonic_tolerance > 0.0) {
     choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
+    screening_.emplace(scene, *choice_);
   }
 }
 
@@ -128,7 +129,7 @@ std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
   std::vector<SpecialPoint> found;
   const auto any_lacks = [&] {
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (enlarge(walker, found[i].solution.point)) return true;
+      if (enlarge(walker, found[i].solution)) return true;
       left_out[i] = left_out_;
     }
     return false;

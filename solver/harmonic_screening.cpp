@@ -1,0 +1,92 @@
+#include "solver/harmonic_screening.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "solver/output_amplitude.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// Points from one probe to the next at most: a step turns the branch by some 7°, so that over these it may
+// have gone round a resonance by half and the way back from the harmonics is another.
+constexpr int most_uses = 8;
+// What the estimate may be off by without harm: between neighbouring points of chains and patches it is right
+// to a fifth.
+constexpr double margin = 1.5;
+
+/// Contact stiffness on the first harmonic, averaged over its phase [1/s²].
+Eigen::MatrixXd mean_stiffness(const HarmonicBalance& balance, const NewtonResult& at) {
+  const Eigen::Index n = balance.scene().n_modes();
+  const Eigen::MatrixXd& jacobian = at.evaluation.jacobian;
+  Eigen::MatrixXd stiffness =
+      0.5 * (jacobian.block(n, n, n, n) + jacobian.block(2 * n, 2 * n, n, n));
+  const double square = at.point.parameter * at.point.parameter;
+  stiffness.diagonal().array() -= balance.scene().natural_frequency.array().square() - square;
+  return stiffness;
+}
+
+/// d_k of each share.
+std::vector<double> direct_responses(const HarmonicBalance& balance, const NewtonResult& at,
+                                     const Harmonics& force,
+                                     const std::vector<HarmonicShare>& shares) {
+  const Scene& scene = balance.scene();
+  const double amplitude =
+      output_amplitude(balance.harmonics(at.point.x), scene.output).half_peak_to_peak;
+  const Eigen::MatrixXd stiffness = mean_stiffness(balance, at);
+  std::vector<double> direct;
+  for (const HarmonicShare& share : shares) {
+    const double frequency = share.order * at.point.parameter;
+    Eigen::MatrixXcd matrix = stiffness.cast<std::complex<double>>();
+    const auto& natural = scene.natural_frequency.array();
+    matrix.diagonal().real().array() += natural.square() - frequency * frequency;
+    matrix.diagonal().imag().array() += 2.0 * scene.damping_ratio.array() * natural * frequency;
+    Eigen::VectorXcd right(scene.n_modes());
+    right.real() = force.sine(share.order).transpose();
+    right.imag() = force.cosine(share.order).transpose();
+    direct.push_back(matrix.partialPivLu().solve(right).norm() / amplitude);
+  }
+  return direct;
+}
+
+}  // namespace
+
+void HarmonicScreening::remember(const HarmonicBalance& balance, const NewtonResult& at,
+                                 const HarmonicDecision& probe) {
+  Memory memory{balance.set(), probe.shares, {}, probe.missing, probe.force.n_harmonics(), 0};
+  memory.direct = direct_responses(balance, at, probe.force, probe.shares);
+  memory_ = std::move(memory);
+}
+
+std::optional<double> HarmonicScreening::missing(const HarmonicBalance& balance,
+                                                 const NewtonResult& at, double scale) {
+  if (!memory_ || memory_->set != balance.set() || memory_->uses >= most_uses) return std::nullopt;
+  if (choice_.probed(balance.set(), at.point.parameter) > memory_->highest) return std::nullopt;
+  ++memory_->uses;
+  const Harmonics force = scene_.contact->force_up_to(balance.harmonics(at.point.x),
+                                                      at.point.parameter, memory_->highest);
+  // A harmonic that was silent has no share to be taken over.
+  for (const int order : HarmonicChoice::heard(balance.set(), force, scale)) {
+    const bool known = std::any_of(memory_->shares.begin(), memory_->shares.end(),
+                                   [&](const HarmonicShare& share) { return share.order == order; });
+    if (!known) return std::nullopt;
+  }
+  if (memory_->shares.empty()) return 0.0;
+  const std::vector<double> direct = direct_responses(balance, at, force, memory_->shares);
+  double before = 0.0;
+  double now = 0.0;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const double error = memory_->shares[i].error;
+    before += error;
+    now += error * (direct[i] / memory_->direct[i]);
+  }
+  const double missing = memory_->missing * now / before;
+  // What is not a number asks for a probe as well.
+  if (!(margin * missing <= choice_.allowed())) return std::nullopt;
+  return missing;
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,52 @@
+/// @file
+/// What a set of harmonics misses, told between two probes of harmonic_choice.hpp without their equations.
+/// The response to force k alone, by the contact stiffness that the point has on its first harmonic,
+///
+///   d_k = ‖(Ω − k²ω² + i kω C + K)⁻¹ G^(k)‖ / a,       K = mean of the sine and cosine blocks of ∂G/∂q
+///
+/// follows the force, resonances at kω and the share that slips from point to point; what it leaves out, the
+/// way from harmonic k back to the others, is taken over from the last probe:
+///
+///   e ≈ e_probe Σ_k e_k,probe (d_k / d_k,probe) / Σ_k e_k,probe
+///
+/// Costs the force alone at the motion's own events. Trusted for few points and where it leaves a margin.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/harmonic_choice.hpp"
+
+namespace microslip::solver {
+
+class HarmonicScreening {
+ public:
+  /// @param scene   borrowed.
+  /// @param choice  borrowed.
+  HarmonicScreening(const Scene& scene, const HarmonicChoice& choice)
+      : scene_(scene), choice_(choice) {}
+
+  /// Starts from a probe that found nothing to add.
+  void remember(const HarmonicBalance& balance, const NewtonResult& at,
+                const HarmonicDecision& probe);
+  /// Error by harmonics left out, relative to the amplitude; empty: ask for a probe.
+  /// @param scale  of forces [N/√kg].
+  [[nodiscard]] std::optional<double> missing(const HarmonicBalance& balance,
+                                              const NewtonResult& at, double scale);
+
+ private:
+  struct Memory {
+    HarmonicSet set;
+    std::vector<HarmonicShare> shares;
+    std::vector<double> direct;  // d_k of the shares
+    double missing = 0.0;
+    int highest = 0;  // probed
+    int uses = 0;
+  };
+
+  const Scene& scene_;
+  const HarmonicChoice& choice_;
+  std::optional<Memory> memory_;
+};
+
+}  // namespace microslip::solver
