@@ -5,11 +5,12 @@
 ///   d_k = ‖(Ω − k²ω² + i kω C + K)⁻¹ G^(k)‖ / a,       K = mean of the sine and cosine blocks of ∂G/∂q
 ///
 /// follows the force, resonances at kω and the share that slips from point to point; what it leaves out, the
-/// way from harmonic k back to the others, is taken over from the last probe:
+/// way from harmonic k back to the others, is taken over from the last probe, with r_k = d_k / d_k,probe:
 ///
-///   e ≈ e_probe Σ_k e_k,probe (d_k / d_k,probe) / Σ_k e_k,probe
+///   e ≈ min( Σ_k r_k e_k,   max_θ |Σ_k e_k(θ)| + Σ_k |r_k − 1| e_k )
 ///
-/// Costs the force alone at the motion's own events. Trusted for few points and where it leaves a margin.
+/// Costs the force alone at the motion's own events. Trusted where it leaves a margin that grows with every
+/// point since the probe.
 #pragma once
 
 #include <optional>
