@@ -1,25 +1,12 @@
 #include "contact/block_kernels.hpp"
 
+#include "contact/vector_lanes.hpp"
+
 namespace microslip::contact {
 namespace {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument,
 // so sums are plain arrays.
-
-// W doubles side by side; aligned as the arrays are, to one double only.
-template <int W>
-struct Lanes {
-  using Vector
-      [[gnu::vector_size(W * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] =
-          double;
-};
-
-#define MICROSLIP_INLINE [[gnu::always_inline]] inline
-
-template <int W>
-MICROSLIP_INLINE const typename Lanes<W>::Vector& at(const double* row, std::size_t point) {
-  return *reinterpret_cast<const typename Lanes<W>::Vector*>(row + point);
-}
 
 template <int W>
 MICROSLIP_INLINE void project(std::size_t n_modes, std::size_t n_points, const double* phi,
@@ -28,7 +15,7 @@ MICROSLIP_INLINE void project(std::size_t n_modes, std::size_t n_points, const d
   for (std::size_t point = 0; point < n_points; point += W) {
     Vector sum[3] = {};
     for (std::size_t mode = 0; mode < n_modes; ++mode) {
-      const Vector& shape = at<W>(phi + mode * block_points, point);
+      const Vector& shape = lanes_at<W>(phi + mode * block_points + point);
       for (std::size_t r = 0; r < 3; ++r) {
         sum[r] += shape * q[r * n_modes + mode];
       }
@@ -55,9 +42,9 @@ MICROSLIP_INLINE void add_force(std::size_t n_modes, std::size_t n_points, const
   for (std::size_t mode = 0; mode < n_modes; ++mode) {
     Vector s[3] = {};
     for (std::size_t point = 0; point < n_points; point += W) {
-      const Vector& shape = at<W>(phi + mode * block_points, point);
+      const Vector& shape = lanes_at<W>(phi + mode * block_points + point);
       for (std::size_t r = 0; r < 3; ++r) {
-        s[r] += shape * at<W>(force + r * block_points, point);
+        s[r] += shape * lanes_at<W>(force + r * block_points + point);
       }
     }
     for (std::size_t r = 0; r < 3; ++r) {
@@ -73,10 +60,10 @@ MICROSLIP_INLINE void add_pair(std::size_t n_points, const double* phi, const do
   using Vector = typename Lanes<W>::Vector;
   Vector s[E] = {};
   for (std::size_t point = 0; point < n_points; point += W) {
-    const Vector product = at<W>(phi, point) * at<W>(psi, point);
+    const Vector product = lanes_at<W>(phi + point) * lanes_at<W>(psi + point);
 #pragma GCC unroll 16
     for (std::size_t e = 0; e < E; ++e) {
-      s[e] += product * at<W>(a + e * block_points, point);
+      s[e] += product * lanes_at<W>(a + e * block_points + point);
     }
   }
 #pragma GCC unroll 16
@@ -133,21 +120,17 @@ MICROSLIP_KERNELS(PlainKernels, 2, )
 #if defined(__x86_64__)
 MICROSLIP_KERNELS(Avx2Kernels, 4, [[gnu::target("avx2,fma")]])
 MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
+constexpr const BlockKernels* avx2 = &Avx2Kernels::all;
+constexpr const BlockKernels* avx512 = &Avx512Kernels::all;
+#else
+constexpr const BlockKernels* avx2 = nullptr;
+constexpr const BlockKernels* avx512 = nullptr;
 #endif
 
 }  // namespace
 
 std::vector<const BlockKernels*> runnable_block_kernels() {
-  std::vector<const BlockKernels*> runnable{&PlainKernels::all};
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    runnable.push_back(&Avx2Kernels::all);
-  }
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
-    runnable.push_back(&Avx512Kernels::all);
-  }
-#endif
-  return runnable;
+  return runnable_kernels(PlainKernels::all, avx2, avx512);
 }
 
 const BlockKernels& block_kernels() {

@@ -1,30 +1,12 @@
 #include "contact/projection_kernels.hpp"
 
+#include "contact/vector_lanes.hpp"
+
 namespace microslip::contact {
 namespace {
 
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument,
 // so sums are plain arrays.
-
-// W doubles side by side; aligned as the arrays are, to one double only.
-template <int W>
-struct Lanes {
-  using Vector
-      [[gnu::vector_size(W * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] =
-          double;
-};
-
-#define MICROSLIP_INLINE [[gnu::always_inline]] inline
-
-template <int W>
-MICROSLIP_INLINE const typename Lanes<W>::Vector& at(const double* from) {
-  return *reinterpret_cast<const typename Lanes<W>::Vector*>(from);
-}
-
-template <int W>
-MICROSLIP_INLINE typename Lanes<W>::Vector& at(double* to) {
-  return *reinterpret_cast<typename Lanes<W>::Vector*>(to);
-}
 
 // The last vector of a harmonic runs over into the next one, which is written after it.
 template <int W>
@@ -36,9 +18,9 @@ MICROSLIP_INLINE void spread(const ProjectionSizes& size, const double* phi, con
       double* row = y + k * size.block + s * size.stride;
       for (std::size_t l = 0; l < size.n_rows; ++l, a += S, row += size.n_modes) {
         for (std::size_t m = 0; m < size.n_modes; m += W) {
-          typename Lanes<W>::Vector sum = a[0] * at<W>(phi + m);
-          for (std::size_t t = 1; t < S; ++t) sum += a[t] * at<W>(phi + t * size.phi_stride + m);
-          at<W>(row + m) = sum;
+          typename Lanes<W>::Vector sum = a[0] * lanes_at<W>(phi + m);
+          for (std::size_t t = 1; t < S; ++t) sum += a[t] * lanes_at<W>(phi + t * size.phi_stride + m);
+          lanes_at<W>(row + m) = sum;
         }
       }
     }
@@ -53,8 +35,8 @@ MICROSLIP_INLINE void add_tile(const ProjectionSizes& size, std::size_t n, const
   Vector left[I] = {};
   Vector right[I] = {};
   for (std::size_t p = 0; p < n; ++p, phi += size.phi_stride, y += size.stride) {
-    const Vector first = at<W>(y);
-    const Vector second = at<W>(y + W);
+    const Vector first = lanes_at<W>(y);
+    const Vector second = lanes_at<W>(y + W);
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < I; ++i) {
       left[i] += phi[i] * first;
@@ -63,8 +45,8 @@ MICROSLIP_INLINE void add_tile(const ProjectionSizes& size, std::size_t n, const
   }
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < I; ++i) {
-    at<W>(sum + i * size.stride) += left[i];
-    at<W>(sum + i * size.stride + W) += right[i];
+    lanes_at<W>(sum + i * size.stride) += left[i];
+    lanes_at<W>(sum + i * size.stride + W) += right[i];
   }
 }
 
@@ -118,21 +100,17 @@ MICROSLIP_KERNELS(PlainKernels, 2, )
 #if defined(__x86_64__)
 MICROSLIP_KERNELS(Avx2Kernels, 4, [[gnu::target("avx2,fma")]])
 MICROSLIP_KERNELS(Avx512Kernels, 8, [[gnu::target("avx512f,fma")]])
+constexpr const ProjectionKernels* avx2 = &Avx2Kernels::all;
+constexpr const ProjectionKernels* avx512 = &Avx512Kernels::all;
+#else
+constexpr const ProjectionKernels* avx2 = nullptr;
+constexpr const ProjectionKernels* avx512 = nullptr;
 #endif
 
 }  // namespace
 
 std::vector<const ProjectionKernels*> runnable_projection_kernels() {
-  std::vector<const ProjectionKernels*> runnable{&PlainKernels::all};
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    runnable.push_back(&Avx2Kernels::all);
-  }
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
-    runnable.push_back(&Avx512Kernels::all);
-  }
-#endif
-  return runnable;
+  return runnable_kernels(PlainKernels::all, avx2, avx512);
 }
 
 const ProjectionKernels& projection_kernels() {

@@ -15,8 +15,8 @@
 
 namespace microslip::pipelines {
 
-/// Motion of the patch along r against that along p: largest rms over the patch in the free and stuck
-/// linear responses of the frequency range. 0 where nothing moves or nothing rubs.
+/// Motion of the patch along r against that along p: of the largest rms over the patch in the frequency range,
+/// in the free or in the stuck linear response, whichever has more. 0 where nothing moves or nothing rubs.
 [[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
 
 /// Decides what `auto` in [effects] leaves open.

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
 namespace microslip {
@@ -17,22 +18,10 @@ namespace {
 using solver::PointMark;
 using solver::ResponseCurve;
 using solver::ResponsePoint;
+using tests::frequency_range;
+using tests::marked;
 
 constexpr double certificate = 1e-10;  // energy balance and dissipation of every written point
-
-solver::ContinuationOptions range(double begin, double end) {
-  solver::ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
-
-std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
-  std::vector<ResponsePoint> list;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(list),
-               [&](const ResponsePoint& point) { return point.mark == mark; });
-  return list;
-}
 
 void expect_proven(const ResponseCurve& curve, const std::string& what) {
   ASSERT_TRUE(curve.complete) << what << ": " << curve.diagnosis << ", " << curve.message;
@@ -56,7 +45,7 @@ TEST(ResponseCurveHard, FindsTheNarrowPeakOfADampingRatioOfAMillionth) {
   tests::SinglePoint single = oscillator({2.0, 0.0, 0.5, 1e9});
   single.damping_ratio = 1e-6;
   const ResponseCurve curve =
-      solver::trace_response(tests::single_point_scene(single), range(0.5, 3.0));
+      solver::trace_response(tests::single_point_scene(single), frequency_range(0.5, 3.0));
   expect_proven(curve, "stuck");
   const auto peaks = marked(curve, PointMark::peak);
   ASSERT_EQ(peaks.size(), 1U);
@@ -70,7 +59,7 @@ TEST(ResponseCurveHard, FrictionAloneBoundsTheResonanceWithoutDamping) {
   tests::SinglePoint single = oscillator({5.0, 0.0, 0.5, 4.0});
   single.damping_ratio = 0.0;
   const ResponseCurve curve =
-      solver::trace_response(tests::single_point_scene(single), range(0.5, 2.2));
+      solver::trace_response(tests::single_point_scene(single), frequency_range(0.5, 2.2));
   expect_proven(curve, "friction alone");
   EXPECT_EQ(marked(curve, PointMark::peak).size(), 1U);
 }
@@ -113,8 +102,8 @@ TEST(ResponseCurveHard, AModeThatNothingMovesChangesNothing) {
 TEST(ResponseCurveHard, SweepsExactlyThroughNaturalFrequencies) {
   // Row 38: begin, end and one point exactly at the mode.
   const solver::Scene scene = tests::single_point_scene(oscillator({2.0, 0.0, 0.5, 1.0}));
-  expect_proven(solver::trace_response(scene, range(1.0, 2.0)), "from the mode");
-  expect_proven(solver::trace_response(scene, range(0.5, 1.0)), "to the mode");
+  expect_proven(solver::trace_response(scene, frequency_range(1.0, 2.0)), "from the mode");
+  expect_proven(solver::trace_response(scene, frequency_range(0.5, 1.0)), "to the mode");
   expect_proven(solver::solve_at_frequency(scene, 1.0, {}), "at the mode");
 }
 
@@ -146,7 +135,7 @@ TEST(ResponseCurveHard, AlmostStuckAndAlmostFreeTendToTheLimits) {
 TEST(ResponseCurveHard, LowPreloadSoftensAndJumps) {
   // Row 40: the load opens while the point moves; both folds are solved for, unstable between them.
   const auto curve = solver::trace_response(tests::three_dof_scene(30.0),
-                                            range(2.0 * M_PI * 18.0, 2.0 * M_PI * 28.0));
+                                            frequency_range(2.0 * M_PI * 18.0, 2.0 * M_PI * 28.0));
   expect_proven(curve, "30 N");
   const auto folds = marked(curve, PointMark::fold);
   ASSERT_EQ(folds.size(), 2U);
@@ -160,7 +149,8 @@ TEST(ResponseCurveHard, AGapHardensAndJumps) {
   // Row 40: impact on a spring behind a gap of 2; the free peak is at 1, the bonded one at √3.
   tests::SinglePoint single = oscillator({0.0, 2.0, 0.0, -4.0}, 1.0);
   single.force = 0.2;
-  const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.7, 1.6));
+  const auto curve =
+      solver::trace_response(tests::single_point_scene(single), frequency_range(0.7, 1.6));
   expect_proven(curve, "gap");
   const auto folds = marked(curve, PointMark::fold);
   const auto peaks = marked(curve, PointMark::peak);
@@ -177,7 +167,8 @@ TEST(ResponseCurveHard, BothOfTwoEqualPeaksAreReported) {
   scene.output = Eigen::Vector2d(1.0, 1.0);
   scene.excitation.rows().row(1) << 1.0, 4.0;
   scene.contact = nullptr;
-  const auto peaks = marked(solver::trace_response(scene, range(0.5, 3.0)), PointMark::peak);
+  const auto peaks =
+      marked(solver::trace_response(scene, frequency_range(0.5, 3.0)), PointMark::peak);
   ASSERT_EQ(peaks.size(), 2U);
   EXPECT_NEAR(peaks[0].frequency, 1.0, 0.02);
   EXPECT_NEAR(peaks[1].frequency, 2.0, 0.02);
@@ -189,7 +180,8 @@ TEST(ResponseCurveHard, NoForceIsNoMotion) {
     tests::SinglePoint single = oscillator({2.0, 2.0, 0.5, 1.0}, 0.5);
     single.force = 0.0;
     single.damping_ratio = damping;
-    const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.5, 2.0));
+    const auto curve =
+        solver::trace_response(tests::single_point_scene(single), frequency_range(0.5, 2.0));
     expect_proven(curve, "no force");
     for (const ResponsePoint& point : curve.points) {
       EXPECT_EQ(point.amplitude, 0.0);
@@ -202,7 +194,8 @@ TEST(ResponseCurveHard, AForceTimesABillionTendsToTheFreeResponse) {
   // Row 52. Friction is 1e-9 of the force then.
   tests::SinglePoint single = oscillator({2.0, 0.0, 0.5, 1.0});
   single.force = 1e9;
-  const auto curve = solver::trace_response(tests::single_point_scene(single), range(0.5, 2.0));
+  const auto curve =
+      solver::trace_response(tests::single_point_scene(single), frequency_range(0.5, 2.0));
   expect_proven(curve, "1e9 N");
   const auto peaks = marked(curve, PointMark::peak);
   ASSERT_EQ(peaks.size(), 1U);
@@ -214,7 +207,7 @@ TEST(ResponseCurveHard, AStuckPeakMayBeTheHigherOne) {
   // Row 47: y of the chain with the force on it; nothing assumes an order of the limits.
   solver::Scene scene = tests::chain_scene(30.0);
   scene.excitation.rows().row(1) << 0.2, 8.0;
-  const auto options = range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
+  const auto options = frequency_range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
   const auto highest = [&](const ResponseCurve& curve) {
     double value = 0.0;
     for (const ResponsePoint& point : marked(curve, PointMark::peak)) {
@@ -229,8 +222,8 @@ TEST(ResponseCurveHard, AStuckPeakMayBeTheHigherOne) {
 }
 
 TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
-  // Row 13. Three modes meet in one point that a contact of 1e4 … 1e7 times their stiffness holds: its
-  // motion is the small difference of theirs, known to their rounding only.
+  // Row 13. Three modes meet in one point that a contact of 1e4 … 1e7 times their stiffness holds:
+  // its motion is the small difference of theirs, known to their rounding only.
   const auto trace = [](double ratio) {
     solver::Scene scene;
     scene.natural_frequency = Eigen::Vector3d(1.0, 1.4, 1.7);
@@ -240,10 +233,10 @@ TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
     scene.excitation.rows().row(2) << 0.3, -0.4, 0.6;
     scene.output = Eigen::Vector3d(1.0, -0.5, 0.3);
     const contact::ContactPatch patch(Eigen::VectorXd::Ones(1), {{ratio, 0.6 * ratio, 0.5, 6.0}});
-    const contact::ModalShapes shapes{Eigen::RowVector3d(0.31, 0.40, -0.05),
-                                      Eigen::RowVector3d(-0.59, -1.16, 0.48), {}};
+    const contact::ModalShapes shapes{
+        Eigen::RowVector3d(0.31, 0.40, -0.05), Eigen::RowVector3d(-0.59, -1.16, 0.48), {}};
     scene.contact = std::make_unique<contact::PatchForce>(patch, shapes);
-    return solver::trace_response(scene, range(0.4, 3.0));
+    return solver::trace_response(scene, frequency_range(0.4, 3.0));
   };
   const ResponseCurve stiff = trace(1e4);
   ASSERT_TRUE(stiff.complete) << stiff.diagnosis;
@@ -251,7 +244,8 @@ TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
   for (const double ratio : {1e5, 1e6, 1e7}) {
     const ResponseCurve curve = trace(ratio);
     ASSERT_TRUE(curve.complete) << ratio << ": " << curve.diagnosis;
-    // Rows double where rounding shortens the steps; peaks and folds, the same in all, take few of the rest.
+    // Rows double where rounding shortens the steps; peaks and folds, the same in all, take few of
+    // the rest.
     EXPECT_LT(4 * curve.iterations, 9 * stiff.iterations) << ratio;
     EXPECT_LT(curve.contact_evaluations, 2 * stiff.contact_evaluations) << ratio;
     // What the contact gives way is of order 1e-4.

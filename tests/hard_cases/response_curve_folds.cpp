@@ -13,6 +13,7 @@
 
 #include "solver/peak.hpp"
 #include "tests/solver/duffing.hpp"
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
 namespace microslip {
@@ -21,20 +22,8 @@ namespace {
 using solver::PointMark;
 using solver::ResponseCurve;
 using solver::ResponsePoint;
-
-solver::ContinuationOptions range(double begin, double end) {
-  solver::ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
-
-std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
-  std::vector<ResponsePoint> list;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(list),
-               [&](const ResponsePoint& point) { return point.mark == mark; });
-  return list;
-}
+using tests::frequency_range;
+using tests::marked;
 
 /// The force at which the two folds of a Duffing oscillator meet. With a = 1 − ω², b = ¾α, c = 2ζω, S = A²
 /// folds are the roots of 3b²S² + 4abS + a² + c²; a double root needs a = −√3 c, S = 2c/(√3 b), and then
@@ -52,7 +41,7 @@ TEST(Folds, ThatMergeInACuspLeaveACompleteCurve) {
   const double cusp = cusp_force(duffing);
   for (const double beyond : {-1e-2, -1e-4, 0.0, 1e-4, 1e-2}) {
     duffing.force = cusp * (1.0 + beyond);
-    const ResponseCurve curve = solver::trace_response(duffing.scene(), range(0.8, 1.4));
+    const ResponseCurve curve = solver::trace_response(duffing.scene(), frequency_range(0.8, 1.4));
     ASSERT_TRUE(curve.complete) << beyond << ": " << curve.diagnosis;
     const auto folds = marked(curve, PointMark::fold);
     if (beyond != 0.0) {
@@ -74,8 +63,8 @@ TEST(Folds, CloserThanAStepAreBothFoundEitherWay) {
   for (const double beyond : {1e-5, 1e-6, 1e-7}) {
     duffing.force = cusp * (1.0 + beyond);
     for (const bool up : {true, false}) {
-      const ResponseCurve curve =
-          solver::trace_response(duffing.scene(), up ? range(0.8, 1.4) : range(1.4, 0.8));
+      const ResponseCurve curve = solver::trace_response(
+          duffing.scene(), up ? frequency_range(0.8, 1.4) : frequency_range(1.4, 0.8));
       ASSERT_TRUE(curve.complete);
       const auto folds = marked(curve, PointMark::fold);
       EXPECT_EQ(folds.size(), 2U) << beyond << (up ? " up" : " down");
@@ -91,13 +80,14 @@ TEST(Peaks, AtAnEndOfTheSweepAreFlagged) {
   tests::SinglePoint single;
   single.point = {2.0, 0.0, 0.5, 1e-3};
   const solver::Scene scene = tests::single_point_scene(single);
-  for (const auto& options : {range(0.5, 0.99), range(1.01, 2.0), range(0.99, 0.5)}) {
+  for (const auto& options :
+       {frequency_range(0.5, 0.99), frequency_range(1.01, 2.0), frequency_range(0.99, 0.5)}) {
     const ResponseCurve curve = solver::trace_response(scene, options);
     ASSERT_TRUE(curve.complete);
     EXPECT_TRUE(marked(curve, PointMark::peak).empty());
     EXPECT_NE(curve.message.find("peak at boundary"), std::string::npos) << curve.message;
   }
-  EXPECT_TRUE(solver::trace_response(scene, range(0.5, 2.0)).message.empty());
+  EXPECT_TRUE(solver::trace_response(scene, frequency_range(0.5, 2.0)).message.empty());
 }
 
 /// A linear resonance whose force is any function of the parameter.
@@ -124,7 +114,8 @@ TEST(Optimum, OfAFlatValleyIsAnInterval) {
     const double x = std::log(parameter / 10.0) / std::log(2.0);
     return 1.0 + 1e-3 * x * x + 0.3 * std::pow(std::max(0.0, std::abs(x) - 1.0), 2);
   };
-  const auto optimum = solver::minimise_peak(resonance(force), range(0.5, 2.0), one_to_hundred());
+  const auto optimum =
+      solver::minimise_peak(resonance(force), frequency_range(0.5, 2.0), one_to_hundred());
   ASSERT_TRUE(optimum.found) << optimum.message;
   double low = 0.0;
   double high = 0.0;
@@ -138,7 +129,7 @@ TEST(Optimum, OfAFlatValleyIsAnInterval) {
 TEST(Optimum, OfAPeakThatDoesNotDependOnTheParameterIsTheWholeBracket) {
   // Row 46.
   const auto optimum = solver::minimise_peak(resonance([](double /*parameter*/) { return 1.0; }),
-                                             range(0.5, 2.0), one_to_hundred());
+                                             frequency_range(0.5, 2.0), one_to_hundred());
   EXPECT_NE(optimum.message.find("as good to 1 % from 1 to 100"), std::string::npos)
       << optimum.message;
 }
@@ -148,7 +139,8 @@ TEST(Optimum, OfTwoValleysAlikeNamesBoth) {
   const auto force = [](double parameter) {
     return 2.0 + std::cos(2.0 * M_PI * std::log10(parameter));
   };
-  const auto optimum = solver::minimise_peak(resonance(force), range(0.5, 2.0), one_to_hundred());
+  const auto optimum =
+      solver::minimise_peak(resonance(force), frequency_range(0.5, 2.0), one_to_hundred());
   ASSERT_TRUE(optimum.found) << optimum.message;
   EXPECT_NEAR(std::remainder(std::log10(optimum.best.parameter) - 0.5, 1.0), 0.0, 1e-3);
   EXPECT_NE(optimum.message.find("another minimum"), std::string::npos) << optimum.message;
@@ -164,7 +156,7 @@ TEST(MeanMotion, ThatOpensTheContactTendsToTheStaticLimit) {
   single.force = 1e-3;
   solver::Scene scene = tests::single_point_scene(single);
   scene.excitation.rows()(0, 0) = -3.0;
-  const ResponseCurve curve = solver::trace_response(scene, range(0.5, 2.0));
+  const ResponseCurve curve = solver::trace_response(scene, frequency_range(0.5, 2.0));
   ASSERT_TRUE(curve.complete) << curve.diagnosis;
   for (const ResponsePoint& point : curve.points) {
     const double omega = point.frequency;
@@ -184,7 +176,7 @@ TEST(MeanMotion, ThatHalfOpensTheContactIsCoupledToTheVibration) {
   single.force = 0.1;
   solver::Scene scene = tests::single_point_scene(single);
   scene.excitation.rows()(0, 0) = -1.4;
-  const ResponseCurve curve = solver::trace_response(scene, range(0.3, 2.5));
+  const ResponseCurve curve = solver::trace_response(scene, frequency_range(0.3, 2.5));
   ASSERT_TRUE(curve.complete) << curve.diagnosis;
   const auto peaks = marked(curve, PointMark::peak);
   ASSERT_FALSE(peaks.empty());

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "duffing.hpp"
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -16,24 +17,12 @@ namespace microslip::solver {
 namespace {
 
 using tests::Duffing;
-
-ContinuationOptions from_to(double begin, double end) {
-  ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
-
-std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
-  std::vector<ResponsePoint> list;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(list),
-               [&](const ResponsePoint& point) { return point.mark == mark; });
-  return list;
-}
+using tests::frequency_range;
+using tests::marked;
 
 TEST(Continuation, EveryPointLiesOnTheClosedFormOfDuffing) {
   const Duffing duffing;
-  const auto curve = trace_response(duffing.scene(), from_to(0.5, 2.5));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
   ASSERT_TRUE(curve.complete) << curve.message;
   EXPECT_EQ(curve.points.front().frequency, 0.5);
   EXPECT_EQ(curve.points.back().frequency, 2.5);
@@ -44,7 +33,7 @@ TEST(Continuation, EveryPointLiesOnTheClosedFormOfDuffing) {
 
 TEST(Continuation, SolvesForFoldsWhereTheTangentIsVertical) {
   const Duffing duffing;
-  const auto curve = trace_response(duffing.scene(), from_to(0.5, 2.5));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
   const auto folds = marked(curve, PointMark::fold);
   ASSERT_EQ(folds.size(), 2U);
   for (const ResponsePoint& fold : folds) {
@@ -56,7 +45,8 @@ TEST(Continuation, SolvesForFoldsWhereTheTangentIsVertical) {
 
 TEST(Continuation, ThePeakIsWhereTheForceMeetsTheDampingAlone) {
   const Duffing duffing;
-  const auto peaks = marked(trace_response(duffing.scene(), from_to(0.5, 2.5)), PointMark::peak);
+  const auto peaks =
+      marked(trace_response(duffing.scene(), frequency_range(0.5, 2.5)), PointMark::peak);
   ASSERT_EQ(peaks.size(), 1U);
   const double A = peaks[0].amplitude;
   const double omega = peaks[0].frequency;
@@ -66,7 +56,7 @@ TEST(Continuation, ThePeakIsWhereTheForceMeetsTheDampingAlone) {
 }
 
 TEST(Continuation, BetweenFoldsAndNowhereElseThePointsAreUnstable) {
-  const auto curve = trace_response(Duffing{}.scene(), from_to(0.5, 2.5));
+  const auto curve = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5));
   int folds = 0;
   for (const ResponsePoint& point : curve.points) {
     if (point.mark == PointMark::fold) {
@@ -83,15 +73,15 @@ TEST(Continuation, FindsPeaksAMillionTimesNarrowerThanTheRange) {
   Duffing duffing;
   duffing.alpha = 0.0;
   duffing.zeta = 1e-6;
-  const auto curve = trace_response(duffing.scene(), from_to(0.5, 1.5));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 1.5));
   const auto peaks = marked(curve, PointMark::peak);
   ASSERT_EQ(peaks.size(), 1U);
   EXPECT_NEAR(peaks[0].amplitude, duffing.force / (2.0 * duffing.zeta), 1e-6 * peaks[0].amplitude);
 }
 
 TEST(Continuation, ReversedAndForwardSweepsMeetTheSameMarks) {
-  const auto up = trace_response(Duffing{}.scene(), from_to(0.5, 2.5));
-  const auto down = trace_response(Duffing{}.scene(), from_to(2.5, 0.5));
+  const auto up = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5));
+  const auto down = trace_response(Duffing{}.scene(), frequency_range(2.5, 0.5));
   const auto a = marked(up, PointMark::fold);
   auto b = marked(down, PointMark::fold);
   std::reverse(b.begin(), b.end());
@@ -104,7 +94,7 @@ TEST(Continuation, WithoutForceNothingMoves) {
   single.force = 0.0;
   single.point = {2.0, 1.0, 0.3, 1.0};
   single.phi_v = 0.5;
-  const auto curve = trace_response(tests::single_point_scene(single), from_to(0.5, 2.0));
+  const auto curve = trace_response(tests::single_point_scene(single), frequency_range(0.5, 2.0));
   ASSERT_TRUE(curve.complete);
   for (const ResponsePoint& point : curve.points) {
     EXPECT_EQ(point.amplitude, 0.0);
@@ -127,7 +117,7 @@ TEST(Continuation, ALargeForceTendsToTheFreeResponse) {
 TEST(Continuation, APeakAtTheEndOfTheRangeIsSaid) {
   Duffing duffing;
   duffing.alpha = 0.0;
-  const auto curve = trace_response(duffing.scene(), from_to(0.5, 0.95));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 0.95));
   EXPECT_TRUE(curve.complete);
   EXPECT_NE(curve.message.find("peak at boundary"), std::string::npos);
   EXPECT_TRUE(marked(curve, PointMark::peak).empty());
@@ -135,7 +125,7 @@ TEST(Continuation, APeakAtTheEndOfTheRangeIsSaid) {
 
 TEST(Continuation, StopsWhenTheObserverSaysSo) {
   int n = 0;
-  const auto curve = trace_response(Duffing{}.scene(), from_to(0.5, 2.5),
+  const auto curve = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5),
                                     [&](const ResponsePoint&) { return ++n < 5; });
   EXPECT_FALSE(curve.complete);
   EXPECT_EQ(curve.diagnosis, "interrupted");
@@ -144,7 +134,7 @@ TEST(Continuation, StopsWhenTheObserverSaysSo) {
 
 TEST(Continuation, AFrequencyInsideAFoldHasThreeSolutions) {
   const auto scene = Duffing{}.scene();
-  const auto options = from_to(0.5, 2.5);
+  const auto options = frequency_range(0.5, 2.5);
   const auto curve = trace_response(scene, options);
   const auto folds = marked(curve, PointMark::fold);
   ASSERT_EQ(folds.size(), 2U);
@@ -157,10 +147,10 @@ TEST(Continuation, AFrequencyInsideAFoldHasThreeSolutions) {
 }
 
 TEST(Continuation, AsksForTheResidualItIsTold) {
-  // The corrector polishes as long as that pays; what counts is when it calls a point solved. The range has
-  // steps long enough that a loose tolerance is met one iteration earlier.
+  // The corrector polishes as long as that pays; what counts is when it calls a point solved. The
+  // range has steps long enough that a loose tolerance is met one iteration earlier.
   const Duffing duffing;
-  ContinuationOptions loose = from_to(0.5, 2.5);
+  ContinuationOptions loose = frequency_range(0.5, 2.5);
   loose.residual_tolerance = 1e-4;
   ContinuationOptions strict = loose;
   strict.residual_tolerance = 1e-13;
@@ -178,17 +168,18 @@ TEST(Continuation, AsksForTheResidualItIsTold) {
 TEST(Continuation, RefusesAResidualToleranceThatIsNone) {
   const Duffing duffing;
   for (const double tolerance : {0.0, -1e-11, std::nan("")}) {
-    ContinuationOptions options = from_to(0.5, 2.5);
+    ContinuationOptions options = frequency_range(0.5, 2.5);
     options.residual_tolerance = tolerance;
     EXPECT_THROW((void)trace_response(duffing.scene(), options), std::invalid_argument);
   }
 }
 
 TEST(Continuation, RefusesFrequenciesThatAreNone) {
-  EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), from_to(0.0, 1.0))),
+  EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), frequency_range(0.0, 1.0))),
                std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), from_to(1.0, std::nan("")))),
-               std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(trace_response(Duffing{}.scene(), frequency_range(1.0, std::nan("")))),
+      std::invalid_argument);
 }
 
 /// Frequencies where ω(A) turns beyond the peak, ascending: a scan of dω²/dA of the closed form, then
@@ -222,7 +213,7 @@ std::vector<double> closed_form_folds(const Duffing& d, double highest) {
 
 TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
   const Duffing duffing;
-  const auto curve = trace_response(duffing.scene(), from_to(0.5, 2.5));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
   const auto expected = closed_form_folds(duffing, marked(curve, PointMark::peak).at(0).amplitude);
   const auto folds = marked(curve, PointMark::fold);
   ASSERT_EQ(expected.size(), 2U);
@@ -233,7 +224,7 @@ TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
 }
 
 TEST(Continuation, NamesACurveThatDoesNotEnd) {
-  ContinuationOptions options = from_to(0.5, 2.5);
+  ContinuationOptions options = frequency_range(0.5, 2.5);
   options.max_points = 20;
   const auto curve = trace_response(Duffing{}.scene(), options);
   EXPECT_FALSE(curve.complete);
@@ -243,7 +234,7 @@ TEST(Continuation, NamesACurveThatDoesNotEnd) {
 
 TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {
   const Duffing duffing;
-  const auto curve = trace_response(duffing.scene(), from_to(0.8, 0.8));
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.8, 0.8));
   ASSERT_TRUE(curve.complete);
   ASSERT_EQ(curve.points.size(), 1U);
   EXPECT_LT(std::abs(duffing.defect(curve.points[0].amplitude, 0.8)), 1e-12);
@@ -251,7 +242,7 @@ TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {
 
 TEST(TraceLinear, HasTheLimitsOfTheContact) {
   const Scene scene = tests::chain_scene(30.0);
-  const ContinuationOptions options = from_to(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
+  const ContinuationOptions options = frequency_range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
   const Eigen::MatrixXd stuck = scene.contact->stuck_stiffness();
   for (const LinearLimit limit : {LinearLimit::free, LinearLimit::stuck}) {
     const ResponseCurve curve = trace_linear(scene, limit, options);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/continuation.hpp"
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -15,13 +16,7 @@ namespace microslip::solver {
 namespace {
 
 using contact::LinearState;
-
-ContinuationOptions range(double begin, double end) {
-  ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
+using tests::frequency_range;
 
 LinearCertificate certificate_of(const Scene& scene, double low, double high) {
   return certify_linear(HarmonicBalance(scene, 1), low, high);
@@ -88,7 +83,7 @@ TEST(LinearCertificate, OfTheHarmonicsOfTheForceIsNone) {
 
 TEST(CertifiedCurve, IsTheNonlinearOneWithoutASingleContactEvaluation) {
   const Scene scene = tests::patch_scene({}, 1e6);
-  ContinuationOptions options = range(2.0 * M_PI * 250.0, 2.0 * M_PI * 800.0);
+  ContinuationOptions options = frequency_range(2.0 * M_PI * 250.0, 2.0 * M_PI * 800.0);
   const ResponseCurve proved = trace_response(scene, options);
   options.linear_certificate = false;
   const ResponseCurve solved = trace_response(scene, options);
@@ -119,7 +114,7 @@ TEST(CertifiedCurve, IsTheNonlinearOneWithoutASingleContactEvaluation) {
 
 TEST(CertifiedCurve, IsStoppedByItsObserver) {
   int seen = 0;
-  const ResponseCurve curve = trace_response(rubbing(1e6), range(0.5, 3.0),
+  const ResponseCurve curve = trace_response(rubbing(1e6), frequency_range(0.5, 3.0),
                                              [&](const ResponsePoint&) { return ++seen < 5; });
   EXPECT_EQ(curve.diagnosis, "interrupted");
   EXPECT_EQ(seen, 5);

@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
 namespace {
+
+using tests::frequency_range;
 
 ContinuationOptions range() {
   ContinuationOptions options;
@@ -43,13 +46,6 @@ double largest_amplitude(double preload, const ContinuationOptions& options) {
   return largest;
 }
 
-ContinuationOptions range(double begin, double end) {
-  ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
-
 OptimumOptions preloads(double lower, double upper) {
   OptimumOptions options;
   options.lower = lower;
@@ -72,9 +68,11 @@ void expect_least_of_curves(const ContinuationOptions& options) {
               1e-9 * optimum.best.amplitude);
   constexpr int n_curves = 60;
   for (int i = 0; i < n_curves; ++i) {
-    const double preload = search.lower * std::pow(search.upper / search.lower, i / (n_curves - 1.0));
+    const double preload =
+        search.lower * std::pow(search.upper / search.lower, i / (n_curves - 1.0));
     // The search ends within 1e-4 of the preload of a minimum: a kink of slope one there.
-    EXPECT_LT(optimum.best.amplitude, (1.0 + 1e-4) * largest_amplitude(preload, options)) << preload;
+    EXPECT_LT(optimum.best.amplitude, (1.0 + 1e-4) * largest_amplitude(preload, options))
+        << preload;
   }
   for (const PeakOfParameter& peak : optimum.trace) {
     EXPECT_NEAR(peak.amplitude, largest_amplitude(peak.parameter, options), 1e-7 * peak.amplitude)
@@ -84,8 +82,10 @@ void expect_least_of_curves(const ContinuationOptions& options) {
 
 TEST(MinimisePeak, CountsTheEndsOfTheRangeWherePeaksLeaveIt) {
   // The peak moves from 1 (free) to √3 (stuck).
-  for (const auto& options : {range(1.1, 2.2), range(0.7, 1.25), range(1.3, 2.2), range(1.15, 1.2),
-                              range(1.2, 1.15), range(0.7, 0.95), range(0.9, 1.5)}) {
+  for (const auto& options :
+       {frequency_range(1.1, 2.2), frequency_range(0.7, 1.25), frequency_range(1.3, 2.2),
+        frequency_range(1.15, 1.2), frequency_range(1.2, 1.15), frequency_range(0.7, 0.95),
+        frequency_range(0.9, 1.5)}) {
     expect_least_of_curves(options);
   }
 }
@@ -96,8 +96,9 @@ TEST(MinimisePeak, DoesNotMindThatPeaksLeaveTheRangeBesideTheOptimum) {
   // The optimum stays in these ranges; on both sides of it peaks leave one of them.
   for (const double share : {0.995, 1.005}) {
     const double end = share * whole.best.frequency;
-    const Optimum part = minimise_peak(
-        rubbing, share < 1.0 ? range(end, 2.2) : range(0.7, end), preloads(0.1, 100.0));
+    const Optimum part =
+        minimise_peak(rubbing, share < 1.0 ? frequency_range(end, 2.2) : frequency_range(0.7, end),
+                      preloads(0.1, 100.0));
     ASSERT_FALSE(part.trace.empty());
     EXPECT_LE(part.best.amplitude, (1.0 + 1e-9) * whole.best.amplitude);
     for (const PeakOfParameter& peak : part.trace) {
@@ -108,7 +109,7 @@ TEST(MinimisePeak, DoesNotMindThatPeaksLeaveTheRangeBesideTheOptimum) {
 
 TEST(MinimisePeak, OfOneFrequencyIsTheLeastAmplitudeThere) {
   for (const double frequency : {0.9, 1.2, 1.35, 2.0}) {
-    const ContinuationOptions options = range(frequency, frequency);
+    const ContinuationOptions options = frequency_range(frequency, frequency);
     expect_least_of_curves(options);
     const Optimum optimum = minimise_peak(rubbing, options, preloads(0.1, 100.0));
     EXPECT_EQ(optimum.best.frequency, frequency);
@@ -120,7 +121,7 @@ TEST(MinimisePeak, TellsWhetherAPeakOrAnEndOfTheRangeCounts) {
   const Optimum inside = minimise_peak(rubbing, range(), preloads(0.1, 100.0));
   EXPECT_EQ(inside.best.place, PeakPlace::peak);
   EXPECT_EQ(inside.message.find("end of the frequency range"), std::string::npos);
-  const Optimum below = minimise_peak(rubbing, range(0.7, 0.95), preloads(0.1, 100.0));
+  const Optimum below = minimise_peak(rubbing, frequency_range(0.7, 0.95), preloads(0.1, 100.0));
   EXPECT_EQ(below.best.place, PeakPlace::range_end);
   EXPECT_NE(below.message.find("end of the frequency range"), std::string::npos) << below.message;
 }
@@ -133,8 +134,9 @@ TEST(MinimisePeak, NamesTheIntervalOfAFlatMinimum) {
   EXPECT_NEAR((*stuck.flat)[0], 1e3, 1e-9 * 1e3);
   EXPECT_NEAR((*stuck.flat)[1], 1e4, 1e-9 * 1e4);
   EXPECT_NE(stuck.message.find("the same from 1000 to 10000"), std::string::npos) << stuck.message;
-  // Away from the resonances the stuck response is the smaller one: flat from where the point sticks.
-  const Optimum partly = minimise_peak(rubbing, range(0.9, 0.95), preloads(0.1, 1e4));
+  // Away from the resonances the stuck response is the smaller one: flat from where the point
+  // sticks.
+  const Optimum partly = minimise_peak(rubbing, frequency_range(0.9, 0.95), preloads(0.1, 1e4));
   EXPECT_FALSE(partly.found);
   ASSERT_TRUE(partly.flat.has_value());
   EXPECT_GT((*partly.flat)[0], 0.1);

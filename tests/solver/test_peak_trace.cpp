@@ -8,21 +8,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
 namespace {
 
-ContinuationOptions range(double begin, double end) {
-  ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
+using tests::frequency_range;
 
 ContinuationOptions chain_range() {
-  return range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 28.0);
+  return frequency_range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 28.0);
 }
 
 PeakTraceOptions between(double lower, double upper, int n_values) {
@@ -90,7 +86,7 @@ Scene two_modes(double force) {
 }
 
 TEST(PeakTrace, SeesASecondPeakOvertake) {
-  const PeakTrace trace = trace_peaks(two_modes, range(0.5, 3.0), between(1.0, 16.0, 20));
+  const PeakTrace trace = trace_peaks(two_modes, frequency_range(0.5, 3.0), between(1.0, 16.0, 20));
   ASSERT_EQ(trace.peaks.size(), 20U);
   for (const PeakOfParameter& peak : trace.peaks) {
     EXPECT_NEAR(peak.frequency, peak.parameter < 4.0 ? 1.0 : 2.0, 0.02) << peak.parameter;
@@ -108,20 +104,22 @@ TEST(PeakTrace, TakesAnyParameterOnALinearScale) {
   };
   PeakTraceOptions options = between(-4.0, 4.0, 17);
   options.scale = ParameterScale::linear;
-  const PeakTrace trace = trace_peaks(family, range(0.5, 2.5), options);
+  const PeakTrace trace = trace_peaks(family, frequency_range(0.5, 2.5), options);
   ASSERT_EQ(trace.peaks.size(), 17U);
   for (const PeakOfParameter& peak : trace.peaks) {
-    EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), range(0.5, 2.5)),
+    EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), frequency_range(0.5, 2.5)),
                 1e-10 * peak.amplitude)
         << peak.parameter;
   }
 }
 
 TEST(PeakTrace, RefusesBoundsThatAreNone) {
-  EXPECT_THROW(static_cast<void>(trace_peaks(two_modes, range(0.5, 3.0), between(2.0, 1.0, 5))),
-               std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(trace_peaks(two_modes, range(0.5, 3.0), between(-1.0, 1.0, 5))),
-               std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(trace_peaks(two_modes, frequency_range(0.5, 3.0), between(2.0, 1.0, 5))),
+      std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(trace_peaks(two_modes, frequency_range(0.5, 3.0), between(-1.0, 1.0, 5))),
+      std::invalid_argument);
 }
 
 TEST(PeakTrace, OfRandomScenesIsThatOfWholeCurves) {

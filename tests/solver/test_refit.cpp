@@ -12,6 +12,7 @@
 #include "contact/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/local_peak.hpp"
+#include "tests/support/curves.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -21,6 +22,7 @@ using contact::ModalForce;
 using contact::ModalShapes;
 using contact::PatchCells;
 using contact::PointParameters;
+using tests::marked;
 
 ModalShapes shapes_at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
   ModalShapes shapes{Eigen::MatrixXd(p.size(), 2), Eigen::MatrixXd(p.size(), 2), {}};
@@ -90,13 +92,6 @@ const Traced& traced(double preload) {
     found = known.emplace(preload, Traced{std::move(scene), std::move(curve)}).first;
   }
   return found->second;
-}
-
-std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
-  std::vector<ResponsePoint> points;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(points),
-               [mark](const ResponsePoint& point) { return point.mark == mark; });
-  return points;
 }
 
 // A gap that opens and closes, a curve with two folds, and microslip.

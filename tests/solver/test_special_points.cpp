@@ -16,27 +16,17 @@
 #include "solver/continuation.hpp"
 #include "solver/start_point.hpp"
 #include "tests/solver/duffing.hpp"
+#include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
 namespace {
 
+using tests::frequency_range;
+using tests::marked;
+
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-ContinuationOptions from_to(double begin, double end) {
-  ContinuationOptions options;
-  options.frequency_begin = begin;
-  options.frequency_end = end;
-  return options;
-}
-
-std::vector<ResponsePoint> marked(const ResponseCurve& curve, PointMark mark) {
-  std::vector<ResponsePoint> list;
-  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(list),
-               [&](const ResponsePoint& point) { return point.mark == mark; });
-  return list;
-}
 
 /// One harmonic of an elastic Coulomb slider (k, q = μ n₀) under a sin θ: force h in quadrature, stiffness κ.
 struct Slider {
@@ -72,7 +62,8 @@ void expect_peak_of_slider(const tests::SinglePoint& single, const ResponsePoint
 }
 
 TEST(SpecialPoints, FindsThePeakWhereTheContactIsAllButStuck) {
-  // The branch about the peak is an arc of nearly constant amplitude; inside of it the point sticks.
+  // The branch about the peak is an arc of nearly constant amplitude; inside of it the point
+  // sticks.
   for (const double damping : {0.0, 1e-7, 3e-7, 1e-6, 1e-5, 2e-5, 1e-4}) {
     for (const double preload : {10.0, 100.0, 1000.0, 2000.0, 1e4, 1e6}) {
       SCOPED_TRACE(testing::Message() << "damping " << damping << ", preload " << preload);
@@ -81,9 +72,9 @@ TEST(SpecialPoints, FindsThePeakWhereTheContactIsAllButStuck) {
       single.damping_ratio = damping;
       single.phi_u = 0.8;
       single.point = {5000.0, 0.0, 0.4, preload};
-      const auto curve = trace_response(
-          tests::single_point_scene(single),
-          from_to(0.75 * single.frequency, 1.5 * single.frequency));
+      const auto curve =
+          trace_response(tests::single_point_scene(single),
+                         frequency_range(0.75 * single.frequency, 1.5 * single.frequency));
       ASSERT_TRUE(curve.complete) << curve.diagnosis;
       const auto peaks = marked(curve, PointMark::peak);
       ASSERT_EQ(peaks.size(), 1U);
@@ -101,8 +92,8 @@ TEST(SpecialPoints, FindsThePeakWhereTheContactIsAllButStuck) {
 /// stops slipping throughout, once more within a thousandth of a hertz.
 Scene scene_with_four_folds() {
   Scene scene;
-  scene.natural_frequency =
-      two_pi * Eigen::Vector4d(14.427918663063945, 19.964768968754143, 32.96685223719734, 42.659584380046);
+  scene.natural_frequency = two_pi * Eigen::Vector4d(14.427918663063945, 19.964768968754143,
+                                                     32.96685223719734, 42.659584380046);
   scene.damping_ratio = Eigen::Vector4d(0.030304939987600765, 0.018938784606269375,
                                         0.01800702571869467, 0.001194422982319989);
   scene.output = Eigen::Vector4d(1.609814514035434, 0.35630476783825205, 1.624806827941641,
@@ -113,16 +104,18 @@ Scene scene_with_four_folds() {
       -3.177487879527643, -1.3930419247717214, 1.1253574486841067, -1.427944629586833,
       -2.5823964746614063;
   const Eigen::Vector3d weights(0.8867147419682282, 0.7800225279121171, 0.5356527804985658);
-  const std::vector<contact::PointParameters> points{{404.0206591349239, 7315.357556580307, 0.6002341495325673, 5.167836346144506},
-                                                 {666.0443997254428, 297.0287347479413, 0.6056719792876922, 9.784980595811106},
-                                                 {4241.790832765303, 30845.456279577065, 0.7917217398518259, 10.816067827333192}};
+  const std::vector<contact::PointParameters> points{
+      {404.0206591349239, 7315.357556580307, 0.6002341495325673, 5.167836346144506},
+      {666.0443997254428, 297.0287347479413, 0.6056719792876922, 9.784980595811106},
+      {4241.790832765303, 30845.456279577065, 0.7917217398518259, 10.816067827333192}};
   contact::ModalShapes shapes{Eigen::MatrixXd(3, 4), Eigen::MatrixXd(3, 4), {}};
   shapes.u << -0.7009360866758073, 0.47211462069079746, 1.214557665204409, 2.1555312784012925,
       0.8918114927656495, 1.5938426657452487, -0.4502915670052033, -0.8742169837210243,
       -1.7197732539160488, -1.1537025867459945, -0.36343371651604817, 0.1929947220841547;
-  shapes.v << -0.13131005761225453, 0.08160858639308112, -0.010304893956575984, -0.06422010751301721,
-      -0.07652887415836973, 0.2020688272883008, 0.01692283492877222, -0.08979265392629115,
-      -0.09539822990406178, 0.18378244304667402, -0.05783508965433001, 0.11887040918656822;
+  shapes.v << -0.13131005761225453, 0.08160858639308112, -0.010304893956575984,
+      -0.06422010751301721, -0.07652887415836973, 0.2020688272883008, 0.01692283492877222,
+      -0.08979265392629115, -0.09539822990406178, 0.18378244304667402, -0.05783508965433001,
+      0.11887040918656822;
   scene.contact = std::make_unique<contact::PatchForce>(contact::ContactPatch(weights, points),
                                                         std::move(shapes));
   return scene;
@@ -131,13 +124,15 @@ Scene scene_with_four_folds() {
 TEST(SpecialPoints, FoldsCloseTogetherAreFoundByLongStepsToo) {
   const Scene scene = scene_with_four_folds();
   const auto folds = [&](double begin, double end) {
-    const ResponseCurve curve = trace_response(scene, from_to(two_pi * begin, two_pi * end));
+    const ResponseCurve curve =
+        trace_response(scene, frequency_range(two_pi * begin, two_pi * end));
     EXPECT_TRUE(curve.complete) << curve.diagnosis;
     return marked(curve, PointMark::fold);
   };
   const auto near = folds(16.2, 16.4);  // short steps: a step is at most a tenth of the range
   ASSERT_EQ(near.size(), 4U);
-  for (const auto& [begin, end] : {std::pair{7.2, 68.3}, std::pair{68.3, 7.2}, std::pair{16.4, 16.2}}) {
+  for (const auto& [begin, end] :
+       {std::pair{7.2, 68.3}, std::pair{68.3, 7.2}, std::pair{16.4, 16.2}}) {
     SCOPED_TRACE(testing::Message() << begin << " to " << end << " Hz");
     auto far = folds(begin, end);
     if (begin > end) std::reverse(far.begin(), far.end());
