@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "contact/vector_lanes.hpp"
+
 namespace microslip::contact {
 namespace {
 
@@ -221,13 +223,11 @@ struct Sampling {
 // W nodes side by side: their sums stay in registers from the highest harmonic to the first.
 //   sum ← (sum + s_h + i c_h) e^{iθ}:   p = p₀ + Im Σ C_h z^h,   p' = Re Σ h C_h z^h
 template <int W>
-[[gnu::always_inline]] inline void sample_nodes(const Sampling& p) {
-  using Vector
-      [[gnu::vector_size(W * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] =
-          double;
+MICROSLIP_INLINE void sample_nodes(const Sampling& p) {
+  using Vector = typename Lanes<W>::Vector;
   for (std::size_t i = 0; i < p.n; i += W) {
-    const Vector sin = *reinterpret_cast<const Vector*>(p.sin_node + i);
-    const Vector cos = *reinterpret_cast<const Vector*>(p.cos_node + i);
+    const Vector sin = lanes_at<W>(p.sin_node + i);
+    const Vector cos = lanes_at<W>(p.cos_node + i);
     Vector re{};
     Vector im{};
     Vector re_slope{};
@@ -242,26 +242,32 @@ template <int W>
       re_slope = dx * cos - dy * sin;
       im_slope = dx * sin + dy * cos;
     }
-    *reinterpret_cast<Vector*>(p.value + i) = im + p.mean;
-    *reinterpret_cast<Vector*>(p.slope + i) = re_slope;
+    lanes_at<W>(p.value + i) = im + p.mean;
+    lanes_at<W>(p.slope + i) = re_slope;
   }
 }
 
+struct Sampler {
+  void (*sample)(const Sampling&);
+};
+
 void sample_plain(const Sampling& p) { sample_nodes<2>(p); }
+constexpr Sampler plain{sample_plain};
 #if defined(__x86_64__)
 [[gnu::target("avx2,fma")]] void sample_avx2(const Sampling& p) { sample_nodes<4>(p); }
 [[gnu::target("avx512f,fma")]] void sample_avx512(const Sampling& p) { sample_nodes<8>(p); }
+constexpr Sampler avx2_sampler{sample_avx2};
+constexpr Sampler avx512_sampler{sample_avx512};
+constexpr const Sampler* avx2 = &avx2_sampler;
+constexpr const Sampler* avx512 = &avx512_sampler;
+#else
+constexpr const Sampler* avx2 = nullptr;
+constexpr const Sampler* avx512 = nullptr;
 #endif
 
-using Sampler = void (*)(const Sampling&);
-
-// The widest that the machine runs.
-Sampler widest_sampler() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") != 0) return sample_avx512;
-  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) return sample_avx2;
-#endif
-  return sample_plain;
+const Sampler& fastest_sampler() {
+  static const Sampler& fastest = *runnable_kernels(plain, avx2, avx512).back();
+  return fastest;
 }
 
 // Values and slopes on the grid by Horner's rule, all nodes side by side; the first node stands
@@ -269,13 +275,12 @@ Sampler widest_sampler() {
 class Samples {
  public:
   void take(const TrigonometricPolynomial& p, int order) {
-    static const Sampler sample = widest_sampler();
     const Grid& g = grid(order);
     n_ = g.sin.size();
     value_.resize(n_ + 1);
     slope_.resize(n_ + 1);
-    sample({n_, g.sin.data(), g.cos.data(), order, p.mean(), p.sines(), p.cosines(), value_.data(),
-            slope_.data()});
+    fastest_sampler().sample({n_, g.sin.data(), g.cos.data(), order, p.mean(), p.sines(),
+                              p.cosines(), value_.data(), slope_.data()});
     value_[n_] = value_[0];
     slope_[n_] = slope_[0];
   }
