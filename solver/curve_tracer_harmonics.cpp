@@ -78,7 +78,7 @@ bool CurveTracer::enlarge(BranchWalker& walker, const NewtonResult& at) {
     return false;
   }
   const HarmonicDecision decision =
-      choice_->enlarged(*balance_, at.point, now.tangent, now.scaling);
+      choice_->enlarged(*balance_, at.point, now.tangent, now.scaling, screening_->skips());
   ++curve_.contact_evaluations;
   left_out_ = decision.missing;
   screening_->remember(*balance_, at, decision);

@@ -165,16 +165,17 @@ std::vector<int> HarmonicChoice::heard(const HarmonicSet& set, const Harmonics& 
 double HarmonicChoice::allowed() const { return added_down_to * tolerance_; }
 
 HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const BranchVector& point,
-                                          const BranchVector& tangent,
-                                          const Scaling& scaling) const {
-  HarmonicDecision decision{balance.set(), {}, 0.0, 0.0, {}, {}};
+                                          const BranchVector& tangent, const Scaling& scaling,
+                                          const HarmonicSkips& skips) const {
+  HarmonicDecision decision{balance.set(), {}, skips.error, skips.error, {}, {}};
   const double amplitude = amplitude_of(balance, point.x);
   const int probe = probed(balance.set(), point.parameter);
   if (!scene_.contact || amplitude == 0.0) return decision;
   decision.force =
       scene_.contact->force_up_to(balance.harmonics(point.x), point.parameter, probe);
-  const HarmonicBalance wide(
-      scene_, balance.set().united(heard(balance.set(), decision.force, scaling.residual)));
+  std::vector<int> orders = heard(balance.set(), decision.force, scaling.residual);
+  std::erase_if(orders, [&](int k) { return std::ranges::count(skips.orders, k) > 0; });
+  const HarmonicBalance wide(scene_, balance.set().united(orders));
   if (wide.set() == balance.set()) return decision;
   const auto widened = [&](const Eigen::VectorXd& x) { return wide.unknowns(balance.harmonics(x)); };
   const BalanceEvaluation at = wide.evaluate(widened(point.x), point.parameter);
@@ -182,7 +183,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
   decision.shares = shares_left_out(balance, wide, at, factors, amplitude, scaling);
   Eigen::VectorXd wave = Eigen::VectorXd::Zero(2 * wide.set().highest() + 1);
   for (const HarmonicShare& share : decision.shares) wave += share.wave;
-  decision.missing = decision.left_out = largest_value(wave);
+  decision.missing = decision.left_out = skips.error + largest_value(wave);
   std::stable_sort(decision.shares.begin(), decision.shares.end(),
                    [](const HarmonicShare& a, const HarmonicShare& b) { return a.error > b.error; });
   for (const HarmonicShare& share : decision.shares) {
@@ -190,7 +191,7 @@ HarmonicDecision HarmonicChoice::enlarged(const HarmonicBalance& balance, const 
     if (share.order > highest_) continue;
     decision.added.push_back(share.order);
     wave -= share.wave;
-    decision.left_out = largest_value(wave);
+    decision.left_out = skips.error + largest_value(wave);
   }
   decision.set = decision.set.united(decision.added);
   return decision;

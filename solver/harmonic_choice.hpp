@@ -40,6 +40,12 @@ struct HarmonicDecision {
   Harmonics force;                    ///< of the contact, up to the highest probed
 };
 
+/// Harmonics known to do next to nothing, which a probe need not look at.
+struct HarmonicSkips {
+  std::vector<int> orders;
+  double error = 0.0;  ///< bound on what they do together
+};
+
 class HarmonicChoice {
  public:
   /// @param scene      borrowed.
@@ -60,9 +66,10 @@ class HarmonicChoice {
   [[nodiscard]] const HarmonicSet& least() const { return least_; }
   /// The set of a balance with what its solution misses.
   /// @param tangent  of the branch in variables of `scaling`; (0, 1): at a fixed frequency.
+  /// @param skips    left out of the probe, their error is added to what is missing.
   [[nodiscard]] HarmonicDecision enlarged(const HarmonicBalance& balance, const BranchVector& point,
-                                          const BranchVector& tangent,
-                                          const Scaling& scaling) const;
+                                          const BranchVector& tangent, const Scaling& scaling,
+                                          const HarmonicSkips& skips = {}) const;
   /// The set without what its solution does not need; `left_out` is what goes.
   /// @param missing  of the set now, as enlarged() tells.
   [[nodiscard]] HarmonicDecision reduced(const HarmonicBalance& balance, const NewtonResult& solution,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
@@ -18,6 +19,11 @@ constexpr int most_uses = 8;
 // By which the estimate may grow wrong from point to point. On chains of one contact point, where a step
 // changes most, it is too small by more than this at one point in ten, on patches at none.
 constexpr double margin = 1.5;
+
+// Of the error that needs no more harmonics: what harmonics not looked at may do, each taken three times what
+// the estimate says.
+constexpr double skipped_share = 0.04;
+constexpr double skipped_margin = 3.0;
 
 /// Contact stiffness on the first harmonic, averaged over its phase [1/s²].
 Eigen::MatrixXd mean_stiffness(const HarmonicBalance& balance, const NewtonResult& at) {
@@ -57,13 +63,35 @@ std::vector<double> direct_responses(const HarmonicBalance& balance, const Newto
 
 void HarmonicScreening::remember(const HarmonicBalance& balance, const NewtonResult& at,
                                  const HarmonicDecision& probe) {
-  Memory memory{balance.set(), probe.shares, {}, probe.missing, probe.force.n_harmonics(), 0};
-  memory.direct = direct_responses(balance, at, probe.force, probe.shares);
+  Memory memory{balance.set(), probe.shares, {}, probe.missing, probe.force.n_harmonics(), 0, 0};
+  if (!skipped_.empty()) memory.n_partial = memory_->n_partial + 1;
+  std::ranges::copy(skipped_, std::back_inserter(memory.shares));
+  memory.direct = direct_responses(balance, at, probe.force, memory.shares);
   memory_ = std::move(memory);
+}
+
+void HarmonicScreening::choose_skips(const std::vector<double>& ratios) {
+  if (memory_->n_partial >= most_uses) return;
+  std::vector<HarmonicShare> shares = memory_->shares;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i].error *= ratios[i];
+    shares[i].wave *= ratios[i];
+    if (!std::isfinite(shares[i].error)) return;
+  }
+  std::ranges::stable_sort(shares, {}, &HarmonicShare::error);
+  for (HarmonicShare& share : shares) {
+    const double error = skips_.error + skipped_margin * share.error;
+    if (error > skipped_share * choice_.allowed()) break;
+    skips_.error = error;
+    skips_.orders.push_back(share.order);
+    skipped_.push_back(std::move(share));
+  }
 }
 
 std::optional<double> HarmonicScreening::missing(const HarmonicBalance& balance,
                                                  const NewtonResult& at, double scale) {
+  skips_ = {};
+  skipped_.clear();
   if (!memory_ || memory_->set != balance.set() || memory_->uses >= most_uses) return std::nullopt;
   if (choice_.probed(balance.set(), at.point.parameter) > memory_->highest) return std::nullopt;
   ++memory_->uses;
@@ -77,17 +105,19 @@ std::optional<double> HarmonicScreening::missing(const HarmonicBalance& balance,
   }
   if (memory_->shares.empty()) return 0.0;
   const std::vector<double> direct = direct_responses(balance, at, force, memory_->shares);
+  std::vector<double> ratios;
   double sum = 0.0;
   double changed = memory_->missing;
   for (std::size_t i = 0; i < direct.size(); ++i) {
-    const double ratio = direct[i] / memory_->direct[i];
-    sum += memory_->shares[i].error * ratio;
-    changed += memory_->shares[i].error * std::abs(ratio - 1.0);
+    ratios.push_back(direct[i] / memory_->direct[i]);
+    sum += memory_->shares[i].error * ratios.back();
+    changed += memory_->shares[i].error * std::abs(ratios.back() - 1.0);
   }
   const double missing = std::min(sum, changed);
   // What is not a number asks for a probe as well.
-  if (!(std::pow(margin, memory_->uses) * missing <= choice_.allowed())) return std::nullopt;
-  return missing;
+  if (std::pow(margin, memory_->uses) * missing <= choice_.allowed()) return missing;
+  choose_skips(ratios);
+  return std::nullopt;
 }
 
 }  // namespace microslip::solver

@@ -10,7 +10,7 @@
 ///   e ≈ min( Σ_k r_k e_k,   max_θ |Σ_k e_k(θ)| + Σ_k |r_k − 1| e_k )
 ///
 /// Costs the force alone at the motion's own events. Trusted where it leaves a margin that grows with every
-/// point since the probe.
+/// point since the probe. Where it does not, it tells which harmonics the next probe need not look at.
 #pragma once
 
 #include <optional>
@@ -27,13 +27,15 @@ class HarmonicScreening {
   HarmonicScreening(const Scene& scene, const HarmonicChoice& choice)
       : scene_(scene), choice_(choice) {}
 
-  /// Starts from a probe that found nothing to add.
+  /// Starts from a probe with the harmonics of skips() left out.
   void remember(const HarmonicBalance& balance, const NewtonResult& at,
                 const HarmonicDecision& probe);
   /// Error by harmonics left out, relative to the amplitude; empty: ask for a probe.
   /// @param scale  of forces [N/√kg].
   [[nodiscard]] std::optional<double> missing(const HarmonicBalance& balance,
                                               const NewtonResult& at, double scale);
+  /// What the probe that missing() asked for need not look at.
+  [[nodiscard]] const HarmonicSkips& skips() const { return skips_; }
 
  private:
   struct Memory {
@@ -43,11 +45,17 @@ class HarmonicScreening {
     double missing = 0.0;
     int highest = 0;  // probed
     int uses = 0;
+    int n_partial = 0;  // probes since the last that looked at everything
   };
+
+  /// @param ratios  r_k of the shares.
+  void choose_skips(const std::vector<double>& ratios);
 
   const Scene& scene_;
   const HarmonicChoice& choice_;
   std::optional<Memory> memory_;
+  HarmonicSkips skips_;
+  std::vector<HarmonicShare> skipped_;  // of them, as they are now
 };
 
 }  // namespace microslip::solver
