@@ -93,7 +93,7 @@ void BandTraction::add_memory(SliderBand& band, const BandPiece& piece) {
     virgin_ += held;
     return;
   }
-  const BandInstant now = piece.stood ? band.at_turn(piece.memory) : band.at(piece.memory);
+  const BandInstant now = piece.stood ? band.at_turn(piece.memory.phase()) : band.at(piece.memory);
   const Eigen::VectorXd basis = band.basis().head(virgin_.size());
   basis_rate(basis, basis_rate_);
   double from_velocity = 0.0;

@@ -13,7 +13,7 @@
 ///   touch-down     ∂s = ∂u + u' ∂θ_e,                    ∂θ_e = −∂v/v'
 ///   virgin         ∂s = −∂u₀ (u is counted without its mean)
 ///
-/// Gauss–Legendre panels of twelve points, halved until the highest terms are resolved.
+/// Panels of band_quadrature.hpp, halved until the highest terms are resolved.
 ///
 /// Source: theory sections 5, 6, 7, 10, 11.
 #pragma once

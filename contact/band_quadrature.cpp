@@ -17,12 +17,6 @@ BandPanel make_panel() {
       panel.top(k, i) = counted * (k + n_band_nodes - 3.5) * panel.weight[i] *
                         std::legendre(static_cast<unsigned>(k + n_band_nodes - 4), x);
     }
-    panel.at_begin[i] = panel.at_end[i] = 0.0;
-    for (int k = 0; k < n_band_nodes; ++k) {
-      const double share = (k + 0.5) * panel.weight[i] * std::legendre(static_cast<unsigned>(k), x);
-      panel.at_end[i] += share;
-      panel.at_begin[i] += k % 2 == 0 ? share : -share;
-    }
   }
   return panel;
 }

@@ -1,7 +1,7 @@
 /// @file
 /// Integrals over the pieces of a cycle in its band (band_walk.hpp): Gauss–Legendre panels of twelve points,
-/// halved until the highest terms of the forces are resolved, and where the coefficient has a layer next to
-/// u' = 0 until the points see it.
+/// halved until what they leave out is rounding. Layers of a coefficient that depends on the rate have pieces
+/// of their own, so that no panel steps over one.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,6 @@ struct BandPanel {
   /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less. One degree
   /// alone would miss functions that are even or odd about the middle.
   Eigen::Matrix<double, 4, n_band_nodes> top;
-  BandPoints at_begin, at_end;  ///< values → the polynomial through them at −1 and 1
 };
 
 [[nodiscard]] const BandPanel& band_panel();
@@ -38,7 +37,6 @@ struct BandPanelNodes {
   std::array<BandInstant, n_band_nodes> instant;
   BandPoints friction;
   BandPoints load;
-  BandPoints coefficient;  // μ
   Eigen::Matrix<double, Eigen::Dynamic, n_band_nodes> basis;
 };
 
@@ -53,12 +51,13 @@ class PieceVisitor {
   void visit(int highest) {
     // A wave of k oscillations per 2π over a panel of length h errs by 1e-31 (kh/2)²⁴.
     const double longest = 4.4 / (band_.n_harmonics() + highest);
-    const double length = piece_.end - piece_.begin;
+    const double begin = piece_.stretch.begin;
+    const double length = piece_.stretch.end - begin;
+    if (!(length > 0.0)) return;
     const int n = static_cast<int>(std::ceil(length / longest));
-    constexpr int deepest = 30;  // of a layer that depends on the rate: to 1e-9 of a panel
+    constexpr int deepest = 30;
     for (int i = 0; i < n; ++i) {
-      cover(piece_.begin + length * i / n, piece_.begin + length * (i + 1) / n, deepest,
-            {i == 0 && piece_.begins_at_turn, i + 1 == n && piece_.ends_at_turn});
+      cover(begin + length * i / n, begin + length * (i + 1) / n, deepest);
     }
   }
 
@@ -68,26 +67,23 @@ class PieceVisitor {
     return nodes;
   }
 
-  /// Whether u' = 0 at the ends of a panel.
-  struct Turns {
-    bool begin;
-    bool end;
-  };
-
   /// Nodes of one panel if forces are resolved there, else those of its halves.
   /// @param before  highest terms of the panel twice as long.
-  void cover(double begin, double end, int depth, Turns turns, double before = INFINITY) {
+  void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
     evaluate(begin, half);
-    const double top = highest_terms();
-    // The rule is exact to degree 23: what is left out is about the square of the term of
-    // degree 11. Half the length divides that by 2¹¹, unless it is the rounding of a steep
-    // coefficient.
-    constexpr double small = 1e-10;
-    const bool resolved = top <= small || (top > 0.25 * before && top <= 1e-6);
-    if (depth > 0 && !(resolved && sees_layers(turns))) {
-      cover(begin, begin + half, depth - 1, {turns.begin, false}, top);
-      cover(begin + half, end, depth - 1, {false, turns.end}, top);
+    const Tail tail = highest_terms();
+    // Half the length divides the highest term by 2¹¹, unless it is the rounding of a steep law, of
+    // which the integral has the length.
+    const double length = end - begin;
+    const bool rounded = tail.top > 0.25 * before && tail.top * length <= 1e-16;
+    const bool resolved = tail.left_out * std::min(length, 1.0) <= 1e-16 || rounded;
+    if (depth > 0 && !resolved) {
+      constexpr double far = 1e-6;  // that a halving, by 2⁻²², would not be enough
+      const int n = tail.left_out > far ? 4 : 2;
+      for (int i = 0; i < n; ++i) {
+        cover(begin + length * i / n, begin + length * (i + 1) / n, depth - n / 2, tail.top);
+      }
       return;
     }
     for (int i = 0; i < n_band_nodes; ++i) {
@@ -100,39 +96,35 @@ class PieceVisitor {
     nodes_.basis.resize(band_.basis_size(), n_band_nodes);
     for (int i = 0; i < n_band_nodes; ++i) {
       BandInstant& now = nodes_.instant[static_cast<std::size_t>(i)];
-      now = band_.at(begin + half * (1.0 + band_panel().node[i]));
+      now = band_.at(BandPlace{piece_.stretch.anchor, begin + half * (1.0 + band_panel().node[i])});
       nodes_.basis.col(i) = band_.basis();
       nodes_.friction[i] = band_friction(band_, piece_, now);
       nodes_.load[i] = now.surface.load;
-      nodes_.coefficient[i] = now.surface.friction_coefficient;
     }
   }
 
-  /// Whether the coefficient between the nodes and u' = 0 is the one that the nodes foretell: else it has a
-  /// layer there that is too thin for them.
-  [[nodiscard]] bool sees_layers(Turns turns) const {
-    if (piece_.state == ContactState::stick) return true;
-    const double at_rest = band_.law().friction().at_rest();
-    constexpr double foretold = 1e-7;  // a layer of that height adds less by its width
-    const double allowed = foretold * std::max(at_rest, nodes_.coefficient.maxCoeff());
-    const auto misses = [&](const BandPoints& row) {
-      return std::abs(row.dot(nodes_.coefficient) - at_rest) > allowed;
-    };
-    return !(turns.begin && misses(band_panel().at_begin)) &&
-           !(turns.end && misses(band_panel().at_end));
+  /// Relative to the sizes of the forces.
+  struct Tail {
+    double top = 0.0;
+    /// The rule is exact to degree 23. Terms fall off geometrically: as the one of degree 11 is to the
+    /// largest value, so is what is left out to that, and less.
+    double left_out = 0.0;
+  };
+
+  /// None where forces are waves.
+  [[nodiscard]] Tail highest_terms() const {
+    Tail tail;
+    if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return tail;
+    add_tail(nodes_.friction, band_.friction_size(), tail);
+    add_tail(nodes_.load, band_.load_size(), tail);
+    return tail;
   }
 
-  /// Relative to the sizes of the forces; 0 where these are waves.
-  [[nodiscard]] double highest_terms() const {
-    if (band_.law().is_smooth() && !band_.law().is_rate_dependent()) return 0.0;
-    const double friction = top_term(nodes_.friction);
-    const double load = top_term(nodes_.load);
-    return std::max(friction > 0.0 ? friction / band_.friction_size() : 0.0,
-                    load > 0.0 ? load / band_.load_size() : 0.0);
-  }
-
-  static double top_term(const BandPoints& values) {
-    return (band_panel().top * values).cwiseAbs().maxCoeff();
+  static void add_tail(const BandPoints& values, double size, Tail& tail) {
+    const double top = (band_panel().top * values).cwiseAbs().maxCoeff();
+    if (!(top > 0.0)) return;
+    tail.top = std::max(tail.top, top / size);
+    tail.left_out = std::max(tail.left_out, (top / size) * (top / values.cwiseAbs().maxCoeff()));
   }
 
   SliderBand& band_;

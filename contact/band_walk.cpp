@@ -13,23 +13,24 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 struct Slider {
   double position = 0.0;
   SliderOrigin origin = SliderOrigin::virgin;
-  double memory = 0.0;
+  BandPlace memory;
   bool stood = false;
 };
 
 Slider left_by(SliderOrigin origin, const BandNode& node) {
   const double at = origin == SliderOrigin::negative_slip ? node.upper : node.lower;
-  return {at, origin, node.phase, node.turns};
+  return {at, origin, node.place, node.turns};
 }
 
-/// Where the lower (sign 1) or upper (−1) end of the band reaches a position; there is one crossing between
-/// low, where it has not, and high. Newton's method within a bracket: the force errs by the square of what
-/// the phase does.
-double crossing(SliderBand& band, double sign, double position, double low, double high) {
-  constexpr double close = 1e-9;  // the next step would be its square
+/// Offset at which the lower (sign 1) or upper (−1) end of the band reaches a position; there is one crossing
+/// in the stretch. Newton's method within a bracket: the force errs by the square of what the phase does.
+double crossing(SliderBand& band, double sign, double position, const BandStretch& stretch) {
+  double low = stretch.begin;
+  double high = stretch.end;
+  const double close = 1e-9 * (high - low);  // the next step would be its square
   double x = 0.5 * (low + high);
   for (int i = 0; i < 100 && high - low > close * 1e-5; ++i) {
-    const BandInstant now = band.at(x);
+    const BandInstant now = band.at(BandPlace{stretch.anchor, x});
     const double beyond = now.reach - sign * (now.position - position);  // > 0: not reached
     const double slope = now.reach_rate - sign * now.velocity;
     (beyond > 0.0 ? low : high) = x;
@@ -47,48 +48,48 @@ class Walk {
   Walk(SliderBand& band, BandCycle& cycle) : band_(band), cycle_(cycle) {}
 
   void cross(const BandNode& from, const BandNode& to, Slider& slider) {
-    const std::size_t first = cycle_.pieces.size();
-    move(from, to, slider);
-    if (from.turns && first < cycle_.pieces.size()) cycle_.pieces[first].begins_at_turn = true;
-    if (to.turns) cycle_.pieces.back().ends_at_turn = true;
+    const BandStretch stretch = stretch_between(from, to);
+    if (!band_.has_spring()) {
+      stick(stretch, from.edge, slider);
+    } else if (slider.position < to.lower) {
+      slip(1.0, slider.position > from.lower, from.edge, stretch, slider);
+      slider = left_by(SliderOrigin::positive_slip, to);
+    } else if (slider.position > to.upper) {
+      slip(-1.0, slider.position < from.upper, from.edge, stretch, slider);
+      slider = left_by(SliderOrigin::negative_slip, to);
+    } else {
+      stick(stretch, from.edge, slider);
+    }
   }
 
  private:
-  void move(const BandNode& from, const BandNode& to, Slider& slider) {
-    if (!band_.has_spring()) {
-      stick(from.phase, to.phase, from.edge, slider);
-    } else if (slider.position < to.lower) {
-      slip(1.0, slider.position > from.lower, from, to, slider);
-      slider = left_by(SliderOrigin::positive_slip, to);
-    } else if (slider.position > to.upper) {
-      slip(-1.0, slider.position < from.upper, from, to, slider);
-      slider = left_by(SliderOrigin::negative_slip, to);
-    } else {
-      stick(from.phase, to.phase, from.edge, slider);
-    }
-  }
-
-  void slip(double sign, bool sticks_first, const BandNode& from, const BandNode& to,
+  void slip(double sign, bool sticks_first, bool at_edge, BandStretch stretch,
             const Slider& slider) {
-    double begin = from.phase;
     if (sticks_first) {
-      begin = crossing(band_, sign, slider.position, from.phase, to.phase);
-      stick(from.phase, begin, from.edge, slider);
+      BandStretch first = stretch;
+      first.end = stretch.begin = crossing(band_, sign, slider.position, stretch);
+      stick(first, at_edge, slider);
     }
-    const ContactState state =
-        sign > 0.0 ? ContactState::positive_slip : ContactState::negative_slip;
-    add({.state = state, .begin = begin, .end = to.phase}, from.edge && !sticks_first);
+    BandPiece piece = piece_over(stretch);
+    piece.state = sign > 0.0 ? ContactState::positive_slip : ContactState::negative_slip;
+    add(piece, at_edge && !sticks_first);
   }
 
-  void stick(double begin, double end, bool at_edge, const Slider& slider) {
-    add({.state = ContactState::stick,
-         .begin = begin,
-         .end = end,
-         .slider = slider.position,
-         .origin = slider.origin,
-         .memory = slider.memory,
-         .stood = slider.stood},
-        at_edge);
+  void stick(const BandStretch& stretch, bool at_edge, const Slider& slider) {
+    BandPiece piece = piece_over(stretch);
+    piece.slider = slider.position;
+    piece.origin = slider.origin;
+    piece.memory = slider.memory;
+    piece.stood = slider.stood;
+    add(piece, at_edge);
+  }
+
+  static BandPiece piece_over(const BandStretch& stretch) {
+    BandPiece piece;
+    piece.begin = stretch.anchor.phase + stretch.begin;
+    piece.end = stretch.anchor.phase + stretch.end;
+    piece.stretch = stretch;
+    return piece;
   }
 
   /// Joined to the piece before where that goes on smoothly.
@@ -96,8 +97,10 @@ class Walk {
     if (!at_edge && !cycle_.pieces.empty()) {
       BandPiece& last = cycle_.pieces.back();
       const bool same = last.state == piece.state && last.slider == piece.slider;
-      if (same && last.end == piece.begin) {
+      const bool layered = piece.stretch.anchor.layered && piece.state != ContactState::stick;
+      if (same && !layered && last.end == piece.begin) {
         last.end = piece.end;
+        last.stretch = {{}, last.begin, last.end};
         return;
       }
     }
@@ -108,6 +111,14 @@ class Walk {
   BandCycle& cycle_;
 };
 
+BandPiece separation(double begin, double end) {
+  BandPiece piece;
+  piece.state = ContactState::separated;
+  piece.begin = begin;
+  piece.end = end;
+  return piece;
+}
+
 /// Nodes of one period from the one with the largest w_P.
 std::vector<BandNode> from_highest(const std::vector<BandNode>& nodes) {
   const auto last = nodes.end() - 1;
@@ -117,6 +128,8 @@ std::vector<BandNode> from_highest(const std::vector<BandNode>& nodes) {
   for (auto node = nodes.begin(); node <= highest; ++node) {
     turned.push_back(*node);
     turned.back().phase += two_pi;
+    BandPlace& place = turned.back().place;
+    (place.anchor.layered ? place.anchor.phase : place.offset) += two_pi;
   }
   return turned;
 }
@@ -125,7 +138,7 @@ std::vector<BandNode> from_highest(const std::vector<BandNode>& nodes) {
 Slider pushed(double virgin, const BandNode& highest, const BandNode& lowest) {
   if (virgin < highest.lower) return left_by(SliderOrigin::positive_slip, highest);
   if (virgin > lowest.upper) return left_by(SliderOrigin::negative_slip, lowest);
-  return {virgin, SliderOrigin::virgin, 0.0, false};
+  return {virgin, SliderOrigin::virgin, {}, false};
 }
 
 void walk_period(SliderBand& band, const std::vector<BandNode>& run, BandCycle& cycle) {
@@ -148,7 +161,7 @@ void walk_band(SliderBand& band, BandCycle& cycle) {
   cycle.regime = CycleRegime::separated;
   const std::vector<ContactRun>& runs = band.find_runs();
   if (runs.empty()) {
-    cycle.pieces.push_back({.state = ContactState::separated, .begin = 0.0, .end = two_pi});
+    cycle.pieces.push_back(separation(0.0, two_pi));
     return;
   }
   if (!runs.front().touches_down) {
@@ -164,8 +177,7 @@ void walk_band(SliderBand& band, BandCycle& cycle) {
     const bool last = i + 1 == runs.size();
     const double next =
         last ? runs.front().nodes.front().phase + two_pi : runs[i + 1].nodes.front().phase;
-    cycle.pieces.push_back(
-        {.state = ContactState::separated, .begin = nodes.back().phase, .end = next});
+    cycle.pieces.push_back(separation(nodes.back().phase, next));
   }
 }
 

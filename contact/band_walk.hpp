@@ -22,17 +22,16 @@ namespace microslip::contact {
 /// What left the slider where a stick piece finds it.
 enum class SliderOrigin : std::uint8_t { none, virgin, positive_slip, negative_slip, touch_down };
 
-/// The law is smooth inside.
+/// The law is smooth inside, and in slip so is the coefficient: one layer of it is several pieces.
 struct BandPiece {
   ContactState state = ContactState::stick;
   double begin = 0.0;  ///< [rad], in [0, 4π)
   double end = 0.0;
+  BandStretch stretch;                       ///< the same counted from an anchor
   double slider = 0.0;                       ///< stick: s, with u counted without its mean [m]
   SliderOrigin origin = SliderOrigin::none;  ///< stick
-  double memory = 0.0;                       ///< stick: phase at which the slider was left [rad]
+  BandPlace memory;                          ///< stick: where the slider was left
   bool stood = false;                        ///< and whether this was the kink of |u'|
-  bool begins_at_turn = false;               ///< next to that kink
-  bool ends_at_turn = false;
 
   /// Of the friction in slip.
   [[nodiscard]] double slip_sign() const {

@@ -55,4 +55,18 @@ FrictionCoefficient FrictionLaw::at(double rate) const {
   return {at_rest_, 0.0};
 }
 
+void FrictionLaw::grades(double fastest, std::vector<double>& speeds) const {
+  speeds.clear();
+  if (!is_rate_dependent()) return;
+  constexpr double flat = 40.0;  // e⁻⁴⁰ is rounding
+  constexpr double small = 1e6;
+  double grade = 1.0;
+  while (grade / decay_ < fastest && std::isfinite(grade)) {
+    if (kind_ == Kind::exponential && grade > flat) grade = flat;
+    speeds.push_back(grade / decay_);
+    if (kind_ == Kind::exponential && grade >= flat) return;
+    grade *= grade < small ? 4.0 : 64.0;
+  }
+}
+
 }  // namespace microslip::contact

@@ -11,6 +11,8 @@
 /// Source: paper B, after eq 5; theory section 10.
 #pragma once
 
+#include <vector>
+
 namespace microslip::contact {
 
 /// μ at one speed, with its derivative.
@@ -33,6 +35,11 @@ class FrictionLaw {
 
   /// @param rate  σ ≥ 0 [m/s]. Exact at 0: μ₀; no overflow turns into NaN.
   [[nodiscard]] FrictionCoefficient at(double rate) const;
+  /// Speeds between which polynomials of degree 11 are μ to 2e-7, in ascending order and
+  /// below `fastest`; none where it hardly changes up to there. Beyond the last μ is constant (1)
+  /// or below 1e-6 μ₀ and falls by 64 from one to the next (2).
+  /// @param fastest  [m/s]; may be infinite.   @param speeds  written whole [m/s].
+  void grades(double fastest, std::vector<double>& speeds) const;
   /// μ₀ [-].
   [[nodiscard]] double at_rest() const { return at_rest_; }
   /// False where (1) or (2) is constant.

@@ -20,18 +20,23 @@ double rate_bound(const Eigen::VectorXd& y) {
   return sum;
 }
 
-/// Adds the values that lie inside (begin, end), counted on around the period.
-void add_between(const std::vector<double>& phases, double begin, double end, bool turns,
-                 std::vector<BandNode>& nodes) {
-  for (double turn : {0.0, two_pi}) {
-    for (const double phase : phases) {
-      const double at = phase + turn;
-      if (at > begin && at < end) nodes.push_back({at, 0.0, 0.0, true, turns});
-    }
-  }
+void by_phase(std::vector<BandNode>& nodes) {
+  std::sort(nodes.begin(), nodes.end(), [](const BandNode& a, const BandNode& b) {
+    return a.phase < b.phase || (a.phase == b.phase && a.place.offset < b.place.offset);
+  });
 }
 
 }  // namespace
+
+BandStretch stretch_between(const BandNode& from, const BandNode& to) {
+  const bool by_first = std::abs(from.place.offset) <= std::abs(to.place.offset);
+  const BandAnchor& anchor = by_first ? from.place.anchor : to.place.anchor;
+  const auto offset = [&anchor](const BandNode& node) {
+    const bool same = node.place.anchor.phase == anchor.phase;
+    return same ? node.place.offset : node.phase - anchor.phase;
+  };
+  return {anchor, offset(from), offset(to)};
+}
 
 void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double frequency,
                      int n_basis) {
@@ -65,40 +70,58 @@ void SliderBand::set(const SurfaceLaw& law, const Harmonics& motion, double freq
   }
 }
 
-BandInstant SliderBand::at_speed(double phase, bool moves) {
+void SliderBand::set_motion(double phase, BandInstant& now) {
   trigonometric_basis(n_basis_, phase, basis_);
   const auto basis = basis_.head(u_.size());
-  BandInstant now;
   now.phase = phase;
   now.position = u_.dot(basis);
   now.velocity = u_rate_.dot(basis);
+  now.approach = v_.dot(basis);
   now.approach_rate = v_rate_.dot(basis);
-  const double speed = moves ? std::abs(now.velocity) : 0.0;
-  now.surface = law_->at(v_.dot(basis), frequency_ * speed);
-  if (!has_spring()) return now;
+  if (law_->is_rate_dependent()) now.acceleration = u_second_.dot(basis);
+}
+
+void SliderBand::set_band(double speed, BandInstant& now) {
+  now.surface = law_->at(now.approach, frequency_ * speed);
+  if (!has_spring()) return;
   const SurfaceState& y = now.surface;
   const double mu = y.friction_coefficient / law_->first_stiffness();
   now.reach = mu * y.load_per_ratio;
   now.reach_by_approach = mu * y.load_per_ratio_by_approach;
   now.reach_rate = now.reach_by_approach * now.approach_rate;
-  if (!law_->is_rate_dependent()) return now;
+  if (!law_->is_rate_dependent()) return;
   now.reach_by_rate = y.friction_coefficient_by_rate * y.load_per_ratio / law_->first_stiffness();
-  const double heading = moves ? std::copysign(1.0, now.velocity) : 0.0;
-  now.acceleration = u_second_.dot(basis);
-  now.reach_rate += now.reach_by_rate * frequency_ * heading * now.acceleration;
+}
+
+BandInstant SliderBand::at(const BandPlace& place) {
+  BandInstant now;
+  set_motion(place.phase(), now);
+  if (layers_.is_near(place)) now.velocity = layers_.velocity(place);
+  set_band(std::abs(now.velocity), now);
+  if (law_->is_rate_dependent()) {
+    now.reach_rate +=
+        now.reach_by_rate * frequency_ * std::copysign(1.0, now.velocity) * now.acceleration;
+  }
+  return now;
+}
+
+BandInstant SliderBand::at_turn(double phase) {
+  BandInstant now;
+  set_motion(phase, now);
+  set_band(0.0, now);
   return now;
 }
 
 BandNode SliderBand::edge_at(double phase, bool touches) {
-  const BandInstant now = at(phase);
+  const BandPlace place = layers_.place(phase);
+  const BandInstant now = at(place);
   // The load at a touch-down is rounding.
-  if (touches) return {phase, now.position, now.position, true, false};
-  return {phase, now.lower(), now.upper(), true, false};
+  if (touches) return {phase, now.position, now.position, true, false, place};
+  return {phase, now.lower(), now.upper(), true, false, place};
 }
 
 void SliderBand::find_edges() {
   edges_.clear();
-  stands_.clear();
   contact_.clear();
   const auto set = [this](const Eigen::VectorXd& y) {
     polynomial_.reset(n_harmonics());
@@ -115,10 +138,7 @@ void SliderBand::find_edges() {
       if (i > 0) edges_.push_back(change.phase);
     }
   }
-  if (!law_->is_rate_dependent()) return;
-  set(u_rate_);
-  find_sign_changes(polynomial_, changes_);
-  for (const SignChange& change : changes_) stands_.push_back(change.phase);
+  layers_.set(u_, law_->friction(), frequency_);
 }
 
 const std::vector<ContactRun>& SliderBand::find_runs() {
@@ -140,19 +160,37 @@ const std::vector<ContactRun>& SliderBand::find_runs() {
   return runs_;
 }
 
+/// All nodes inside (begin, end) that are known beforehand, counted on around the period.
+std::vector<BandNode> SliderBand::inner_edges(double begin, double end) {
+  std::vector<BandNode> nodes;
+  const auto add = [&](double phase, const BandPlace& place, bool edge, bool turns) {
+    for (const double turn : {-two_pi, 0.0, two_pi}) {
+      const double at = phase + turn;
+      if (!(at > begin && at < end)) continue;
+      BandNode node{at, 0.0, 0.0, edge, turns, place};
+      if (place.anchor.layered) node.place.anchor.phase += turn;
+      nodes.push_back(node);
+    }
+  };
+  for (const double phase : edges_) add(phase, layers_.place(phase), true, false);
+  for (const double phase : layers_.stands()) add(phase, layers_.place(phase), true, true);
+  for (const BandPlace& place : layers_.stops()) add(place.phase(), place, false, false);
+  for (BandNode& node : nodes) {
+    if (!node.place.anchor.layered) node.place.offset = node.phase;
+    const BandInstant now = node.turns ? at_turn(node.phase) : at(node.place);
+    node.lower = now.lower();
+    node.upper = now.upper();
+  }
+  by_phase(nodes);
+  return nodes;
+}
+
 void SliderBand::add_run(double begin, double end, bool touches_down) {
   ContactRun run;
   run.touches_down = touches_down;
   std::vector<BandNode> edges{edge_at(begin, touches_down)};
-  add_between(edges_, begin, end, false, edges);
-  add_between(stands_, begin, end, true, edges);
-  std::sort(edges.begin() + 1, edges.end(),
-            [](const BandNode& a, const BandNode& b) { return a.phase < b.phase; });
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    const BandInstant now = at_speed(edges[i].phase, !edges[i].turns);
-    edges[i].lower = now.lower();
-    edges[i].upper = now.upper();
-  }
+  const std::vector<BandNode> inner = inner_edges(begin, end);
+  edges.insert(edges.end(), inner.begin(), inner.end());
   edges.push_back(edge_at(end, touches_down));
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     run.nodes.push_back(edges[i]);
@@ -160,36 +198,28 @@ void SliderBand::add_run(double begin, double end, bool touches_down) {
   }
   run.nodes.push_back(edges.back());
   if (!touches_down) {
-    run.nodes.back() = run.nodes.front();
-    run.nodes.back().phase = end;
+    run.nodes.back().lower = run.nodes.front().lower;
+    run.nodes.back().upper = run.nodes.front().upper;
   }
   runs_.push_back(std::move(run));
 }
 
 void SliderBand::add_turns(const BandNode& from, const BandNode& to, std::vector<BandNode>& nodes) {
-  const auto rates = [this](double phase) -> std::array<double, 2> {
-    const BandInstant now = at(phase);
+  const BandStretch stretch = stretch_between(from, to);
+  const auto rates = [&](double offset) -> std::array<double, 2> {
+    const BandInstant now = at(BandPlace{stretch.anchor, offset});
     return {now.velocity - now.reach_rate, now.velocity + now.reach_rate};
   };
-  // Next to u' = 0 the speed is as much as u'' moves away from there.
-  const auto limit = [this](const BandNode& node, double side) {
-    const BandInstant now = at_turn(node.phase);
-    const double rate =
-        now.reach_rate + side * now.reach_by_rate * frequency_ * std::abs(now.acceleration);
-    return std::array<double, 2>{now.velocity - rate, now.velocity + rate};
-  };
-  SmoothEnds ends;
-  if (from.turns) ends.begin = limit(from, 1.0);
-  if (to.turns) ends.end = limit(to, -1.0);
   signs_.clear();
   // A wave of order H is resolved to 1e-11 on this length by the polynomials of the search.
   const double cell = 2.1 / n_harmonics();
-  add_smooth_signs(rates, from.phase, to.phase, ends, cell, size_, signs_);
+  add_smooth_signs(rates, stretch.begin, stretch.end, cell, size_, signs_);
   std::sort(signs_.begin(), signs_.end(),
             [](const SmoothSign& a, const SmoothSign& b) { return a.phase < b.phase; });
   for (const SmoothSign& sign : signs_) {
-    const BandInstant now = at(sign.phase);
-    nodes.push_back({sign.phase, now.lower(), now.upper(), false, false});
+    const BandPlace place{stretch.anchor, sign.phase};
+    const BandInstant now = at(place);
+    nodes.push_back({place.phase(), now.lower(), now.upper(), false, false, place});
   }
 }
 

@@ -6,15 +6,18 @@
 ///
 /// s moves only where a rising w_P or a falling w_N takes it along. (1) is smooth between edges: touch-down
 /// and lift-off, kinks of a rough law, and with a coefficient that depends on the rate where u' = 0; edges
-/// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Between edges w_P' and
-/// w_N' are polynomials in Chebyshev form to 1e-10, whose sign changes are isolated, not looked for
-/// (smooth_signs.hpp). What remains are stretches on which both ends of the band are monotone.
+/// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Where the coefficient
+/// changes within thin layers their stops are nodes as well, and phases are counted from the place where the
+/// layer is (band_layers.hpp). Between nodes w_P' and w_N' are polynomials in Chebyshev form to 1e-10, or far
+/// from zero, whose sign changes are isolated, not looked for (smooth_signs.hpp). What remains are stretches
+/// on which both ends of the band are monotone.
 #pragma once
 
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "contact/band_layers.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/sign_changes.hpp"
 #include "contact/smooth_signs.hpp"
@@ -28,6 +31,7 @@ struct BandInstant {
   double position = 0.0;       ///< u without its mean [m]
   double velocity = 0.0;       ///< u' [m]
   double acceleration = 0.0;   ///< u'' [m]; only where friction depends on the rate
+  double approach = 0.0;       ///< v [m]
   double approach_rate = 0.0;  ///< v' [m]
   SurfaceState surface;
   double reach = 0.0;              ///< r [m]
@@ -46,7 +50,16 @@ struct BandNode {
   double upper = 0.0;  ///< w_N [m]
   bool edge = false;   ///< (1) has a kink
   bool turns = false;  ///< the kink of |u'|: u' = 0
+  BandPlace place;     ///< the phase once more
 };
+
+/// From one node to the next, counted from one anchor.
+struct BandStretch {
+  BandAnchor anchor;
+  double begin = 0.0;  ///< offset [rad]
+  double end = 0.0;
+};
+[[nodiscard]] BandStretch stretch_between(const BandNode& from, const BandNode& to);
 
 /// Contact from one node to the last.
 struct ContactRun {
@@ -63,9 +76,10 @@ class SliderBand {
   void set(const SurfaceLaw& law, const Harmonics& motion, double frequency, int n_basis);
 
   /// @param phase  any [rad].
-  [[nodiscard]] BandInstant at(double phase) { return at_speed(phase, true); }
+  [[nodiscard]] BandInstant at(double phase) { return at(BandPlace{{}, phase}); }
+  [[nodiscard]] BandInstant at(const BandPlace& place);
   /// The same where |u'| has its kink: u' = 0 to the last bit for the law.
-  [[nodiscard]] BandInstant at_turn(double phase) { return at_speed(phase, false); }
+  [[nodiscard]] BandInstant at_turn(double phase);
   /// 1, sin θ, cos θ, … of the last instant.
   [[nodiscard]] const Eigen::VectorXd& basis() const { return basis_; }
   [[nodiscard]] Eigen::Index basis_size() const { return 2 * n_basis_ + 1; }
@@ -84,8 +98,11 @@ class SliderBand {
   [[nodiscard]] bool has_spring() const { return law_->first_stiffness() > 0.0; }
 
  private:
-  BandInstant at_speed(double phase, bool moves);
+  /// Where the motion of a phase is known.
+  void set_motion(double phase, BandInstant& now);
+  void set_band(double speed, BandInstant& now);
   [[nodiscard]] BandNode edge_at(double phase, bool touches);
+  [[nodiscard]] std::vector<BandNode> inner_edges(double begin, double end);
   void find_edges();
   void add_run(double begin, double end, bool touches_down);
   void add_turns(const BandNode& from, const BandNode& to, std::vector<BandNode>& nodes);
@@ -102,8 +119,8 @@ class SliderBand {
   TrigonometricPolynomial polynomial_;
   std::vector<SignChange> changes_;
   std::vector<SignChange> contact_;
-  std::vector<double> edges_;   // of a rough law, in [0, 2π]
-  std::vector<double> stands_;  // u' = 0
+  std::vector<double> edges_;  // of a rough law, in [0, 2π]
+  BandLayers layers_;
   std::vector<SmoothSign> signs_;
   std::vector<ContactRun> runs_;
 };

@@ -73,9 +73,8 @@ class Search {
   Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
       : functions_(functions), size_(size), found_(found) {}
 
-  /// @param ends    limits known at the ends of the cell.
-  /// @param before  tail of the cell twice as long.
-  void cover(double begin, double end, const SmoothEnds& ends, double before = INFINITY) {
+  /// @param before  tails of the cell twice as long.
+  void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
     Eigen::Matrix<double, n, 2> values;
     for (int i = 0; i < n; ++i) {
@@ -84,39 +83,52 @@ class Search {
       values(i, 1) = f[1];
     }
     const Eigen::Matrix<double, n, 2> c = tables().coefficients.lazyProduct(values);
-    // Integrals of f between its sign changes, which is what a slider moves by, err by its power
-    // 3/2.
-    constexpr double tolerance = 1e-10;
-    const double largest = values.cwiseAbs().maxCoeff();
-    const double allowed = std::max(tolerance * size_, 1e-14 * largest);
-    const double tail = c.bottomRows<2>().cwiseAbs().colwise().sum().maxCoeff();
-    const double missed = std::max(misses(c, -1.0, ends.begin), misses(c, 1.0, ends.end));
-    // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
-    const bool rounded = tail > 0.25 * before && tail <= 1e-6 * largest;
-    const bool resolved = rounded || tail <= allowed;
-    const bool meets = missed <= n * std::max(allowed, tail);
-    constexpr double narrowest = 1e-9;  // of a layer that is not resolved: it holds even less
-    if (!(resolved && meets) && end - begin > narrowest) {
-      cover(begin, begin + half, {ends.begin, std::nullopt}, tail);
-      cover(begin + half, end, {std::nullopt, ends.end}, tail);
+    std::array<bool, 2> resolved{};
+    bool settled = true;
+    double top = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const double tail = c.col(column).tail<2>().cwiseAbs().sum();
+      resolved[i] =
+          is_resolved(tail, values.col(column).cwiseAbs().maxCoeff(), end - begin, before);
+      settled = settled && (resolved[i] || is_clear(c.col(column), tail));
+      top = std::max(top, tail);
+    }
+    if (!settled && depth > 0) {
+      cover(begin, begin + half, depth - 1, top);
+      cover(begin + half, end, depth - 1, top);
       return;
     }
-    for (int i = 0; i < 2; ++i) isolate(c.col(i), begin, end, i);
-    for (std::size_t i = 0; i < 2 && ends.end.has_value(); ++i) {
-      pass(begin, (*ends.end)[i] > 0.0, static_cast<int>(i));  // turned somewhere in the last layer
+    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
+    for (std::size_t i = 0; i < 2; ++i) {
+      accurate_ = resolved[i];
+      isolate(c.col(static_cast<Eigen::Index>(i)), begin, end,
+              narrowest * std::min(1.0, end - begin), static_cast<int>(i));
     }
   }
 
  private:
-  /// By how much the series misses a known limit at x = ±1.
-  static double misses(const Eigen::Matrix<double, n, 2>& c, double x,
-                       const std::optional<std::array<double, 2>>& limit) {
-    if (!limit.has_value()) return 0.0;
-    return std::max(std::abs(value(c.col(0), x) - (*limit)[0]),
-                    std::abs(value(c.col(1), x) - (*limit)[1]));
+  /// @param before  tails of the cell twice as long.
+  [[nodiscard]] bool is_resolved(double tail, double largest, double length, double before) const {
+    // Integrals of f between its sign changes, which is what a slider moves by, err by its power
+    // 3/2.
+    constexpr double tolerance = 1e-10;
+    if (tail <= std::max(tolerance * size_, 0.1 * tolerance * largest)) return true;
+    // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
+    const bool small = tail <= 1e-9 * largest || tail * length <= 1e-16 * size_;
+    return tail > 0.25 * before && small;
   }
 
-  void isolate(const Series& c, double begin, double end, int function) {
+  /// Whether f keeps its sign, or has one change at most and none near the ends, whatever the next terms are.
+  static bool is_clear(const Series& c, double tail) {
+    constexpr double margin = 30.0;  // of terms that fall off slowly
+    if (std::abs(c[0]) > variation(c) + margin * tail) return true;
+    const Series d = derivative(c);
+    const double ends = std::min(std::abs(value(c, -1.0)), std::abs(value(c, 1.0)));
+    return ends > margin * tail && std::abs(d[0]) > variation(d) + margin * n * n * tail;
+  }
+
+  void isolate(const Series& c, double begin, double end, double narrowest, int function) {
     const double spread = variation(c);
     constexpr double rounding = 1e-15;
     if (std::abs(c[0]) + spread <= rounding * size_) return;
@@ -125,14 +137,13 @@ class Search {
       return;
     }
     const Series d = derivative(c);
-    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
     if (std::abs(d[0]) > variation(d) || end - begin <= narrowest) {
       cross(c, begin, end, function);
       return;
     }
     const double middle = 0.5 * (begin + end);
-    isolate(tables().left.lazyProduct(c), begin, middle, function);
-    isolate(tables().right.lazyProduct(c), middle, end, function);
+    isolate(tables().left.lazyProduct(c), begin, middle, narrowest, function);
+    isolate(tables().right.lazyProduct(c), middle, end, narrowest, function);
   }
 
   /// One change at most.
@@ -142,8 +153,21 @@ class Search {
     pass(begin, at_begin > 0.0, function);
     if ((at_begin > 0.0) == (at_end > 0.0)) return;
     const auto f = [&](double x) { return value(c, x); };
-    const double x = bracketed_root(f, -1.0, 1.0, at_begin, at_end);
+    double x = bracketed_root(f, -1.0, 1.0, at_begin, at_end);
+    if (!accurate_) x = polished(c, begin, 0.5 * (end - begin), x, function);
     pass(begin + 0.5 * (end - begin) * (1.0 + x), at_end > 0.0, function);
+  }
+
+  /// Newton's method with the slope of the series, which is as good as a thirtieth at least.
+  double polished(const Series& c, double begin, double half, double x, int function) {
+    const double slope = value(derivative(c), x);
+    for (int i = 0; i < 8; ++i) {
+      const double f = functions_(begin + half * (1.0 + x))[static_cast<std::size_t>(function)];
+      const double step = f / slope;
+      x = std::clamp(x - step, -1.0, 1.0);
+      if (std::abs(step) <= 1e-7) break;  // the next one would be 1e-9
+    }
+    return x;
   }
 
   void pass(double phase, bool positive, int function) {
@@ -157,22 +181,21 @@ class Search {
   double size_;
   std::vector<SmoothSign>& found_;
   std::array<int, 2> sign_{0, 0};
+  bool accurate_ = true;  // whether the series of the cell is the function
 };
 
 }  // namespace
 
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
-                      double cell, double size, std::vector<SmoothSign>& found) {
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found) {
   const double length = end - begin;
-  constexpr double nothing = 1e-12;  // between two events that all but meet
-  if (!(length > nothing)) return;
+  if (!(length > 0.0)) return;
+  constexpr int deepest =
+      30;  // halvings; what changes within 1e-9 of a cell is not told from a jump
   Search search(functions, size, found);
   const int n_cells = static_cast<int>(std::ceil(length / cell));
   for (int i = 0; i < n_cells; ++i) {
-    SmoothEnds own;
-    if (i == 0) own.begin = ends.begin;
-    if (i + 1 == n_cells) own.end = ends.end;
-    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, own);
+    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, deepest);
   }
 }
 

@@ -3,7 +3,8 @@
 ///
 ///   f(x) = Σ_k c_k T_k(x) on a cell [−1, 1],     |f − c₀| ≤ Σ_{k>0} |c_k|                        (1)
 ///
-/// Cells are halved until the last coefficients are below a tolerance; then (1) for f proves that its sign
+/// Cells are halved until the last coefficients are below a tolerance, or so far below the others that what
+/// follows is beyond doubt; then (1) for f proves that its sign
 /// is kept, (1) for f' that there is one change at most, or the polynomial is halved. Pairs of changes are
 /// told from none as long as f rises between them to the tolerance.
 ///
@@ -12,7 +13,6 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace microslip::contact {
@@ -25,18 +25,12 @@ struct SmoothSign {
 /// Two functions at once, as they come from one evaluation.
 using SmoothPair = std::function<std::array<double, 2>(double phase)>;
 
-/// Limits of both functions at the ends of the interval, from inside, where they are known: a layer next to
-/// an end, too thin for the points of a cell, is seen by them.
-struct SmoothEnds {
-  std::optional<std::array<double, 2>> begin;
-  std::optional<std::array<double, 2>> end;
-};
-
 /// @param functions  smooth inside (begin, end).
 /// @param cell       longest cell, as long as the functions are expected to be resolved on.
-/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it.
+/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it; where they are larger than
+///                   that, 1e-11 of what they are.
 /// @param found      sign changes are added, function by function and cell by cell; not sorted.
-void add_smooth_signs(const SmoothPair& functions, double begin, double end, const SmoothEnds& ends,
-                      double cell, double size, std::vector<SmoothSign>& found);
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found);
 
 }  // namespace microslip::contact

@@ -13,8 +13,10 @@
 /// as stuck; μ = 0 slips without force. With smooth surfaces and a constant coefficient this is the law of
 /// event_law.hpp, which is faster.
 ///
-/// Accuracy: force coefficients within about 1e-13 of k_u |u| + μ n, where |·| sums the amplitudes of the
-/// harmonics and n is the largest load; derivatives within about 1e-11, one-sided where they jump.
+/// Accuracy: force coefficients within about 1e-14 of k_u |u| + μ n, where |·| sums the amplitudes of the
+/// harmonics and n is the largest load, however thin the layers are in which the coefficient changes;
+/// derivatives within about 1e-11 as long as a layer is not thinner than 1e-4 of the period, one-sided where
+/// they jump. Of an event the phase is rounded, in a layer 1/R as thin a derivative loses R times as much.
 ///
 /// Source: theory sections 3–8, 10, 11.
 #pragma once

@@ -39,6 +39,7 @@ struct Tangential {
 };
 
 Tangential in_series(const RoughState& s, double gamma) {
+  if (gamma == 0.0) return {s.share, s.share_by_approach, s.reach, s.reach_by_approach};
   const double whole = 1.0 + gamma;
   const double part = 1.0 + gamma * s.share;
   return {s.share * (whole / part), s.share_by_approach * whole / (part * part),
@@ -132,7 +133,7 @@ void SurfaceLaw::add_rough_state(double approach, SurfaceState& state) const {
   state.stiffness_ratio_by_approach = p.ratio_by_u * du;
   state.load_per_ratio = local_stiffness_ * p.reach;
   state.load_per_ratio_by_approach = local_stiffness_ * p.reach_by_u * du;
-  const Tangential r = in_series(s, second_ratio_);
+  const Tangential r = second_ratio_ == first_ratio_ ? p : in_series(s, second_ratio_);
   state.second_stiffness_ratio = r.ratio;
   state.second_stiffness_ratio_by_approach = r.ratio_by_u * du;
   state.second_load_per_ratio = local_stiffness_ * r.reach;

@@ -135,11 +135,11 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
     if (preload < 0.0) ++n_gaps;
   }
   if (modal.load_measure == LoadMeasure::force) {
-    fmt::print(out, "{} contact points\n", modal.points.size());
+    fmt::print(out, "{} contact point{}\n", modal.points.size(), modal.points.size() == 1 ? "" : "s");
     return;
   }
-  fmt::print(out, "{} contact points: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
-             modal.points.size(), modal.weights.sum(), load, n_gaps);
+  fmt::print(out, "{} contact point{}: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
+             modal.points.size(), modal.points.size() == 1 ? "" : "s", modal.weights.sum(), load, n_gaps);
 }
 
 ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
@@ -150,7 +150,7 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
   describe_modes(modal, model, out);
   describe_points(modal, out);
   if (scene.response) {
-    require_loads(model, scene);
+    require_curves(model, scene);
     const ResponseDescription& response = *scene.response;
     const std::size_t n_curves = curve_requests(scene).size();
     fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,

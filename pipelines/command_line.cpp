@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/scene_keys.hpp"
+#include "pipelines/nearest_name.hpp"
 
 namespace microslip::pipelines {
 

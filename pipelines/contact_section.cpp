@@ -96,6 +96,7 @@ FieldDescription field_in(SectionReader& s, std::string_view key,
     }
     const std::filesystem::path file = *text;
     field.value = FieldTable{file.is_absolute() ? file : folder / file};
+    static_cast<void>(Field(field));  // so are those of the table
     toml::table complete;
     complete.is_inline(true);
     complete.insert_or_assign("file", std::get<FieldTable>(field.value).file.string());

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 #include "pipelines/units.hpp"
 
 namespace microslip::pipelines {
@@ -61,7 +61,7 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
                                  error ? error.message() : "no such file"));
   }
   if (std::filesystem::is_directory(file, error)) {
-    throw SceneError(fmt::format("{}: not a file", file.string()));
+    throw SceneError(fmt::format("{}: is a folder, not a file", file.string()));
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (!error && size > limit) {
@@ -126,8 +126,9 @@ void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size
 void CsvTable::read_row(const std::vector<std::string_view>& cells, std::size_t line,
                         std::optional<std::size_t> id_column) {
   if (cells.size() != columns_.size()) {
-    throw SceneError(fmt::format("{}:{}: {} values under {} column names", name_, line,
-                                 cells.size(), columns_.size()));
+    throw SceneError(fmt::format("{}:{}: {} value{} under {} column names{}", name_, line, cells.size(),
+                                 cells.size() == 1 ? "" : "s", columns_.size(),
+                                 cells.size() == 1 ? "; values are separated by commas" : ""));
   }
   lines_.push_back(line);
   ids_.emplace_back(id_column ? cells[*id_column] : std::string_view());

@@ -75,6 +75,24 @@ std::string harmonics_text(const SceneDescription& scene) {
   return fmt::format("response.harmonics = [{}]", fmt::join(response.harmonic_orders, ", "));
 }
 
+/// By a force that varies in time.
+bool is_excited(const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    return modal->force_sine.cwiseAbs().maxCoeff() > 0.0 || modal->force_cosine.cwiseAbs().maxCoeff() > 0.0;
+  }
+  return std::ranges::any_of(scene.forces, [](const ForceDescription& force) { return force.amplitude != 0.0; });
+}
+
+/// A mode that vibrates without damping.
+bool is_undamped(const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) return ((modal->damping_ratio.array() == 0.0) && (modal->frequency_hz.array() > 0.0)).any();
+  if (const auto* rayleigh = std::get_if<RayleighDamping>(&scene.modes.damping)) {
+    return rayleigh->alpha == 0.0 && rayleigh->beta == 0.0;
+  }
+  const auto& ratios = std::get<std::vector<double>>(scene.modes.damping);
+  return std::ranges::find(ratios, 0.0) != ratios.end();
+}
+
 }  // namespace
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
@@ -129,6 +147,12 @@ std::vector<std::string> scene_warnings(const SceneDescription& scene) {
     }
   }
   if (!scene.response) return warnings;
+  if (!is_excited(scene)) warnings.emplace_back("no force excites the structure: its response will be zero");
+  if (is_undamped(scene)) {
+    warnings.emplace_back(
+        "a mode has no damping: where friction takes no energy, as in the free and the stuck limit, its peak has no "
+        "end, and the curve will be incomplete");
+  }
   const auto [low, high] =
       std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
   for (const MapEntry& entry : scene.response->maps) {

@@ -1,8 +1,10 @@
 #include "pipelines/expression.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -10,8 +12,8 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
-#include "pipelines/scene_keys.hpp"
 
 namespace microslip::pipelines {
 
@@ -62,15 +64,24 @@ std::string unknown_name(const mu::Parser& parser, const std::string& token) {
                      fmt::join(names, ", "));
 }
 
+// The message without its position, which the library counts from 0, and without the blank it adds to tokens.
+std::string in_our_count(const std::string& message) {
+  static const std::regex position(" (found )?at (expression )?position [0-9]+|[.]$");
+  static const std::regex token("\"([^\"]*[^\" ]) +\"");
+  return std::regex_replace(std::regex_replace(message, position, ""), token, "\"$1\"");
+}
+
 // The library's words; what it does not know gets ours.
 SceneError syntax_error(const mu::Parser& parser, const std::string& text, const std::string& place,
                         const mu::ParserError& error) {
   const bool is_name = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !error.GetToken().empty() &&
                        (std::isalpha(static_cast<unsigned char>(error.GetToken()[0])) != 0 ||
                         error.GetToken()[0] == '_');
-  const std::string what = is_name ? unknown_name(parser, error.GetToken()) : error.GetMsg();
-  return SceneError(fmt::format("{}: expression \"{}\", character {}: {}", place, text,
-                                error.GetPos() + 1, what));
+  const std::string what = is_name ? unknown_name(parser, error.GetToken()) : in_our_count(error.GetMsg());
+  const auto end = static_cast<int>(text.size());
+  const int position = std::clamp(error.GetPos() + 1, 1, end + 1);
+  return SceneError(fmt::format("{}: expression \"{}\", {}: {}", place, text,
+                                fmt::format("character {}{}", position, position > end ? ", its end" : ""), what));
 }
 
 void define(mu::Parser& parser, const std::string& place,
@@ -100,6 +111,9 @@ void require_writable(const std::string& text, const std::string& place) {
     throw SceneError(
         fmt::format("{}: expression of {} characters; at most {}", place, text.size(), longest));
   }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw SceneError(fmt::format("{}: expression \"{}\": is empty", place, text));
+  }
   const std::size_t assignment = assignment_in(text);
   if (assignment < text.size()) {
     throw SceneError(
@@ -113,7 +127,7 @@ void require_writable(const std::string& text, const std::string& place) {
 Expression::Expression(const std::string& text, std::string place,
                        const std::map<std::string, double>& constants,
                        const std::array<std::string, 2>& coordinates)
-    : parser_(std::make_unique<Parser>()), place_(std::move(place)), coordinates_(coordinates) {
+    : parser_(std::make_unique<Parser>()), text_(text), place_(std::move(place)), coordinates_(coordinates) {
   require_writable(text, place_);
   mu::Parser& parser = parser_->parser;
   define(parser, place_, constants);
@@ -153,7 +167,7 @@ Eigen::VectorXd Expression::at(const Eigen::VectorXd& p, const Eigen::VectorXd& 
       const std::string second =
           coordinates_[1].empty() ? "" : fmt::format(", {} = {} m", coordinates_[1], r_here);
       throw SceneError(fmt::format("{}: expression \"{}\" is {} at {} = {} m{}", place_,
-                                   parser.GetExpr(), values[i], coordinates_[0], p_here, second));
+                                   text_, values[i], coordinates_[0], p_here, second));
     }
   }
   return values;

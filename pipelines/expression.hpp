@@ -38,6 +38,7 @@ class Expression {
  private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
+  std::string text_;
   std::string place_;
   std::array<std::string, 2> coordinates_;
 };

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/units.hpp"
 
 namespace microslip::pipelines {

@@ -62,16 +62,20 @@ solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
   return solver_scene(model, load);
 }
 
-solver::Optimum OptimumSearch::search(const Factors& factors) {
+solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const {
   solver::OptimumOptions options = options_;
   if (request_.of_preload()) {
     // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal load
-    // varies with the motion. The range is widened by as much.
+    // varies with the motion.
     options.lower = std::min(options.lower, options.lower / factors.friction);
     options.upper = std::max(options.upper, options.upper / factors.friction);
   }
+  return options;
+}
+
+solver::Optimum OptimumSearch::search(const Factors& factors) {
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
-                               continuation_options(*scene_.response), options);
+                               continuation_options(*scene_.response), options_for(factors));
 }
 
 std::string OptimumSearch::warning() const {
@@ -99,7 +103,9 @@ OptimumBracket OptimumSearch::bracket() {
   OptimumBracket bracket;
   const auto add = [&](const char* parameter, double factor, const Factors& factors) {
     try {
-      bracket.entries.push_back({parameter, factor, search(factors)});
+      const solver::OptimumOptions options = options_for(factors);
+      const bool widened = options.lower < options_.lower || options.upper > options_.upper;
+      bracket.entries.push_back({parameter, factor, search(factors), {options.lower, options.upper}, widened});
     } catch (const RefusedError& error) {
       bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
     }

@@ -28,7 +28,8 @@ class OptimumSearch {
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at a value.
   [[nodiscard]] solver::Optimum best();
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
-  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched.
+  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
+  /// moves the best preload: the range is widened by as much, and the entry says so.
   [[nodiscard]] OptimumBracket bracket();
 
  private:
@@ -36,6 +37,8 @@ class OptimumSearch {
     double friction = 1.0;
     double stiffness = 1.0;
   };
+  /// The bounds of the scene, or wider ones where the best value is known to move.
+  [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
   [[nodiscard]] solver::Optimum search(const Factors& factors);
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);

@@ -23,6 +23,15 @@ namespace {
                   path.string(), what, std::system_category().message(code)));
 }
 
+void write_to(int descriptor, std::string_view content, const std::filesystem::path& target) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(target, "cannot be written", errno);
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
 /// A file that removes itself unless it was renamed into place.
 class TemporaryFile {
  public:
@@ -43,14 +52,7 @@ class TemporaryFile {
     if (!path_.empty()) ::unlink(path_.c_str());
   }
 
-  void write(std::string_view content) {
-    while (!content.empty()) {
-      const ssize_t written = ::write(descriptor_, content.data(), content.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target_, "cannot be written", errno);
-      content.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
+  void write(std::string_view content) { write_to(descriptor_, content, target_); }
 
   void move_into_place() {
     const int closed = ::close(std::exchange(descriptor_, -1));
@@ -65,10 +67,56 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
+/// A device or pipe takes what comes and cannot be replaced.
+void write_through(const std::filesystem::path& file, std::string_view content) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, "cannot be written", errno);
+  try {
+    write_to(descriptor, content, file);
+  } catch (const ExhaustedError&) {
+    ::close(descriptor);
+    throw;
+  }
+  if (::close(descriptor) != 0) fail(file, "cannot be completed", errno);
+}
+
+/// The part of a path that is there and is no folder: the path itself, or one on the way to it. Empty: none.
+std::filesystem::path file_on_the_way(const std::filesystem::path& path) {
+  std::error_code code;
+  for (std::filesystem::path part = std::filesystem::absolute(path, code); part.has_relative_path();
+       part = part.parent_path()) {
+    if (!std::filesystem::exists(part, code)) continue;
+    return std::filesystem::is_directory(part, code) ? std::filesystem::path() : part;
+  }
+  return {};
+}
+
 }  // namespace
 
+void require_folder_name(const std::filesystem::path& folder, const std::string& option) {
+  const std::filesystem::path file = file_on_the_way(folder);
+  if (file.empty()) return;
+  throw SceneError(fmt::format("{} {}: {} is a file; expected the name of a folder, new or there already", option,
+                               folder.string(), file.string()));
+}
+
+void require_file_name(const std::filesystem::path& file, const std::string& option) {
+  std::error_code code;
+  if (std::filesystem::is_directory(file, code)) {
+    throw SceneError(fmt::format("{} {}: is a folder; expected the name of a file", option, file.string()));
+  }
+  require_folder_name(std::filesystem::absolute(file, code).parent_path(), option);
+}
+
 void write_whole(const std::filesystem::path& file, std::string_view content) {
-  TemporaryFile temporary(file);
+  std::error_code code;  // what cannot be looked at is told where it is opened
+  if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code) &&
+      !std::filesystem::is_directory(file, code)) {
+    write_through(file, content);
+    return;
+  }
+  const bool is_link = std::filesystem::is_symlink(file, code);
+  TemporaryFile temporary(is_link ? std::filesystem::weakly_canonical(file, code) : file);
   temporary.write(content);
   temporary.move_into_place();
 }

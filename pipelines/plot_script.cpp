@@ -39,11 +39,11 @@ std::string run_plot_script(const std::string& name, const std::vector<std::stri
     std::vector<std::string> command{python, path_of(name)};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const ChildResult result = run_child(command, limit);
-    return result.succeeded ? "" : "plots were not made: " + result.message;
+    return result.succeeded ? "" : "not every plot was made: " + result.message;
   } catch (const InterruptedError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    return std::string("plots were not made: ") + error.what();
+    return std::string("not every plot was made: ") + error.what();
   }
 }
 

@@ -118,6 +118,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   }
   response.n_time_points = s.integer("points");
   response.steps_per_period = s.integer("steps_per_period");
+  response.steps_place = s.place("steps_per_period");
   if (response.steps_per_period > 0 && response.method != ResponseDescription::Method::time) {
     s.fail("steps_per_period", "is for method = \"time\"", s.node("steps_per_period"));
   }

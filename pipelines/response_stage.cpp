@@ -79,6 +79,12 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   return map;
 }
 
+solver::Scene integrated_scene(const ReducedModel& model, double load) {
+  solver::Scene problem = solver_scene(model, load);
+  problem.transient = transient_force(model, load);
+  return problem;
+}
+
 }  // namespace
 
 std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
@@ -148,6 +154,21 @@ void require_response(const SceneDescription& scene) {
   require_pressing_loads(scene);
 }
 
+/// Numbers that are finite one by one may leave the range of double precision together.
+void require_finite(const ReducedModel& model, const SceneDescription& scene) {
+  const auto require = [&](const char* what, double sum) {
+    if (std::isfinite(sum)) return;
+    throw SceneError(fmt::format("{}: {} comes to more than double precision holds: are all units right?",
+                                 scene.file.string(), what));
+  };
+  require("a natural frequency", model.frequency.squaredNorm());
+  require("the excitation", model.force_sine.squaredNorm() + model.force_cosine.squaredNorm());
+  require("the output", model.output.squaredNorm());
+  require("the normal stiffness of the contact", model.normal_stiffness.dot(model.weights));
+  require("the tangential stiffness of the contact", model.tangential_stiffness.dot(model.weights));
+  require("the preload of the contact", model.preload.dot(model.weights));
+}
+
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
@@ -174,6 +195,17 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
     const auto& optimum = scene.response->optimum;
     if (optimum && optimum->of_preload() && optimum->range) {
       static_cast<void>(tilted_pressures(model, area, (*optimum->range)[0], false));
+    }
+  }
+}
+
+void require_curves(const ReducedModel& model, const SceneDescription& scene) {
+  require_finite(model, scene);
+  require_loads(model, scene);
+  if (scene.response->method != ResponseDescription::Method::time) return;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    if (const auto* load = std::get_if<double>(&request.preload)) {
+      require_steps(integrated_scene(model, *load), *scene.response);
     }
   }
 }
@@ -210,9 +242,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   }
   const double load = std::get<double>(request.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    solver::Scene problem = solver_scene(model, load);
-    problem.transient = transient_force(model, load);
-    result.curve = integrate_curve(problem, *scene.response, observe);
+    result.curve = integrate_curve(integrated_scene(model, load), *scene.response, observe);
     result.integrated = true;
     return result;
   }

@@ -38,6 +38,11 @@ struct CurveRequest {
 /// @throws RefusedError  they cannot; the message names the force they need.
 void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
+/// What can be told of the curves before the first is traced: moments beside every preload are balanced, fixed steps
+/// in time are enough.
+/// @throws RefusedError, SceneError  as require_loads() and require_steps().
+void require_curves(const ReducedModel& model, const SceneDescription& scene);
+
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
 
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.

@@ -1,11 +1,8 @@
 #include "pipelines/run_record.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -25,6 +22,8 @@
 #include "pipelines/interrupt.hpp"
 #include "pipelines/output_file.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/run_folder.hpp"
+#include "pipelines/run_messages.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/write_csv.hpp"
 #include "pipelines/model_file.hpp"
@@ -38,64 +37,6 @@ using namespace std::chrono_literals;
 
 constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
 constexpr double to_hz = 0.5 / std::numbers::pi;
-
-std::string amplitude_text(const solver::PeakOfParameter& best) {
-  const double frequency_hz = to_hz * best.frequency;
-  switch (best.place) {
-    case solver::PeakPlace::peak:
-      return fmt::format("peak {:.6g} m at {:.6g} Hz", best.amplitude, frequency_hz);
-    case solver::PeakPlace::range_end:
-      return fmt::format("largest amplitude {:.6g} m at {:.6g} Hz, the end of the frequency range",
-                         best.amplitude, frequency_hz);
-    case solver::PeakPlace::unsolved: break;
-  }
-  return fmt::format("amplitude at least {:.6g} m, at {:.6g} Hz", best.amplitude, frequency_hz);
-}
-
-/// The lowest value of a search that found no best one, as far as there is one.
-std::string lowest_text(const solver::Optimum& optimum) {
-  return optimum.trace.empty() ? "" : "; " + amplitude_text(optimum.best);
-}
-
-/// An advisory lock that dies with the process: two runs in one folder would mix their files.
-int lock_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / ".lock";
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw ExhaustedError("cannot write in " + folder.string());
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor);
-    throw ExhaustedError("another run is writing in " + folder.string() + "; choose another -o");
-  }
-  return descriptor;
-}
-
-/// What a run writes and the next one removes: it would stand beside new files and be taken for theirs.
-constexpr std::array result_names{"curves",    "maps",    "motion",    "plots",
-                                  "modes.csv", "modes.vtu", "model.h5", "report.md",
-                                  "summary.json", "peak_against_preload.csv",
-                                  "peak_against_parameter.csv"};
-
-/// Whatever bears the name of a result is an earlier run's, or not ours to remove: a run begins with its
-/// scene and its log.
-void require_own(const std::filesystem::path& folder) {
-  const auto holds = [&](const char* name) { return std::filesystem::exists(folder / name); };
-  if (holds("scene.toml") && holds("log.txt")) return;
-  std::vector<const char*> names(result_names.begin(), result_names.end());
-  names.push_back("scene.toml");
-  for (const char* name : names) {
-    if (!holds(name)) continue;
-    throw SceneError(fmt::format("-o {}: holds \"{}\", which no run has written and a run would replace; "
-                                 "choose another folder",
-                                 folder.string(), name));
-  }
-}
-
-void clear_results(const std::filesystem::path& folder) {
-  for (const char* name : result_names) {
-    std::error_code ignored;  // what cannot be removed cannot be written either: said there
-    std::filesystem::remove_all(folder / name, ignored);
-  }
-}
 
 }  // namespace
 
@@ -188,28 +129,9 @@ void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
                               density * mesh.volume()};
 }
 
-void RunRecord::describe(const StructureModes& modes) {
-  progress_.info(fmt::format("BLAS: {}", fem::blas_description()));
-  progress_.info(fmt::format(
-      "modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, factorisation {:.2f} s, "
-      "eigensolve {:.2f} s, inertia count {:.2f} s",
-      modes.n_dofs, modes.timings.assembly, modes.timings.ordering, modes.timings.factorisation,
-      modes.timings.eigensolve, modes.timings.inertia));
-  if (modes.basis.n_rigid_body > 0) {
-    progress_.info(fmt::format("{} rigid-body modes: nothing holds the structure against them",
-                               modes.basis.n_rigid_body));
-  }
-  for (Eigen::Index i = 0; i < modes.basis.frequency.size(); ++i) {
-    progress_.info(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
-                               to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
-  }
-  progress_.info(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
-                             modes.basis.inertia_count, modes.basis.frequency.size()));
-}
-
 void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
                            const Eigen::VectorXd& damping_ratio) {
-  describe(modes);
+  for (const std::string& line : modes_text(modes)) progress_.info(line);
   const std::lock_guard lock(mutex_);
   summary_.mesh->degrees_of_freedom = modes.n_dofs;
   summary_.mesh->mass = modes.mass;
@@ -251,21 +173,6 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
-/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told.
-/// On rough surfaces the two counts of dissipation differ by themselves (theory section 11).
-void RunRecord::warn_of_precision(const CurveSummary& curve, const ReducedModel& model) {
-  constexpr double certified = 1e-10;
-  const double mismatch = model.effects.roughness ? 0.0 : curve.largest_dissipation_mismatch;
-  const bool all_are = curve.largest_residual <= certified &&
-                       curve.largest_energy_imbalance <= certified && mismatch <= certified;
-  if (all_are) return;  // none is NaN either
-  progress_.warning(fmt::format(
-      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
-      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",
-      curve.name, curve.largest_residual, curve.largest_energy_imbalance,
-      curve.largest_dissipation_mismatch));
-}
-
 /// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
 void RunRecord::warn_of_unsolved(const CurveResult& result) {
   for (const solver::SolverEvent& event : result.curve.log) {
@@ -294,21 +201,14 @@ void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, d
 
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
-  const auto* peak = highest_peak(curve);
-  const std::string outcome =
-      curve.complete ? std::string("complete")
-                     : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
-  progress_.info(fmt::format(
-      "curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name, curve.points.size(),
-      curve.iterations, curve.seconds, outcome,
-      peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude,
-                                    to_hz * peak->frequency)
-                      : std::string()));
+  progress_.info(outcome_text(result));
   CurveSummary summary = summarise(result);
   if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && model.weights.size() > 0) {
     keep_preload(summary, model, *load);
   }
-  if (!result.integrated) warn_of_precision(summary, model);
+  if (!result.integrated) {
+    if (const std::string text = precision_text(summary, model); !text.empty()) progress_.warning(text);
+  }
   warn_of_unsolved(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
@@ -318,16 +218,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   if (curve.complete && !curve.message.empty()) {
     progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
   }
-  for (const solver::DetachedBranch& branch : curve.detached) {
-    const auto highest = std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
-    if (highest == branch.points.end()) continue;
-    progress_.info(fmt::format(
-        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}", result.name,
-        branch.points.size() == 1 ? "another solution"
-                                  : fmt::format("a branch of {} points", branch.points.size()),
-        highest->amplitude, to_hz * highest->frequency,
-        highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
-  }
+  for (const std::string& line : detached_text(result)) progress_.info(line);
   if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
@@ -395,7 +286,7 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
   for (const OptimumOfFactor& entry : bracket.entries) {
     const solver::Optimum& optimum = entry.optimum;
     progress_.info(fmt::format(
-        "with {} x {:g}: {}", entry.parameter, entry.factor,
+        "with {} x {:g}{}: {}", entry.parameter, entry.factor, range_text(entry),
         optimum.found ? fmt::format("best {:.6g}, {}", optimum.best.parameter,
                                     amplitude_text(optimum.best))
                       : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));

@@ -77,9 +77,7 @@ class RunRecord {
     fem::ModalBasis basis;
   };
 
-  void describe(const StructureModes& modes);
   void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
-  void warn_of_precision(const CurveSummary& curve, const ReducedModel& model);
   void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();
   void fail(ExitCode code, const std::string& message);

@@ -99,6 +99,8 @@ struct OptimumOfFactor {
   std::string parameter;  ///< friction_coefficient | contact_stiffness
   double factor = 1.0;
   solver::Optimum optimum;
+  std::array<double, 2> range{};  ///< searched, in SI
+  bool widened = false;           ///< beyond what the scene asks for
 };
 
 struct OptimumBracket {

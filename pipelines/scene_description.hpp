@@ -137,6 +137,7 @@ struct ResponseDescription {
   int search_starts = 0;   ///< of a search for detached branches; 0: none
   int n_time_points = 40;  ///< frequencies of method = "time"
   int steps_per_period = 0;  ///< of method = "time": fixed steps; 0: changes of contact are located
+  std::string steps_place;   ///< "file:line: key" of it, for messages
   std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
   std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
   bool limits = true;                     ///< modal scenes: free and stuck curves as well

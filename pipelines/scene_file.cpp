@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -14,13 +13,15 @@
 #include "pipelines/chain_scene.hpp"
 #include "pipelines/contact_section.hpp"
 #include "pipelines/csv_table.hpp"
+#include "pipelines/effects_section.hpp"
+#include "pipelines/meshed_section.hpp"
 #include "pipelines/modal_scene.hpp"
-#include "pipelines/modes_section.hpp"
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/response_section.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/scene_overrides.hpp"
 #include "pipelines/section_reader.hpp"
-#include "pipelines/units.hpp"
+#include "pipelines/toml_text.hpp"
 #include "pipelines/write_scene.hpp"
 
 namespace microslip::pipelines {
@@ -43,7 +44,8 @@ struct Reading {
     throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
                                  node->is_array() && name == "contact"
                                      ? "several contact patches are not available in this version"
-                                     : fmt::format("expected a section [{}]", name)));
+                                     : fmt::format("expected a section [{}]{}", name,
+                                                   node->is_array() ? ", once; found a list, or [[…]]" : "")));
   }
 
   SectionReader section(std::string_view name, std::string_view spec) {
@@ -55,15 +57,6 @@ struct Reading {
     return {table(name), spec, std::string(name), file, *position->second.as_table()};
   }
 };
-
-toml::table parse_text(const std::string& text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw SceneError(fmt::format("{}:{}:{}: {}", name, error.source().begin.line,
-                                 error.source().begin.column, error.description()));
-  }
-}
 
 void check_sections(const Reading& reading, std::string_view kind) {
   std::vector<std::string_view> known{"title"};
@@ -94,114 +87,6 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
-BladeModel read_blade(const SectionReader& s) {
-  static_cast<void>(s.integer("order"));
-  BladeModel model;
-  model.element_size = s.number("element_size");
-  mesh::BladeGeometry& g = model.geometry;
-  g.root_width = s.number("root_width");
-  g.root_height = s.number("root_height");
-  g.root_length = s.number("root_length");
-  g.platform_width = s.number("platform_width");
-  g.platform_height = s.number("platform_height");
-  g.platform_length = s.number("platform_length");
-  g.span = s.number("span");
-  g.root_chord = s.number("root_chord");
-  g.tip_chord = s.number("tip_chord");
-  g.root_thickness = s.number("root_thickness");
-  g.tip_thickness = s.number("tip_thickness");
-  g.root_stagger = s.number("root_stagger");
-  g.tip_stagger = s.number("tip_stagger");
-  g.camber = s.number("camber");
-  g.lean = s.number("lean");
-  return model;
-}
-
-MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
-  static_cast<void>(s.integer("order"));
-  MeshFileModel model;
-  const std::filesystem::path file = s.text("file");
-  model.file = file.is_absolute() ? file : folder / file;
-  if (file.extension() != ".msh") {
-    s.fail("file",
-           fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version", file.string()),
-           s.node("file"));
-  }
-  s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
-  const toml::node& unit = *s.node("length_unit");
-  if (const auto name = unit.value<std::string>(); name && unit.is_string()) {
-    if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
-    try {
-      model.length_unit = to_si("1 " + *name, "m");
-    } catch (const UnitError& error) {
-      s.fail("length_unit", error.what(), &unit);
-    }
-  } else {
-    model.length_unit = s.number_in(unit, "length_unit");
-  }
-  if (!(model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", &unit);
-  return model;
-}
-
-fem::Material read_material(const SectionReader& s) {
-  return {s.number("youngs_modulus"), s.number("poissons_ratio"), s.number("density")};
-}
-
-std::vector<std::string> read_names(const SectionReader& s, std::string_view key) {
-  const toml::node& node = *s.node(key);
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail(key, "expected a list of names", &node);
-  std::vector<std::string> names;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_string()) s.fail(key, "expected names in quotes", &entry);
-    names.push_back(*entry.value<std::string>());
-  }
-  return names;
-}
-
-ModesDescription read_modes(const SectionReader& s) {
-  ModesDescription modes;
-  modes.count = s.integer("count");
-  modes.damping = read_damping(s);
-  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
-  const toml::node* given = s.node("damping_ratio");
-  if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
-    s.fail(
-        "damping_ratio",
-        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
-        given);
-  }
-  constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
-  modes.residual =
-      s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::stiffness;
-  return modes;
-}
-
-std::vector<ForceDescription> read_forces(SectionReader& s) {
-  const toml::node& node = *s.node("forces");
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
-  std::vector<ForceDescription> forces;
-  toml::array completed;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces",
-                              s.file(), complete);
-    ForceDescription description;
-    description.at = force.text("at");
-    description.place = force.place("at");
-    description.direction = force.direction("direction");
-    description.amplitude = force.number("amplitude");
-    description.phase_deg = force.number("phase");
-    forces.push_back(description);
-    completed.push_back(std::move(complete));
-  }
-  s.complete("forces", std::move(completed));
-  return forces;
-}
-
 /// Rules fitted to the lines of slip are there for the closed form of one harmonic.
 void check_quadrature(const SceneDescription& scene) {
   if (!scene.contact || !scene.response) return;
@@ -215,65 +100,6 @@ void check_quadrature(const SceneDescription& scene) {
   }
   if (response.harmonics > 1) refuse("is for one harmonic, and response.harmonics has more");
   if (response.search_starts > 0) refuse("is not available with response.search_starts");
-}
-
-/// An effect that a key of another section switches: a setting that contradicts it is refused.
-void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
-                         const SceneDescription& scene) {
-  const bool has = name == "higher_harmonics" ? scene.response && scene.response->harmonics > 1
-                   : name == "roughness"      ? scene.laws.roughness.has_value()
-                                              : scene.laws.friction.has_value();
-  const char* key = name == "higher_harmonics" ? "response.harmonics"
-                    : name == "roughness"      ? "contact.roughness"
-                                               : "a law of contact.friction_coefficient";
-  if (setting == "on" && !has) s.fail(name, fmt::format("needs {}", key), s.node(name));
-  if (setting == "off" && has) {
-    s.fail(name, fmt::format("contradicts {}: leave that out", key), s.node(name));
-  }
-}
-
-/// Effects that may be left out, each alone.
-void check_off(const SectionReader& s, std::string_view name, const SceneDescription& scene,
-               bool has_residual) {
-  if (name == "separation" || name == "mean_coupling") {
-    s.fail(name, "is part of the normal motion: switch effects.normal_motion off", s.node(name));
-  }
-  if (name == "stability") {
-    s.fail(name, "cannot be switched off: the steps along a curve use it; expected auto or on",
-           s.node(name));
-  }
-  if (name == "residual" && has_residual) {
-    s.fail(name, "contradicts modes.residual: give modes.residual = \"none\"", s.node(name));
-  }
-  if (name == "normal_motion" && scene.laws.roughness) {
-    s.fail(name, "contradicts contact.roughness: rough surfaces are felt by normal motion",
-           s.node(name));
-  }
-}
-
-/// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
-std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
-                                                              const SceneDescription& scene,
-                                                              bool has_residual) {
-  constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
-  // Simulated where the scene asks for them elsewhere.
-  constexpr std::array<std::string_view, 3> by_key{"higher_harmonics", "roughness",
-                                                   "rate_dependence"};
-  std::vector<std::pair<std::string, std::string>> effects;
-  for (const KeySpec& key : section_spec("effects").keys) {
-    const std::string setting = s.word(key.name, settings);
-    if (std::find(by_key.begin(), by_key.end(), key.name) != by_key.end()) {
-      check_effect_of_key(s, key.name, setting, scene);
-    } else if (setting == "off") {
-      check_off(s, key.name, scene, has_residual);
-    }
-    if (key.name == "residual" && setting == "on" && !has_residual) {
-      s.fail(key.name, "cannot be on: modal scenes and modes.residual = \"none\" have no residual",
-             s.node(key.name));
-    }
-    effects.emplace_back(key.name, setting);
-  }
-  return effects;
 }
 
 /// Without contact there is no preload to set, and none to choose.
@@ -389,7 +215,7 @@ void check_optimum(const SceneDescription& scene) {
 SceneDescription parse_scene(const std::string& text, const std::string& name,
                              const std::filesystem::path& folder,
                              const std::vector<std::string>& overrides) {
-  toml::table given = parse_text(text, name);
+  toml::table given = parse_toml(text, name);
   for (const std::string& assignment : overrides) apply_override(given, assignment);
   SceneDescription scene = scene_of(std::move(given), name, folder);
   check_optimum(scene);
@@ -398,7 +224,7 @@ SceneDescription parse_scene(const std::string& text, const std::string& name,
 
 SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
   const std::string name = scene.file.string();
-  toml::table given = parse_text(scene.complete_toml, name);
+  toml::table given = parse_toml(scene.complete_toml, name);
   if (toml::table* response = given["response"].as_table()) {
     for (const char* search : {"optimum", "optimum_range", "optimum_at"}) response->erase(search);
   }

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "pipelines/response_keys.hpp"
+
 namespace microslip::pipelines {
 namespace {
 
 using enum KeyType;
+using namespace keys;
 
 constexpr KeySpec length_key(std::string_view name, std::string_view preset,
                              std::string_view meaning) {
@@ -245,74 +247,6 @@ constexpr std::array output_keys{
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
 };
 
-constexpr KeySpec frequency_key{"frequency", other, "Hz", "", 0, 0, false,
-                                "from, to (either order): a curve; a single value: the solution there"};
-constexpr KeySpec method_key{"method", text, "", "\"harmonic_balance\"", 0, 0, false,
-                             "harmonic_balance | time: integrated to the steady state, frequencies swept from → to"};
-constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000, false,
-                                  "of method = \"time\": number of frequencies; continuation chooses its own"};
-constexpr KeySpec steps_key{
-    "steps_per_period", integer, "", "0", 0, 10'000'000, false,
-    "of method = \"time\": fixed steps of fourth-order Runge-Kutta as in paper B; 0: every change of contact located"};
-constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false,
-                                "highest harmonic, a list such as [1, 3, 5], or \"auto\": chosen point by point"};
-constexpr KeySpec harmonic_tolerance_key{
-    "harmonic_tolerance", number, "1", "0.001", 1e-9, 0.1, false,
-    "of harmonics = \"auto\": share of the amplitude that the harmonics left out may change"};
-constexpr KeySpec search_key{"search_starts", integer, "", "0", 0, 1000, false,
-                             "starts per frequency of a search for branches detached from the curve, or for other "
-                             "solutions at a single frequency; 0: none"};
-constexpr KeySpec maps_key{"maps", other, "Hz", "[]", 0, 0, false,
-                           "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
-constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, false, "instants per period in a map"};
-
-constexpr KeySpec preload_key{
-    "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
-    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
-constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
-                              "the number whose best value is searched: \"preload\", or any key of the "
-                              "scene, e.g. \"contact.friction_coefficient\"", true};
-constexpr KeySpec optimum_range_key{
-    "optimum_range", other, "N", "", 0, 0, false,
-    "[low, high] of the search, in the unit of that key; for the preload else the smallest and largest "
-    "positive one", true};
-constexpr KeySpec optimum_at_key{
-    "optimum_at", other, "N", "", 0, 0, false,
-    "preload (kind modal, bar: scale) under which another key is searched; else the only positive one", true};
-
-template <std::size_t... sizes>
-constexpr auto joined(const std::array<KeySpec, sizes>&... parts) {
-  std::array<KeySpec, (sizes + ...)> all{};
-  auto end = all.begin();
-  ((end = std::copy(parts.begin(), parts.end(), end)), ...);
-  return all;
-}
-
-// What every kind has in common, so that a key added here is known to all of them.
-constexpr std::array method_keys{frequency_key, method_key,    time_points_key,
-                                 steps_key,     harmonics_key, harmonic_tolerance_key,
-                                 search_key};
-constexpr std::array result_keys{optimum_key, optimum_range_key, optimum_at_key, maps_key, phases_key};
-
-constexpr auto loaded_keys = joined(method_keys, std::array{preload_key}, result_keys);
-constexpr auto response_keys = joined(
-    std::array{KeySpec{"output", other, "", "", 0, 0, false,
-                       "{ at = …, direction = […] }: the displacement that is told"}},
-    loaded_keys);
-constexpr auto chain_response_keys = joined(
-    std::array{KeySpec{"output", text, "", "", 0, 0, false, "coordinate that is told"}}, loaded_keys);
-constexpr auto block_response_keys = joined(
-    std::array{KeySpec{"output", other, "", "", 0, 0, false,
-                       "{ at = [p, q, r], direction = [p, q, r] }: the displacement that is told"}},
-    loaded_keys);
-constexpr auto modal_response_keys = joined(
-    method_keys,
-    std::array{KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false,
-                       "factors on the points' preload, one curve each"},
-               KeySpec{"limits", other, "", "false", 0, 0, false,
-                       "true: the free and the stuck limit as curves of their own"}},
-    result_keys);
-
 constexpr std::array modal_keys{
     KeySpec{"frequency", other, "Hz", "", 0, 0, false, "natural frequencies, one per mode", true},
     KeySpec{"angular_frequency", other, "rad/s", "", 0, 0, false, "the same in rad/s, instead", true},
@@ -380,21 +314,6 @@ constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "cont
 constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain, block
     "model", "modes", "contact", "excitation", "response", "effects"};
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 SectionSpec section_spec(std::string_view name) {
@@ -417,25 +336,10 @@ std::span<const std::string_view> sections_of_kind(std::string_view kind) {
   return mesh_sections;
 }
 
-std::string nearest_name(std::string_view name, std::span<const std::string_view> known) {
-  std::string_view best;
-  std::size_t least = std::max<std::size_t>(3, name.size() / 2) + 1;
-  for (const std::string_view candidate : known) {
-    // A shortened name is near to the beginning of the whole one.
-    const std::size_t distance =
-        std::min(edit_distance(name, candidate),
-                 edit_distance(name, candidate.substr(0, name.size() + 1)) + 1);
-    if (distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return std::string(best);
-}
-
 std::string range_text(const KeySpec& key) {
   const bool from = key.low > -unbounded;
   const bool to = key.high < unbounded;
+  if (from && to && key.low == key.high) return fmt::format("{:g}", key.low);
   if (from && to) {
     return key.above_low ? fmt::format("above {:g}, at most {:g}", key.low, key.high)
                          : fmt::format("{:g} to {:g}", key.low, key.high);

@@ -50,10 +50,6 @@ struct SectionSpec {
 /// Sections a scene of a kind may have, in the order of a template.
 [[nodiscard]] std::span<const std::string_view> sections_of_kind(std::string_view kind);
 
-/// The name among `known` that is nearest to `name` by edits; empty when none is near.
-[[nodiscard]] std::string nearest_name(std::string_view name,
-                                       std::span<const std::string_view> known);
-
 /// "0.004 or above", "between -1 and 0.5", …: how messages and templates tell a range.
 [[nodiscard]] std::string range_text(const KeySpec& key);
 

@@ -3,12 +3,14 @@
 #include <charconv>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "pipelines/scene_error.hpp"
+#include "pipelines/toml_text.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -57,13 +59,18 @@ toml::table value_of(const std::string& text, const std::string& assignment) {
   try {
     toml::table table = toml::parse("x = " + text, source);
     if (table.size() == 1) return table;  // more: a line break smuggled in further keys
-  } catch (const toml::parse_error&) {
-    // Not TOML: 2.5 mm, stuck, … is meant as a text.
+  } catch (const toml::parse_error& error) {
+    // 2.5 mm, stuck, … is meant as a text; what begins like a list, a table or a text is meant as TOML.
+    const std::size_t first = text.find_first_not_of(" \t");
+    constexpr std::string_view toml_begins = "[{\"'";
+    if (first != std::string::npos && toml_begins.find(text[first]) != std::string_view::npos) {
+      refuse(assignment, description_of(error));
+    }
   }
   try {
     return toml::parse("x = " + quoted(text), source);
   } catch (const toml::parse_error& error) {
-    refuse(assignment, fmt::format("{}", error.description()));
+    refuse(assignment, description_of(error));
   }
 }
 

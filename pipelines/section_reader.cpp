@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/nearest_name.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/units.hpp"
 
@@ -30,6 +33,27 @@ bool comes_later(std::string_view section, std::string_view key) {
 
 void copy_into(toml::table& table, std::string_view key, const toml::node& node) {
   node.visit([&](const auto& value) { table.insert_or_assign(key, value); });
+}
+
+/// A value as the scene has it, in a few words.
+std::string shown(const toml::node& node) {
+  std::ostringstream stream;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_table<decltype(value)> || toml::is_array<decltype(value)>) {
+      stream << toml::toml_formatter(value, toml::toml_formatter::default_flags);
+    } else {
+      stream << value;
+    }
+  });
+  std::string text = stream.str();
+  std::ranges::replace(text, '\n', ' ');
+  constexpr std::size_t longest = 60;
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;  // of a whole character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return node.is_array()   ? fmt::format("a list of {}", node.as_array()->size())
+         : node.is_table() ? fmt::format("a table of {} keys", node.as_table()->size())
+                           : text.substr(0, end) + "…";
 }
 
 }  // namespace
@@ -151,7 +175,11 @@ int SectionReader::integer(std::string_view key) const {
   const toml::node& found = required(key);
   const KeySpec& spec = spec_of(key);
   const auto value = found.value<std::int64_t>();
-  if (!found.is_integer() || !value) fail(key, "expected a whole number", &found);
+  if (!found.is_integer() || !value) {
+    const bool has_range = spec.low != 0.0 || spec.high != 0.0;
+    fail(key, fmt::format("expected a whole number{}{}", has_range ? ", " : "", has_range ? range_text(spec) : ""),
+         &found);
+  }
   const auto number = static_cast<double>(*value);
   if (number < spec.low || number > spec.high) {
     fail(key, fmt::format("{} is out of range; expected {}", *value, range_text(spec)), &found);
@@ -203,8 +231,9 @@ std::string SectionReader::place(std::string_view key) const {
 void SectionReader::fail(std::string_view key, const std::string& message,
                          const toml::node* at) const {
   const toml::node* node = at != nullptr ? at : given_;
-  throw SceneError(fmt::format("{}: {}{}{}: {}", place_of(node, file_), path_,
-                               path_.empty() ? "" : ".", key, message));
+  const bool wants = message.starts_with("expected") && at != nullptr;
+  throw SceneError(fmt::format("{}: {}{}{}: {}{}", place_of(node, file_), path_, path_.empty() ? "" : ".", key,
+                               message, wants ? "; found " + shown(*at) : ""));
 }
 
 }  // namespace microslip::pipelines

@@ -65,7 +65,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     const StructurePointer structure = solve(scene, record);
     const ReducedModel model = reduce(scene, structure, record);
     require_held(model, scene);
-    require_loads(model, scene);
+    require_curves(model, scene);
     record.stage("curves");
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.keep_harmonics(scene);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/scene_error.hpp"
 #include "solver/time_integration.hpp"
 
 namespace microslip::pipelines {
@@ -94,6 +95,18 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescriptio
 }
 
 }  // namespace
+
+void require_steps(const solver::Scene& scene, const ResponseDescription& response) {
+  if (response.steps_per_period == 0) return;
+  const double lowest_hz = std::min(response.frequency_begin_hz, response.frequency_end_hz);  // the longest period
+  const solver::TimeSystem system(scene, 2.0 * std::numbers::pi * lowest_hz);
+  if (response.steps_per_period >= system.least_steps()) return;
+  throw SceneError(fmt::format(
+      "{}: {} steps per period are too few: with its contacts stuck the structure moves at up to {:.6g} Hz, and at "
+      "{:.6g} Hz excitation that takes at least {}; 0 locates every change of contact instead",
+      response.steps_place, response.steps_per_period, system.largest_frequency() / (2.0 * std::numbers::pi), lowest_hz,
+      system.least_steps()));
+}
 
 solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                       const ResponseDescription& response,

@@ -145,6 +145,8 @@ Json to_json(const OptimumSummary& summary) {
     Json row = to_json(entry.optimum, summary);
     row["parameter"] = entry.parameter;
     row["factor"] = entry.factor;
+    row["range"] = entry.range;
+    row["range_widened"] = entry.widened;
     bracket.push_back(std::move(row));
   }
   Json json = to_json(optimum, summary);

@@ -6,37 +6,41 @@
 One folder: a figure per contact map in RUN_FOLDER/plots (the report of a run makes the same). Several
 folders, or -o: the transition lines of their first maps in one figure, to compare numbers of modes or forces.
 
-The field is what the run wrote, at the phases of its map. The lines are found anew and finer: the motion is
-interpolated as the trigonometric polynomial it is, and the sliders are marched over two periods; where that
-friction differs from the one written (a law of another kind) no lines are drawn.
+Field and lines are the instants at which each state begins, as the run wrote them: both show the same boundaries,
+which are not bound to the phases of the map. Between two points that go through the same states boundaries are
+straight; where slip ends along the line it closes at the zero of its guard. Maps of older versions have sampled
+states alone: their field is drawn, without lines.
 """
 
 import argparse
 import os
 import sys
 
-import h5py
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 import plot_run
 
-N_FINE = 3600  # instants per period of the march; transitions are interpolated between them
-AGREEMENT = 0.02  # of the largest friction: a transition falls between two instants of the map at most
-STICK, POSITIVE, NEGATIVE, OPEN = range(4)
-KINDS = [
-    ((STICK, POSITIVE), "stick to slip", "-"),
-    ((STICK, NEGATIVE), "stick to slip", "-"),
-    ((POSITIVE, STICK), "slip to stick", (0, (3, 1.5))),
-    ((NEGATIVE, STICK), "slip to stick", (0, (3, 1.5))),
-]
+STICK, POSITIVE, NEGATIVE, OPEN, SLIP = range(5)
+COLOURS = [colour for _, _, colour in plot_run.STATES]
+DASHES, DOTS = (0, (3, 1.5)), (0, (1, 1.2))
+KINDS = [("stick to slip", "-"), ("slip to stick", DASHES), ("contact opens or closes", DOTS)]
+
+
+def kind_of(start, end):
+    """Which of KINDS a change of state is."""
+    if OPEN in (start, end):
+        return 2
+    return 1 if end == STICK else 0
 
 
 def line_positions(folder):
     """Coordinate p or r [m] of contact points on a line; None where they lie otherwise, or nowhere."""
-    with h5py.File(os.path.join(folder, "model.h5"), "r") as file:
+    with plot_run.data_file(os.path.join(folder, "model.h5")) as file:
         if "contact/points" not in file or len(file["contact/points"]) < 3:
             return None
         local = file["contact/points"][:] @ file["contact/frame"][:].T
@@ -47,100 +51,177 @@ def line_positions(folder):
     return local[:, along]
 
 
-def interpolated(samples, n):
-    """Periodic samples (points × m), made n a period by trigonometric interpolation; m divides by 2."""
-    spectrum = np.fft.rfft(samples, axis=1)
-    m = samples.shape[1]
-    if m % 2 == 0:
-        spectrum[:, -1] = 0.0  # the highest frequency has no phase
-    return np.fft.irfft(spectrum, n, axis=1) * (n / m)
-
-
 class LineMap:
-    """One map of points on a line: the states written, and the steady cycle found again."""
+    """One map of points on a line, in order of position, with the changes of state within the period."""
 
     def __init__(self, folder, name, position):
         self.order = np.argsort(position)
         self.x = position[self.order]
-        with h5py.File(os.path.join(folder, "maps", name + ".h5"), "r") as file:
+        path = os.path.join(folder, "maps", name + ".h5")
+        with plot_run.data_file(path) as file:
             read = lambda key: file[key][:][self.order]
+            plot_run.require_shape(path, "weights", file["weights"][:], self.x.shape)
             self.frequency = file["frequency_Hz"][0]
             self.phase = file["phase_deg"][:]
             self.state = read("state")
             self.energy = read("dissipated_energy_J_per_m2")
-            self.friction = read("friction_traction_Pa")
-            self.u, self.v = read("relative_displacement_m"), read("approach_m")
-            self.normal = read("normal_traction_Pa")
-        with h5py.File(os.path.join(folder, "model.h5"), "r") as file:
-            read = lambda key: file["contact/" + key][:][self.order]
-            self.k_u, self.k_v = read("tangential_stiffness"), read("normal_stiffness")
-            self.mu = read("friction_coefficient")
+            plot_run.require_shape(path, "state", self.state, (len(self.x), len(self.phase)))
+            self.guard = read("slip_guard_Pa") if "slip_guard_Pa" in file else None
+            starts = read("state_starts_deg") if "state_starts_deg" in file else None
+        self.cycles = None if starts is None else [cycle_of(row.reshape(5, -1)) for row in starts]
 
-    def cycle(self):
-        """(u, v, friction, bound) over one period, points × N_FINE: the second pass of the sliders."""
-        u, v = interpolated(self.u, N_FINE), interpolated(self.v, N_FINE)
-        row = np.arange(len(self.x))
-        most = np.argmax(self.normal, axis=1)
-        preload = self.normal[row, most] - self.k_v * self.v[row, most]
-        bound = self.mu[:, None] * np.maximum(preload[:, None] + self.k_v[:, None] * v, 0.0)
-        friction = np.empty_like(u)
-        f = np.clip(self.k_u * u[:, 0], -bound[:, 0], bound[:, 0])
-        for step in range(1, 2 * N_FINE + 1):
-            i = step % N_FINE
-            f = np.clip(f + self.k_u * (u[:, i] - u[:, i - 1]), -bound[:, i], bound[:, i])
-            friction[:, i] = f
-        return u, v, friction, bound
-
-    def transitions(self):
-        """Angles [deg] by kind, one per point, NaN where it has none; None where the law is another one or
-        a point changes twice in the same way. Between two instants of the march, sticking ends where the
-        stuck force meets its bound, and slipping where its drive k_u u ∓ μ k_v v turns."""
-        u, v, friction, bound = self.cycle()
-        at = np.round(self.phase / 360 * N_FINE).astype(int) % N_FINE
-        largest = np.abs(self.friction).max()
-        if largest == 0 or np.abs(friction[:, at] - self.friction).max() > AGREEMENT * largest:
-            return None
-        state = np.where(friction >= bound, POSITIVE, np.where(friction <= -bound, NEGATIVE, STICK))
-        state[bound == 0] = OPEN
-        angles = {}
-        for (start, end), _, _ in KINDS:
-            changes = (np.roll(state, 1, axis=1) == start) & (state == end)
-            if (changes.sum(axis=1) > 1).any():
-                return None
-            first = np.argmax(changes, axis=1)  # the instant after the change
-            sign = 1 if POSITIVE in (start, end) else -1
-            if start == STICK:
-                late = end_of_stick(sign * friction, bound, sign * self.k_u[:, None] * u, first)
-            else:
-                drive = sign * self.k_u[:, None] * u - (self.mu * self.k_v)[:, None] * v
-                late = turn_before(drive, first)
-            angle = (first - late) * 360 / N_FINE
-            angles[start, end] = np.where(changes.any(axis=1), angle % 360, np.nan)
+    def transitions(self, start, end):
+        """Angles [deg] of one change of state, one per point, NaN where it has none; of several the first."""
+        angles = np.full(len(self.x), np.nan)
+        for point, cycle in enumerate(self.cycles):
+            states = [state for state, _ in cycle]
+            for i, (state, angle) in enumerate(cycle):
+                if (states[i - 1], state) == (start, end) and not angles[point] <= angle:
+                    angles[point] = angle
         return angles
 
-
-def neighbours(values, column):
-    """Values of each row at its column and the two before it, in order of time."""
-    row = np.arange(len(values))
-    return values[row, column - 2], values[row, column - 1], values[row, column]
-
-
-def end_of_stick(force, bound, stuck, column):
-    """Steps by which the instant `column` is later than the meeting of force and bound."""
-    _, before, _ = neighbours(bound - force, column)  # room left
-    _, bound_before, bound_after = neighbours(bound, column)
-    _, stuck_before, stuck_after = neighbours(stuck, column)
-    closing = (stuck_after - stuck_before) - (bound_after - bound_before)
-    share = np.divide(before, closing, out=np.ones_like(before), where=closing > 0)
-    return 1 - np.clip(share, 0, 1)
+    def apex(self, slips, sticks):
+        """Where between two neighbours slip dies out: the zero of its guard, else the middle."""
+        if self.guard is not None and self.guard[slips] > 0 > self.guard[sticks]:
+            share = self.guard[slips] / (self.guard[slips] - self.guard[sticks])
+        else:
+            share = 0.5
+        return self.x[slips] + share * (self.x[sticks] - self.x[slips])
 
 
-def turn_before(drive, column):
-    """Steps by which the instant `column` is later than the maximum of the drive: a parabola."""
-    first, middle, last = neighbours(drive, column)
-    curvature = first - 2 * middle + last
-    shift = np.divide(first - last, 2 * curvature, out=np.zeros_like(first), where=curvature < 0)
-    return 1 - np.clip(shift, -1, 1)
+def cycle_of(starts):
+    """[(state, angle at which it begins [deg]), …] in order of time; empty: one state all the time."""
+    return sorted(((state, angle) for state, row in enumerate(starts) for angle in row if np.isfinite(angle)),
+                  key=lambda change: change[1])
+
+
+def near(angle, other):
+    """An angle, turned by whole periods to lie within half of one from another."""
+    return angle + 360.0 * np.round((other - angle) / 360.0)
+
+
+def aligned(cycle, other):
+    """The other cycle from the change that matches the first of this one, with angles near those of this one;
+    None where it goes through other states."""
+    n = len(cycle)
+    if n != len(other) or n == 0:
+        return None
+    best, least = None, np.inf
+    for shift in range(n):
+        turned = other[shift:] + other[:shift]
+        if any(a[0] != b[0] for a, b in zip(cycle, turned)):
+            continue
+        angles = [near(b[1], a[1]) for a, b in zip(cycle, turned)]
+        distance = sum(abs(angle - a[1]) for angle, a in zip(angles, cycle))
+        if distance < least:
+            best, least = [(state, angle) for (state, _), angle in zip(turned, angles)], distance
+    return best
+
+
+def spans(cycle):
+    """(state, begin, end) of each part of a cycle, end after begin."""
+    n = len(cycle)
+    for i, (state, begin) in enumerate(cycle):
+        end = cycle[(i + 1) % n][1]
+        yield state, begin, end if n > 1 and end > begin else end + 360.0
+
+
+class Field:
+    """Areas of one state over (x, θ), and the lines between them."""
+
+    def __init__(self, line_map):
+        self.polygons, self.colours = [], []
+        self.lines = []  # (kind, [x], [angle])
+        self.map = line_map
+        self.edges = cell_edges(line_map.x)
+        self.add_end(0, self.edges[0])
+        for point in range(len(line_map.x) - 1):
+            self.add_pair(point, point + 1)
+        self.add_end(len(line_map.x) - 1, self.edges[-1])
+
+    def area(self, state, corners):
+        for shift in (-360.0, 0.0, 360.0):
+            self.polygons.append([(x, angle + shift) for x, angle in corners])
+            self.colours.append(COLOURS[int(state)])
+
+    def line(self, kind, x, angle):
+        """A piece of a line: joined to one that ends where it begins."""
+        for other, xs, angles in self.lines:
+            if other == kind and xs[-1] == x[0] and abs(near(angle[0], angles[-1]) - angles[-1]) < 1e-9:
+                xs.append(x[1])
+                angles.append(near(angle[1], angles[-1]))
+                return
+        self.lines.append((kind, list(x), list(angle)))
+
+    def whole(self, point, x0, x1):
+        """One state all the time."""
+        self.area(self.map.state[point, 0], [(x0, 0), (x1, 0), (x1, 360), (x0, 360)])
+
+    def strip(self, first, second, x0, x1):
+        """Between two positions whose cycles match."""
+        for i, ((state, a0, a1), (_, b0, b1)) in enumerate(zip(spans(first), spans(second))):
+            self.area(state, [(x0, a0), (x1, b0), (x1, near(b1, a1)), (x0, a1)])
+            self.line(kind_of(first[i - 1][0], state), (x0, x1), (a0, b0))
+
+    def add_end(self, point, edge):
+        """The outer half of the first and the last cell, as the point in it."""
+        cycle, x0, x1 = self.map.cycles[point], *sorted((self.map.x[point], edge))
+        if cycle:
+            self.strip(cycle, cycle, x0, x1)
+        else:
+            self.whole(point, x0, x1)
+
+    def add_pair(self, left, right):
+        x0, x1 = self.map.x[left], self.map.x[right]
+        first, second = self.map.cycles[left], self.map.cycles[right]
+        match = aligned(first, second)
+        if match is not None:
+            self.strip(first, match, x0, x1)
+        elif not first and not second and self.map.state[left, 0] == self.map.state[right, 0]:
+            self.whole(left, x0, x1)
+        elif not second and self.map.state[right, 0] == STICK:
+            self.close(left, right)
+        elif not first and self.map.state[left, 0] == STICK:
+            self.close(right, left)
+        else:
+            middle = 0.5 * (x0 + x1)
+            self.add_end(left, middle)
+            self.add_end(right, middle)
+
+    def close(self, slips, sticks):
+        """Between a point that slips at times and one that never does: each slip shrinks towards its end."""
+        cycle, x, x_end = self.map.cycles[slips], self.map.x[slips], self.map.apex(slips, sticks)
+        self.whole(sticks, *sorted((x, self.map.x[sticks])))
+        for i, (state, begin, end) in enumerate(spans(cycle)):
+            if state != STICK:
+                self.area(state, [(x, begin), (x, end), (x_end, near(self.tip_of(cycle, i), end))])
+        for i, (state, begin) in enumerate(cycle):
+            self.line_to_tip(kind_of(cycle[i - 1][0], state), (x, begin), (x_end, self.tip_of(cycle, i)))
+
+    @staticmethod
+    def tip_of(cycle, i):
+        """The angle at which the slip that a change belongs to dies out: where stick comes next."""
+        if cycle[i][0] == STICK:
+            return cycle[i][1]
+        for ahead in range(1, len(cycle)):
+            state, angle = cycle[(i + ahead) % len(cycle)]
+            if state == STICK:
+                return angle if angle > cycle[i][1] else angle + 360.0
+        return cycle[i][1]
+
+    def line_to_tip(self, kind, at, tip):
+        pieces = sorted((at, tip))
+        self.line(kind, *zip(*pieces))
+
+    def draw(self, axes):
+        axes.add_collection(PolyCollection(self.polygons, facecolors=self.colours, linewidth=0, antialiased=False,
+                                           rasterized=True))
+
+
+def cell_edges(x):
+    """Borders between points, and as far outside of the first and the last."""
+    middle = 0.5 * (x[1:] + x[:-1])
+    return np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]])
 
 
 def unwrapped(x, angle):
@@ -150,53 +231,57 @@ def unwrapped(x, angle):
     return np.insert(x, at, np.nan), np.insert(angle, at, np.nan)
 
 
-def draw_transitions(axes, x, angles, colour):
-    for kind, _, style in KINDS:
-        axes.plot(*unwrapped(x, angles[kind]), color=colour, linewidth=1.2, linestyle=style)
-
-
-def kind_handles(colour):
-    return [Line2D([], [], color=colour, linewidth=1.2, linestyle="-", label="stick to slip"),
-            Line2D([], [], color=colour, linewidth=1.2, linestyle=(0, (3, 1.5)),
-                   label="slip to stick")]
-
-
-def cell_edges(x):
-    """Borders between points, and as far outside of the first and the last."""
-    middle = 0.5 * (x[1:] + x[:-1])
-    return np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]])
-
-
 def axes_of_phase(axes):
     axes.set_ylim(0, 360)
     axes.set_yticks(np.arange(0, 361, 90))
     axes.set_ylabel("phase θ [°]")
 
 
-def plot_line(folder, name, position):
-    """States over (x, θ) with the transition lines, and where along the line energy is lost."""
-    line_map = LineMap(folder, name, position)
-    figure, (field, energy) = plt.subplots(2, 1, figsize=(6.4, 5.2), layout="constrained", sharex=True,
-                                           gridspec_kw={"height_ratios": [3.4, 1]})
+def draw_lines(axes, field, colour, outline=None):
+    for kind, x, angle in field.lines:
+        for shift in (-360, 0, 360):
+            axes.plot(x, np.add(angle, shift), color=colour, linewidth=1.2, linestyle=KINDS[kind][1],
+                      path_effects=[withStroke(linewidth=2.2, foreground=outline)] if outline else None)
+
+
+def line_handles(fields):
+    """Of the kinds of lines there are."""
+    present = {kind for field in fields for kind, _, _ in field.lines}
+    return [Line2D([], [], color="0.2", linewidth=1.2, linestyle=style, label=name)
+            for kind, (name, style) in enumerate(KINDS) if kind in present]
+
+
+def draw_samples(axes, line_map):
+    """The field at the phases of the map, for maps that have nothing else."""
     step = 360 / len(line_map.phase)
     edges = np.append(line_map.phase, 360.0) - 0.5 * step  # each instant in the middle of its stripe
-    colours = [colour for _, _, colour in plot_run.STATES]
     for shift in (0, 360):  # the stripe at 0° is seen at both borders
-        field.pcolormesh(cell_edges(line_map.x), edges + shift, line_map.state.T, vmin=-0.5, vmax=4.5,
-                         cmap=ListedColormap(colours), rasterized=True)
-    angles = line_map.transitions()
-    axes_of_phase(field)
+        axes.pcolormesh(cell_edges(line_map.x), edges + shift, line_map.state.T, vmin=-0.5, vmax=4.5,
+                        cmap=ListedColormap(COLOURS), rasterized=True)
+
+
+def plot_line(folder, name, position):
+    """States over (x, θ) with their boundaries, and where along the line energy is lost."""
+    line_map = LineMap(folder, name, position)
+    figure, (axes, energy) = plt.subplots(2, 1, figsize=(6.4, 5.2), layout="constrained", sharex=True,
+                                          gridspec_kw={"height_ratios": [3.4, 1]})
+    fields = []
+    if line_map.cycles is None:
+        draw_samples(axes, line_map)
+    else:
+        fields = [Field(line_map)]
+        fields[0].draw(axes)
+        draw_lines(axes, fields[0], "white", "0.15")
+    axes_of_phase(axes)
+    edges = cell_edges(line_map.x)
+    axes.set_xlim(edges[0], edges[-1])
     most = line_map.energy.max()
-    energy.fill_between(line_map.x, line_map.energy / (most if most > 0 else 1), color="0.4", linewidth=0)
+    lost = np.pad(line_map.energy, 1, mode="edge") / (most if most > 0 else 1)
+    energy.fill_between(np.concatenate([edges[:1], line_map.x, edges[-1:]]), lost, color="0.4", linewidth=0)
     energy.set_ylim(bottom=0)
-    energy.set_ylabel("energy lost,\nshare of the largest")
+    energy.set_ylabel("energy lost\n/ largest")
     energy.set_xlabel("position along the contact x [m]")
-    energy.margins(x=0)
-    plot_run.state_legend(figure, line_map)
-    if angles is not None:
-        draw_transitions(field, line_map.x, angles, "white")
-        field.legend(handles=kind_handles("white"), loc="upper left", facecolor="#12355b",
-                     labelcolor="white", frameon=True, framealpha=0.6, edgecolor="none")
+    plot_run.state_legend(figure, line_map, handles=line_handles(fields))
     return figure
 
 
@@ -222,17 +307,18 @@ def plot_comparison(folders, path):
     figure, (axes, enlarged) = plt.subplots(2, 1, figsize=(7.2, 6.0), layout="constrained", sharex=True,
                                             gridspec_kw={"height_ratios": [2, 1]})
     palette = plt.cm.viridis(np.linspace(0, 0.85, len(folders)))
-    handles = kind_handles("0.3")
+    handles, fields = [], []
     low, high = np.inf, -np.inf
     for folder, colour in zip(folders, palette):
         line_map = first_map(folder)
-        angles = line_map.transitions()
-        if angles is None:
-            raise SystemExit(f"{folder}: its transitions are not those of constant elastic Coulomb friction")
-        draw_transitions(axes, line_map.x, angles, colour)
-        enlarged.plot(*unwrapped(line_map.x, angles[POSITIVE, STICK]), color=colour, linewidth=1.2)
+        if line_map.cycles is None:
+            raise SystemExit(f"{folder}: its map was written by an older version; run the scene again")
+        fields.append(Field(line_map))
+        draw_lines(axes, fields[-1], colour)
+        enlarged.plot(*unwrapped(line_map.x, line_map.transitions(POSITIVE, STICK)), color=colour, linewidth=1.2)
         handles.append(Line2D([], [], color=colour, linewidth=2.5, label=label_of(folder)))
-        low, high = min(low, line_map.x[0]), max(high, line_map.x[-1])
+        low, high = min(low, fields[-1].edges[0]), max(high, fields[-1].edges[-1])
+    handles = line_handles(fields) + handles
     axes.set_xlim(low, high)
     axes_of_phase(axes)
     enlarged.set_ylabel("positive slip to stick,\nenlarged: θ [°]")

@@ -13,7 +13,6 @@ steps that turn by some 0.13 rad, so that this is accurate to some 1e-4 of the s
 """
 
 import argparse
-import json
 import os
 import sys
 
@@ -29,14 +28,13 @@ COLOURS = ["#12355b", "#c1121f", "#5b9279", "#f4a259", "#b23a6f", "#6c757d", "#3
 
 def curves_of(folder):
     """Tables of the curves of a run by name; limits are left out."""
-    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-        summary = json.load(file)
+    summary = plot_run.read_summary(os.path.join(folder, "summary.json"))
     tables = {}
     for curve in summary["curves"]:
         path = os.path.join(folder, "curves", curve["name"] + ".csv")
         if curve["name"] not in ("free", "stuck") and os.path.exists(path):
-            table = plot_run.read_table(path)
-            if table:
+            table = plot_run.read_table(path, ("frequency_Hz", "amplitude_m"))
+            if len(table["frequency_Hz"]):
                 tables[curve["name"]] = table
     return tables
 

@@ -7,11 +7,13 @@ Reads summary.json, curves/, peak_against_preload.csv and maps/*.h5; writes plot
 gives the same SVG files byte for byte. Needs no display.
 """
 
+import contextlib
 import csv
 import io
 import json
 import math
 import os
+import re
 import sys
 import traceback
 
@@ -56,22 +58,80 @@ STATES = [
 ]
 
 
-def read_table(path):
-    """Columns of a CSV file by name: floats, with `mark` and `at` as text."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    names = rows[0].keys() if rows else []
-    return {name: [row[name] for row in rows] if name in ("mark", "at")
-            else np.array([number_in(row[name], path, line, name) for line, row in enumerate(rows, 2)])
-            for name in names}
+MARKS = ("", "peak", "fold", "optimum", "flat")
+AGAIN = "the file is damaged; run the scene again"
+
+
+def shown(path):
+    """A file of the run as messages call it: with the folder it stands in."""
+    return os.path.join(*path.split(os.sep)[-2:])
+
+
+def read_table(path, needed=()):
+    """Columns of a CSV file by name: finite numbers, with `mark` and `at` as text. SystemExit where a row, a needed
+    column or a number is missing."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            lines = csv.reader(file)
+            names = next(lines, [])
+            rows = [(lines.line_num, row) for row in lines if row]
+    except FileNotFoundError:
+        raise SystemExit(f"{shown(path)} is missing; run the scene again") from None
+    except (OSError, UnicodeDecodeError, csv.Error):
+        raise SystemExit(f"{shown(path)}: cannot be read as a table: {AGAIN}") from None
+    for name in needed:
+        if name not in names:
+            raise SystemExit(f"{shown(path)}:1: column \"{name}\" is missing: {AGAIN}")
+    for line, row in rows:
+        if len(row) != len(names):
+            raise SystemExit(f"{shown(path)}:{line}: {len(row)} values under {len(names)} column names: {AGAIN}")
+    return {name: column_in([(line, row[i]) for line, row in rows], path, name) for i, name in enumerate(names)}
+
+
+def column_in(cells, path, name):
+    """The cells of one column, each with its line, as numbers or marks."""
+    if name == "at":
+        return [text for _, text in cells]
+    if name != "mark":
+        return np.array([number_in(text, path, line, name) for line, text in cells])
+    for line, text in cells:
+        if text not in MARKS:
+            raise SystemExit(f"{shown(path)}:{line}: mark: '{text}' is no mark: {AGAIN}")
+    return [text for _, text in cells]
 
 
 def number_in(text, path, line, name):
     try:
-        return float(text)
-    except (TypeError, ValueError):
-        place = os.path.join(*path.split(os.sep)[-2:])
-        raise SystemExit(f"{place}:{line}: {name}: {text!r} is no number: the file is damaged") from None
+        value = float(text)
+        if math.isfinite(value):
+            return value
+        fault = f"'{text}' is not finite"
+    except ValueError:
+        fault = f"'{text}' is no number" if text.strip() else "the value is missing"
+    raise SystemExit(f"{shown(path)}:{line}: {name}: {fault}: {AGAIN}")
+
+
+@contextlib.contextmanager
+def data_file(path):
+    """An HDF5 file of the run, open for reading. SystemExit where it, or something in it, is missing or damaged."""
+    import h5py
+    if not os.path.exists(path):
+        raise SystemExit(f"{shown(path)} is missing; run the scene again")
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except KeyError as error:
+        name = re.search(r"object '([^']*)' doesn't exist", str(error))
+        what = f"\"{name[1]}\" is missing in it" if name else "a part of it cannot be found"
+        raise SystemExit(f"{shown(path)}: {what}: {AGAIN}") from None
+    except (OSError, RuntimeError):
+        raise SystemExit(f"{shown(path)}: is cut off or no HDF5 file: {AGAIN}") from None
+
+
+def require_shape(path, name, values, shape):
+    if values.shape != shape:
+        raise SystemExit(f"{shown(path)}: \"{name}\" holds {' × '.join(map(str, values.shape))} values where "
+                         f"{' × '.join(map(str, shape))} belong: {AGAIN}")
 
 
 def save(figure, folder, name):
@@ -109,11 +169,12 @@ def log_scale(axis):
 
 
 def legend_below(figure, handles):
-    """One row under everything, in a strip of its own."""
-    inches = 0.28
+    """One row under everything, two where it would be cut off, in a strip of its own."""
+    rows = 1 if len(handles) <= 6 else 2
+    inches = 0.28 if rows == 1 else 0.44
     strip = inches / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
-    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), ncols=len(handles),
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), ncols=-(-len(handles) // rows),
                   borderaxespad=0.4, columnspacing=1.6)
 
 
@@ -122,22 +183,22 @@ class Run:
 
     def __init__(self, folder):
         self.folder = folder
-        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-            self.summary = json.load(file)
+        self.summary = read_summary(os.path.join(folder, "summary.json"))
         self.scaled = any(c.get("preload_scale") is not None for c in self.summary["curves"])
-        self.curves = []
-        for curve in self.summary["curves"]:
-            path = os.path.join(folder, "curves", curve["name"] + ".csv")
-            if curve["points"] > 0 and not os.path.exists(path):
-                raise SystemExit(f"curves/{curve['name']}.csv is missing")
-            table = read_table(path) if os.path.exists(path) else {}
-            if table:
-                self.curves.append((curve, table))
+        self.curves = [(curve, self.read_curve(curve)) for curve in self.summary["curves"] if curve["points"] > 0]
         largest = max((table["amplitude_m"].max() for _, table in self.curves), default=1.0)
         self.unit, self.size = length_unit(largest)
         loads = sorted({load_of(c) for c, _ in self.curves if is_number(load_of(c))})
         self.colours = {load: plt.cm.viridis(0.0 if len(loads) == 1 else 0.93 * i / (len(loads) - 1))
                         for i, load in enumerate(loads)}
+
+    def read_curve(self, curve):
+        path = os.path.join(self.folder, "curves", curve["name"] + ".csv")
+        table = read_table(path, ("frequency_Hz", "amplitude_m", "stable", "mark"))
+        n_rows = len(table["mark"])
+        if n_rows < curve["points"]:
+            raise SystemExit(f"{shown(path)}: {n_rows} rows, summary.json counts {curve['points']} points: {AGAIN}")
+        return table
 
     def colour(self, load):
         return self.colours[load] if is_number(load) else (FREE if load == "free" else STUCK)
@@ -148,6 +209,21 @@ class Run:
         if self.scaled:
             return f"× {load:g}"
         return f"{plain(load)} N" if load >= 0 else f"gap ({plain(load)} N)"
+
+
+def read_summary(path):
+    """summary.json, with what runs of older versions left unsaid."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            summary = json.load(file)
+    except FileNotFoundError:
+        raise SystemExit(f"{shown(path)} is missing; is this the folder of a run?") from None
+    except (OSError, ValueError):
+        raise SystemExit(f"{shown(path)}: cannot be read as JSON: {AGAIN}") from None
+    optimum = summary.get("optimum")
+    if optimum:
+        summary["optimum"] = {"found": True, "parameter": "preload", "value": optimum.get("preload_N"), **optimum}
+    return summary
 
 
 def load_of(curve):
@@ -238,7 +314,7 @@ def peaks_of(run):
     """(preload, frequency, amplitude) of the curves that have a solved peak, and the limits by name."""
     family, limits = [], {}
     for curve, _ in run.curves:
-        peak = curve["peak"]
+        peak = curve.get("peak")
         if peak is None:
             continue
         if is_number(load_of(curve)):
@@ -255,9 +331,9 @@ def trace_of(run):
 
 def trace_in(path, name):
     """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
-    table = read_table(path) if os.path.exists(path) else {}
-    if not table:
+    if not os.path.exists(path):
         return np.empty((0, 3))
+    table = read_table(path, (name, "frequency_Hz", "amplitude_m"))
     return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
 
 
@@ -338,9 +414,9 @@ def plot_peaks(run, folder):
 def plot_parameter(run, folder):
     """Peak against a number of the scene that is not the preload."""
     trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
-    if len(trace) < 2:
+    optimum = run.summary.get("optimum")
+    if len(trace) < 2 or not optimum:
         return
-    optimum = run.summary["optimum"]
     figure, column = plt.subplots(2, 1, figsize=(6.4, 4.8), layout="constrained", sharex=True,
                                   height_ratios=[1.5, 1])
     for axes, values in zip(column, (trace[:, 2] / run.size, trace[:, 1])):
@@ -386,8 +462,7 @@ class ContactMap:
     """One maps/NAME.h5, lengths of the patch in millimetres."""
 
     def __init__(self, path):
-        import h5py
-        with h5py.File(path, "r") as file:
+        with data_file(path) as file:
             self.frequency = file["frequency_Hz"][0]
             self.amplitude, self.stable = file["amplitude_m"][0], int(file["stable"][0])
             self.phase = file["phase_deg"][:]
@@ -395,9 +470,10 @@ class ContactMap:
             self.weights = file["weights"][:]
             self.points = 1e3 * file["points"][:]
             vertices, cells = 1e3 * file["vertices"][:], file["cells"][:]
-            self.cells = vertices[cells] if len(cells) else None
             self.energy = file["dissipated_energy_J_per_m2"][:]
             self.slip = 1e6 * file["slip_distance_m"][:]
+            self.require_shapes(path, vertices, cells)
+            self.cells = vertices[cells] if len(cells) else None
             self.starts, self.guards, self.vertex_state, self.lines = None, {}, None, set()
             if len(cells) and "vertex_state_starts_deg" in file:
                 self.starts = np.split(file["vertex_state_starts_deg"][:], 5, axis=1)
@@ -413,6 +489,15 @@ class ContactMap:
             self.names = self.names[::-1]
         self.corners = corners
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+
+    def require_shapes(self, path, vertices, cells):
+        n = len(self.weights)
+        require_shape(path, "points", self.points, (n, 2))
+        require_shape(path, "state", self.state, (n, len(self.phase)))
+        require_shape(path, "dissipated_energy_J_per_m2", self.energy, (n,))
+        require_shape(path, "slip_distance_m", self.slip, (n,))
+        if len(cells) and not (len(cells) == n and cells.min() >= 0 and cells.max() < len(vertices)):
+            raise SystemExit(f"{shown(path)}: \"cells\" do not fit \"vertices\": {AGAIN}")
 
     def shares(self, phase):
         """Part of the area in stick, slip, separation."""
@@ -496,13 +581,13 @@ def layout_of(contact):
     return 3 * 2.9 + 1.2, 2 * (2.9 * ratio + 0.6) + 0.8
 
 
-def state_legend(figure, contact, lines=()):
+def state_legend(figure, contact, lines=(), handles=()):
     present = set(np.unique(contact.state)) | {0, 1, 2, 3}
-    handles = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+    patches = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
                for value, name, colour in STATES if value in present]
-    handles += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
+    patches += [Line2D([], [], color="0.3", linewidth=1.0, linestyle=style, label=f"boundary: {name}")
                 for guard, (name, style) in GUARDS.items() if guard in lines]
-    legend_below(figure, handles)
+    legend_below(figure, patches + list(handles))
 
 
 def draw_states(axes, contact, angle):
@@ -596,16 +681,30 @@ def place_in_words(suffix):
     return f"solution {rest}" if first.endswith("Hz") else suffix.replace("_", " ")
 
 
-def map_tasks(run, folder):
-    """One call of plot_map per map that is there."""
+def maps_of(run):
+    """(file, title) of every map the summary names."""
     for curve, _ in run.curves:
         for name in curve.get("maps", []):
-            path = os.path.join(run.folder, "maps", name + ".h5")
-            if os.path.exists(path):
-                place = place_in_words(name[len(curve["name"]):].strip("_"))
-                word = "preload scale" if run.scaled else "preload"
-                title = f"{run.summary.get('title', '')}: {word} {run.label(load_of(curve))}, {place}"
-                yield lambda path=path, title=title: plot_map(path, folder, title)
+            place = place_in_words(name[len(curve["name"]):].strip("_"))
+            word = "preload scale" if run.scaled else "preload"
+            title = f"{run.summary.get('title', '')}: {word} {run.label(load_of(curve))}, {place}"
+            yield os.path.join(run.folder, "maps", name + ".h5"), title
+
+
+def map_tasks(run, folder):
+    """One call of plot_map per map that is there."""
+    for path, title in maps_of(run):
+        if os.path.exists(path):
+            yield lambda path=path, title=title: plot_map(path, folder, title)
+
+
+def missing_files(run):
+    """Files the summary names and the folder lacks."""
+    names = [path for path, _ in maps_of(run)] + [path[:-3] + ".pvd" for path, _ in maps_of(run)]
+    for curve, _ in run.curves:
+        stem = os.path.join(run.folder, "curves", curve["name"])
+        names += [f"{stem}_detached_{i}.csv" for i in range(1, curve.get("detached_branches", 0) + 1)]
+    return [path for path in names if not os.path.exists(path)]
 
 
 def run_shared(tasks):
@@ -621,6 +720,8 @@ def run_shared(tasks):
                 for task in tasks[first::n_processes]:
                     task()
                 code = 0
+            except SystemExit as damage:
+                print(damage, file=sys.stderr, flush=True)
             except BaseException:
                 traceback.print_exc()
             os._exit(code)
@@ -638,7 +739,12 @@ def main():
     os.makedirs(folder, exist_ok=True)
     tasks = [lambda: plot_peaks(run, folder), lambda: plot_parameter(run, folder), lambda: plot_curves(run, folder),
              *map_tasks(run, folder)]
-    return 0 if run_shared(tasks) else 1
+    drawn = run_shared(tasks)
+    missing = missing_files(run)
+    if missing:  # what is there is drawn: maps are large, and may have been removed
+        print(f"summary.json names files that are missing: {', '.join(map(shown, missing))}; run the scene again",
+              file=sys.stderr)
+    return 0 if drawn and not missing else 1
 
 
 if __name__ == "__main__":

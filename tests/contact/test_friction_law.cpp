@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace microslip::contact {
 namespace {
@@ -37,6 +40,53 @@ TEST(FrictionLaw, DerivativeIsThatOfTheValue) {
       EXPECT_NEAR(law.at(rate).by_rate, difference, 1e-11);
     }
   }
+}
+
+// Between two grades twelve values tell the coefficient everywhere.
+TEST(FrictionLaw, IsAPolynomialBetweenItsGrades) {
+  constexpr double fastest = 1e4;  // below 1e6 of the decay
+  for (const FrictionLaw& law :
+       {FrictionLaw::exponential(0.5, 0.3, 2.0), FrictionLaw::exponential(0.0, 0.6, 3.0),
+        FrictionLaw::hyperbolic(0.5, 2.0)}) {
+    std::vector<double> speeds;
+    law.grades(fastest, speeds);
+    ASSERT_FALSE(speeds.empty());
+    ASSERT_LT(speeds.back(), fastest);
+    double low = 0.0;
+    speeds.push_back(fastest);
+    for (const double high : speeds) {
+      ASSERT_GT(high, low);
+      constexpr int n = 12;
+      double largest = 0.0;
+      for (const double x : {-0.99, -0.7, -0.31, 0.05, 0.42, 0.93}) {
+        double above = 0.0;  // barycentric interpolation at Chebyshev points
+        double below = 0.0;
+        for (int i = 0; i < n; ++i) {
+          const double angle = std::numbers::pi * (i + 0.5) / n;
+          const double weight = (i % 2 == 0 ? 1.0 : -1.0) * std::sin(angle) / (x - std::cos(angle));
+          above += weight * law.at(low + 0.5 * (high - low) * (1.0 + std::cos(angle))).value;
+          below += weight;
+        }
+        const double exact = law.at(low + 0.5 * (high - low) * (1.0 + x)).value;
+        largest = std::max(largest, std::abs(above / below - exact));
+      }
+      // Of (1) from 16 to 40 times its decay and of (2) from one grade to the next: 3.6⁻¹² of μ₀.
+      EXPECT_LT(largest, 2e-7) << low;
+      low = high;
+    }
+  }
+}
+
+TEST(FrictionLaw, HasNoGradesWhereItHardlyChanges) {
+  std::vector<double> speeds{1.0};
+  FrictionLaw::constant(0.3).grades(1e9, speeds);
+  EXPECT_TRUE(speeds.empty());
+  FrictionLaw::exponential(0.3, 0.2, 1e-3).grades(999.0, speeds);
+  EXPECT_TRUE(speeds.empty());
+  FrictionLaw::exponential(0.3, 0.2, 1e-3).grades(infinity, speeds);
+  EXPECT_EQ(speeds, (std::vector<double>{1e3, 4e3, 16e3, 40e3}));
+  FrictionLaw::hyperbolic(0.3, 1e300).grades(infinity, speeds);
+  EXPECT_TRUE(std::isfinite(speeds.back()));
 }
 
 TEST(FrictionLaw, WithoutDecayIsConstant) {

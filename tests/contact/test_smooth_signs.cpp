@@ -26,7 +26,7 @@ std::vector<double> of(const std::vector<SmoothSign>& found, int function) {
 TEST(SmoothSigns, AreThoseOfBothFunctions) {
   std::vector<SmoothSign> found;
   const auto f = [](double x) -> std::array<double, 2> { return {std::sin(3.0 * x), std::cos(x)}; };
-  add_smooth_signs(f, 0.5, 2.0 * pi, {}, 0.7, 1.0, found);
+  add_smooth_signs(f, 0.5, 2.0 * pi, 0.7, 1.0, found);
   const std::vector<double> first = of(found, 0);
   ASSERT_EQ(first.size(), 5U);
   // Functions to 1e-10 of their size, slopes of 3 and 1.
@@ -45,7 +45,7 @@ TEST(SmoothSigns, APairIsFoundHoweverClose) {
     const auto f = [width](double x) -> std::array<double, 2> {
       return {std::pow(std::sin(x - 1.0), 2) - width * width, 1.0};
     };
-    add_smooth_signs(f, 0.0, 3.0, {}, 1.0, 1.0, found);
+    add_smooth_signs(f, 0.0, 3.0, 1.0, 1.0, found);
     const std::vector<double> pair = of(found, 0);
     ASSERT_EQ(pair.size(), 2U) << width;
     EXPECT_NEAR(pair[0], 1.0 - std::asin(width), 1e-10 / width);
@@ -58,24 +58,35 @@ TEST(SmoothSigns, ATouchIsNone) {
   const auto f = [](double x) -> std::array<double, 2> {
     return {0.0, 1e-6 + std::pow(x - 1.0, 2)};
   };
-  add_smooth_signs(f, 0.0, 3.0, {}, 1.0, 1.0, found);
+  add_smooth_signs(f, 0.0, 3.0, 1.0, 1.0, found);
   EXPECT_TRUE(found.empty());
 }
 
-// A layer at an end, between the end and the first point of any cell: known by its limit alone.
-TEST(SmoothSigns, ALayerIsSeenByItsLimit) {
-  for (const double width : {1e-3, 1e-5, 1e-8, 1e-12}) {
+// What changes within a cell is resolved by halving it, as long as a point of the cell sees it.
+TEST(SmoothSigns, AreFoundInALayer) {
+  for (const double width : {0.3, 1e-1, 2e-2, 1e-2}) {
     std::vector<SmoothSign> found;
     const auto f = [width](double x) -> std::array<double, 2> {
       return {1.0 - 2.0 * std::exp((x - 1.0) / width), 1.0};
     };
-    SmoothEnds ends;
-    ends.end = std::array<double, 2>{-1.0, 1.0};
-    add_smooth_signs(f, 0.0, 1.0, ends, 1.0, 1.0, found);
+    add_smooth_signs(f, 0.0, 1.0, 1.0, 1.0, found);
     const std::vector<double> change = of(found, 0);
     ASSERT_EQ(change.size(), 1U) << width;
-    // Cells are no narrower than 0.5e-9.
-    EXPECT_NEAR(change[0], 1.0 - width * std::numbers::ln2, 1e-9 + 1e-6 * width) << width;
+    EXPECT_NEAR(change[0], 1.0 - width * std::numbers::ln2, 1e-10) << width;
+  }
+}
+
+// An interval may be as short as it likes: it is told by offsets, and rates are large on it.
+TEST(SmoothSigns, AreFoundInAShortInterval) {
+  for (const double length : {1e-9, 1e-30, 1e-200}) {
+    std::vector<SmoothSign> found;
+    const auto f = [length](double x) -> std::array<double, 2> {
+      return {(x / length - 0.3) / length, 1.0};
+    };
+    add_smooth_signs(f, 0.0, length, 1.0, 1.0, found);
+    const std::vector<double> change = of(found, 0);
+    ASSERT_EQ(change.size(), 1U) << length;
+    EXPECT_NEAR(change[0] / length, 0.3, 1e-10) << length;
   }
 }
 

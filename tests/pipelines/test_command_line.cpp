@@ -134,6 +134,7 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
   expect("run scene.toml -j 0", 1, {"--jobs"});
   expect("run scene.toml -j many", 1, {"--jobs"});
   expect("run scene.toml -q -v", 1, {"--quiet"});
+  expect("run scene.toml -o ''", 1, {"--output", "expected a name"});
   expect("check a.toml b.toml", 1, {"b.toml"});
   expect("mesh scene.toml", 1, {"--output"});
   expect("check scene.toml --set", 1, {"--set"});
@@ -208,13 +209,22 @@ TEST_F(Program, NamesBadScenes) {
   write(path("scene.toml"), scene_text);
   expect("check ''", 1, {"no such file"});
   expect("check none.toml", 1, {"none.toml: no such file"});
-  expect("check .", 1, {"not a file"});
+  expect("check .", 1, {"is a folder, not a file"});
   expect(std::string("check ").append(4200, 'x'), 1, {"too long"});
   expect("check scene.toml --set modal.frequncy=1", 1, {"--set modal.frequncy=1", "\"frequency\""});
   write(path("broken.toml"), std::string(scene_text) + "density = 1e\n");
   expect("check broken.toml", 1, {"broken.toml:11:"});
   write(path("mesh.toml"), run("init mesh").out);
   expect("check mesh.toml", 1, {"blade.msh", "no such file"});
+}
+
+TEST_F(Program, WarnsOfAStructureThatNothingExcitesOrDamps) {
+  write(path("scene.toml"), scene_text);
+  const auto told = [&](const std::string& settings) { return run("check scene.toml" + settings).out; };
+  EXPECT_EQ(told("").find("warning"), std::string::npos) << told("");
+  EXPECT_NE(told(" --set modal.force_sine=[0,0]").find("warning: no force excites"), std::string::npos);
+  EXPECT_NE(told(" --set modal.damping_ratio=[0.01,0]").find("warning: a mode has no damping"), std::string::npos);
+  expect("check scene.toml --set 'modal.frequency=[1e200, 2]'", 1, {"scene.toml: a natural frequency"});
 }
 
 TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
@@ -229,6 +239,7 @@ TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
   EXPECT_TRUE(exists("m.msh"));
   expect("check blade.toml --set contact.surface=contct" + coarse, 1, {"contct", "\"contact\""});
   expect("mesh blade.toml -o no/such/folder/b.msh", 4, {"no/such/folder"});
+  expect("mesh blade.toml -o b.vtk", 1, {"-o b.vtk", ".msh"});
 }
 
 TEST_F(Program, ReadsPathsWithSpacesAndLetters) {
@@ -273,7 +284,7 @@ TEST_F(Program, PlotsCyclesIntoAFolder) {
   }
   EXPECT_EQ(run("cycle t.csv --plot other --dry-run").code, 0);
   EXPECT_FALSE(exists("other"));
-  expect("cycle t.csv --plot t.csv/below", 4, {"t.csv/below"});
+  expect("cycle t.csv --plot t.csv/below", 1, {"t.csv/below", "is a file"});
   expect("cycle t.csv --plot ''", 1, {"--plot", "folder"});
 }
 
@@ -301,13 +312,48 @@ TEST_F(Program, AFullDiskIsExitFour) {
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 4);
   EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
+  write(path("scene.toml"), scene_text);
+  command = "cd '" + folder() + "' && '" MICROSLIP_PROGRAM "' run scene.toml -q --json > /dev/full 2> err";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
+}
+
+/// Who reads the progress may leave before the end.
+TEST_F(Program, ARunOutlivesTheReaderOfItsProgress) {
+  write(path("scene.toml"), scene_text);
+  const std::string command = "cd '" + folder() + "' && { '" MICROSLIP_PROGRAM "' run scene.toml -o out 2>&1; "
+                              "echo $? > code; } | true";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(content_of(path("code")), "0\n");
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
 }
 
 TEST_F(Program, AnOutputThatCannotBeMadeIsExitFour) {
   write(path("scene.toml"), scene_text);
-  write(path("t.csv"), table_header);
-  expect("run scene.toml -o scene.toml/below", 4, {"scene.toml/below"});
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
   expect("cycle t.csv -o no/such/folder/t.json", 4, {"no/such/folder"});
+}
+
+/// Not for want of disk: the command line names the wrong thing.
+TEST_F(Program, AnOutputOfAnotherKindIsBadInput) {
+  write(path("scene.toml"), scene_text);
+  write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
+  for (const char* command : {"run", "modes"}) {
+    expect(std::string(command) + " scene.toml -o t.csv", 1, {"-o t.csv", "is a file", "expected the name of a folder"});
+    expect(std::string(command) + " scene.toml -o t.csv/below", 1, {"-o t.csv/below", "t.csv is a file"});
+  }
+  std::filesystem::create_directory(path("folder"));
+  expect("cycle t.csv -o folder", 1, {"-o folder", "is a folder"});
+  expect("cycle t.csv --plot scene.toml", 1, {"--plot scene.toml", "is a file"});
+  EXPECT_EQ(content_of(path("scene.toml")), scene_text);
+}
+
+TEST_F(Program, ATableWithoutRowsIsAnEmptyListAndANotice) {
+  write(path("t.csv"), table_header);
+  const Outcome outcome = run("cycle t.csv");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "[]\n");
+  EXPECT_NE(outcome.err.find("warning: t.csv: no rows below the header"), std::string::npos) << outcome.err;
 }
 
 // ---- run on a modal scene
@@ -367,7 +413,7 @@ TEST_F(Program, ARunReplacesAnEarlierOneWhole) {
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
-         {"rigid-body", "contact points"});
+         {"scene.toml: rigid-body", "contact points"});
   EXPECT_EQ(content_of(path(".err")).find("supports"), std::string::npos) << "a modal scene has none";
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
 }

@@ -109,6 +109,12 @@ TEST(OptimumSearch, WidensTheRangeByTheFactorOfFriction) {
     EXPECT_LE(other.trace.front().parameter, 0.4 / std::max(1.0, factor) * (1.0 + 1e-9));
     EXPECT_GE(other.trace.back().parameter, 1.0 / std::min(1.0, factor) * (1.0 - 1e-9));
   }
+  for (const OptimumOfFactor& one : found.bracket.entries) {  // and it is told
+    const bool friction = one.parameter == "friction_coefficient";
+    EXPECT_EQ(one.widened, friction) << one.parameter;
+    EXPECT_EQ(one.range[0], 0.4 / (friction ? std::max(1.0, one.factor) : 1.0));
+    EXPECT_EQ(one.range[1], 1.0 / (friction ? std::min(1.0, one.factor) : 1.0));
+  }
 }
 
 TEST(OptimumSearch, KeepsGapsUnderAnotherStiffness) {

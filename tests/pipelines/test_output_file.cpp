@@ -9,6 +9,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -108,6 +109,49 @@ TEST(OutputFile, FileInPlaceOfAFolderIsRefused) {
   write_whole(folder.path() / "runs", "x");
   EXPECT_THROW(make_folder(folder.path() / "runs"), ExhaustedError);
   EXPECT_THROW(make_folder(folder.path() / "runs" / "deeper"), ExhaustedError);
+}
+
+std::string refusal_of(const std::function<void()>& question) {
+  try {
+    question();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OutputFile, NamesThatCannotBeFoldersOrFilesAreBadInput) {
+  const synthetic::Folder folder("output_names");
+  const std::filesystem::path file = folder.path() / "a.txt";
+  write_whole(file, "x");
+  for (const auto& path : {file, file / "below", file / "below" / "deeper"}) {
+    const std::string said = refusal_of([&] { require_folder_name(path, "-o"); });
+    EXPECT_NE(said.find("-o " + path.string()), std::string::npos) << said;
+    EXPECT_NE(said.find(file.string() + " is a file"), std::string::npos) << said;
+  }
+  EXPECT_NE(refusal_of([&] { require_file_name(folder.path(), "-o"); }).find("is a folder"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { require_file_name(file / "b.txt", "-o"); }).find("is a file"), std::string::npos);
+  for (const auto& path : {folder.path(), folder.path() / "new" / "one", std::filesystem::path("new")}) {
+    EXPECT_EQ(refusal_of([&] { require_folder_name(path, "-o"); }), "");
+  }
+  EXPECT_EQ(refusal_of([&] { require_file_name(file, "-o"); }), "");
+  EXPECT_EQ(refusal_of([&] { require_file_name("b.txt", "-o"); }), "");
+}
+
+TEST(OutputFile, LinksAreFollowedAndDevicesStay) {
+  const synthetic::Folder folder("output_links");
+  write_whole(folder.path() / "a.txt", "old");
+  std::filesystem::create_symlink(folder.path() / "a.txt", folder.path() / "link");
+  write_whole(folder.path() / "link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(content_of(folder.path() / "a.txt"), "new");
+  std::filesystem::create_symlink("/dev/null", folder.path() / "null");
+  write_whole(folder.path() / "null", "x");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "null"));
+  if (!std::filesystem::exists("/dev/full")) return;
+  std::filesystem::create_symlink("/dev/full", folder.path() / "full");
+  EXPECT_NE(message_of(folder.path() / "full").find("No space left"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "full"));
 }
 
 TEST(OutputFile, WritableFolderStaysEmptyAfterAsking) {

@@ -522,6 +522,34 @@ TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
                    {"preload_moment", "one of the two"});
 }
 
+/// What is no TOML has no keys to ask for; the message names the one it breaks off in all the same.
+TEST(SceneFile, WhatIsNoTomlIsToldByLineColumnAndKey) {
+  const auto said = [](const std::string& from, const std::string& to) { return complaint(replaced(modal_text, from, to)); };
+  EXPECT_EQ(said("[15.9, 41.4]", "[15.9,\n 1e400]"),
+            "scene.toml:5:7: modal.frequency: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "size");
+  EXPECT_NE(said("weight = 2", "weight = 2.").find("scene.toml:11:16: modal.points.weight: "), std::string::npos)
+      << said("weight = 2", "weight = 2.");
+  EXPECT_NE(said("frequency = 20", "frequency = 99999999999999999999").find("response.frequency: 9999999999999999999"),
+            std::string::npos);
+  EXPECT_NE(said("frequency = 20", "frequency = \"20").find("response.frequency: "), std::string::npos);
+  EXPECT_NE(said("damping_ratio = 0.01", "frequency = 0.01").find("modal.frequency: "), std::string::npos);
+  EXPECT_EQ(complaint(modal_text, {"modal.frequency=[1e400, 3]"}),
+            "--set modal.frequency=[1e400, 3]: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "size");
+  EXPECT_NE(complaint(modal_text, {"response.search_starts=many"}).find("expected a whole number, 0 to 1000"),
+            std::string::npos)
+      << complaint(modal_text, {"response.search_starts=many"});
+}
+
+TEST(SceneFile, TablesAndFormulasOfThePatchAreReadWithTheScene) {
+  const Overrides missing{"contact.friction_coefficient={file=\"none.csv\"}"};
+  EXPECT_NE(complaint(blade_text, missing).find("/nowhere/none.csv: no such file"), std::string::npos)
+      << complaint(blade_text, missing);
+  EXPECT_NE(complaint(blade_text, {"contact.preload_field=1+sqt(p)"}).find("character 3: \"sqt\" is not known"),
+            std::string::npos);
+}
+
 TEST(SceneFile, NegativeScalesWouldTurnGapsIntoPressure) {
   expect_complaint(complaint(modal_text, {"response.preload_scale=[1, -1]"}), {"preload_scale", "at least 0"});
   EXPECT_EQ(parse(modal_text, {"response.preload_scale=[0, 2]"}).response->preload_scale,

@@ -81,6 +81,27 @@ TEST(TimeResponse, TooFewStepsAreRefusedWithTheNumberNeeded) {
   }
 }
 
+TEST(TimeResponse, TooFewStepsAreKnownBeforeACurveIsTraced) {
+  const auto complaint = [](const Overrides& overrides) -> std::string {
+    const SceneDescription scene = parse_scene(bilinear, "scene.toml", "/nowhere", overrides);
+    ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+    model.effects = contact_effects(model, scene);
+    try {
+      require_curves(model, scene);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  // The stuck mass moves at √(40²π² + 5e4)/2π = 40.8 Hz: π·40.8/13 = 9.85 steps at 13 Hz, 3.2 at 40 Hz.
+  const std::string few = complaint({"response.frequency=[40, 13]", "response.steps_per_period=9"});
+  EXPECT_NE(few.find("--set response.steps_per_period=9: response.steps_per_period: 9 steps"), std::string::npos) << few;
+  EXPECT_NE(few.find("40.8"), std::string::npos) << few;
+  EXPECT_NE(few.find("at 13 Hz excitation that takes at least 10"), std::string::npos) << few;
+  EXPECT_EQ(complaint({"response.frequency=[40, 13]", "response.steps_per_period=10"}), "");
+  EXPECT_EQ(complaint({"response.frequency=[40, 13]"}), "");
+}
+
 TEST(TimeResponse, StepsAreForIntegrationInTime) {
   const Overrides overrides{"response.steps_per_period=500", "response.method=harmonic_balance"};
   EXPECT_THROW(static_cast<void>(parse_scene(bilinear, "scene.toml", "/nowhere", overrides)), SceneError);

@@ -4,6 +4,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "pipelines/child_process.hpp"
 #include "pipelines/output_file.hpp"
@@ -48,7 +51,8 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   OptimumSummary& found = run.optimum.emplace();
   found.request.key = "preload";
   found.optimum = optimum;
-  found.bracket.entries = {{"contact_stiffness", 2.0, optimum}};
+  found.bracket.entries = {{"contact_stiffness", 2.0, optimum, {100.0, 400.0}, false},
+                           {"friction_coefficient", 0.5, optimum, {100.0, 800.0}, true}};
   found.bracket.left_out = {"friction_coefficient: friction is a law of the slip speed"};
   write_optimum_csv(folder, found.request, optimum);
   for (const CurveResult& curve : curves) {
@@ -88,6 +92,8 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("| free | 296.0000 | 0.0002 |"), std::string::npos) << report;
   EXPECT_NE(report.find("Best preload: 200 N"), std::string::npos) << report;
   EXPECT_NE(report.find("Not varied: friction_coefficient"), std::string::npos) << report;
+  EXPECT_NE(report.find("| friction_coefficient × 0.5 (searched wider: 100 … 800) |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| contact_stiffness × 2 |"), std::string::npos) << report;
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
 
@@ -97,7 +103,7 @@ TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {
   write_whole(folder.path() / "curves" / "free.csv", "frequency_Hz,amplitude_m\nx,y\n");
   const auto warnings = write_report(folder.path());
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("is no number: the file is damaged"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("curves/free.csv:1: column \"stable\" is missing"), std::string::npos) << warnings[0];
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.md"));
   EXPECT_THROW(rebuild_report(folder.path()), std::runtime_error);
 }
@@ -109,6 +115,105 @@ TEST(WriteReport, FolderWithoutARunIsNamed) {
   EXPECT_THROW(rebuild_report(folder.path()), SceneError);
   write_whole(folder.path() / "summary.json", "{\"program\": 1}");
   EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+}
+
+/// What `report` says of a damaged run folder; nothing where it finds no fault.
+std::string complaint_of(const std::filesystem::path& folder) {
+  try {
+    rebuild_report(folder);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(text.find(part), std::string::npos) << "\"" << text << "\" lacks " << part;
+  }
+  for (const char* raw : {"json.exception", "Traceback", "Error:", "Unable to"}) {
+    EXPECT_EQ(text.find(raw), std::string::npos) << text;
+  }
+}
+
+void replace_in(const std::filesystem::path& file, const std::string& old_text, const std::string& new_text) {
+  std::string text = content_of(file);
+  const auto at = text.find(old_text);
+  ASSERT_NE(at, std::string::npos) << file;
+  write_whole(file, text.replace(at, old_text.size(), new_text));
+}
+
+TEST(WriteReport, CellsWithoutANumberAreNamedByFileLineAndColumn) {
+  const synthetic::Folder folder("report_cells");
+  write_run(folder.path());
+  const std::filesystem::path file = folder.path() / "curves" / "preload_100.csv";
+  const std::string whole = content_of(file);
+  const std::string second = whole.substr(whole.find('\n') + 1);
+  const std::string frequency = second.substr(0, second.find(','));
+  replace_in(file, "\n" + frequency + ",", "\nnan,");
+  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: frequency_Hz: 'nan' is not finite"});
+  write_whole(file, whole);
+  replace_in(file, "\n" + frequency + ",", "\n,");
+  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: frequency_Hz: the value is missing"});
+  write_whole(file, whole);
+  replace_in(file, "\n" + frequency + ",", "\n");
+  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: 16 values under 17 column names"});
+  replace_in(file, "amplitude_m", "amplitude");
+  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:1: column \"amplitude_m\" is missing"});
+  std::filesystem::remove(file);
+  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv is missing"});
+}
+
+TEST(WriteReport, MissingAndDamagedMapsAreNamed) {
+  const synthetic::Folder folder("report_maps");
+  write_run(folder.path(), Maps::one);
+  const std::filesystem::path file = folder.path() / "maps" / "preload_100_peak.h5";
+  write_whole(file, content_of(file).substr(0, 3000));
+  expect_parts(complaint_of(folder.path()), {"maps/preload_100_peak.h5: is cut off or no HDF5 file"});
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots" / "curves.svg"));  // which needs no map
+  std::filesystem::remove(file);
+  expect_parts(complaint_of(folder.path()), {"missing: maps/preload_100_peak.h5"});
+}
+
+TEST(WriteReport, DamagedSummariesAreNamedByPlace) {
+  const synthetic::Folder folder("report_summary");
+  write_run(folder.path());
+  const std::filesystem::path file = folder.path() / "summary.json";
+  const std::string whole = content_of(file);
+  write_whole(file, whole.substr(0, whole.size() / 2));
+  expect_parts(complaint_of(folder.path()), {file.string() + ":", "the file ends too early"});
+  write_whole(file, "{\n  \"curves\": nonsense\n}");
+  expect_parts(complaint_of(folder.path()), {file.string() + ":2:14: no JSON from here on"});
+  write_whole(file, whole);
+  replace_in(file, "\"complete\": true", "\"complete\": 7");
+  expect_parts(complaint_of(folder.path()), {"summary.json: curves[0].complete: expected true or false, found 7"});
+  write_whole(file, whole);
+  replace_in(file, "\"complete\"", "\"finished\"");
+  expect_parts(complaint_of(folder.path()), {"summary.json: curves[0]: \"complete\" is missing"});
+  write_whole(file, " \n");
+  expect_parts(complaint_of(folder.path()), {"summary.json: empty"});
+}
+
+TEST(WriteReport, RunsOfOlderVersionsAreReported) {
+  using Json = nlohmann::ordered_json;
+  const synthetic::Folder folder("report_older");
+  write_run(folder.path());
+  const std::filesystem::path file = folder.path() / "summary.json";
+  Json run = Json::parse(content_of(file));
+  Json& optimum = run["optimum"];
+  for (const char* key : {"at", "flat", "objection", "bracket_left_out", "notes", "method"}) {
+    optimum.erase(key);
+    for (Json& entry : optimum["bracket"]) entry.erase(key);
+  }
+  write_whole(file, run.dump());
+  EXPECT_EQ(complaint_of(folder.path()), "");
+  EXPECT_NE(content_of(folder.path() / "report.md").find("Best preload: 200 N, peak 4e-05 m"), std::string::npos);
+  optimum = {{"preload_N", 200.0}, {"amplitude_m", 4e-5}, {"frequency_Hz", 310.0}};
+  for (const char* key : {"title", "message", "warnings", "stages", "machine", "libraries", "effects"}) run.erase(key);
+  write_whole(file, run.dump());
+  EXPECT_EQ(complaint_of(folder.path()), "");
+  EXPECT_NE(content_of(folder.path() / "report.md").find("Best preload: 200 N, peak 4e-05 m at 310.0000 Hz."),
+            std::string::npos);
 }
 
 TEST(ChildProcess, FailureIsTheLastLineOfItsOutput) {

@@ -158,14 +158,34 @@ class Bar(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join(cycle.folder, "plots", "map_scale_1_1000Hz_1.png")))
         position = plot_bar.line_positions(cycle.folder)
         line_map = plot_bar.LineMap(cycle.folder, "scale_1_1000Hz_1", position)
-        angles = line_map.transitions()
-        drawn = angles[plot_bar.POSITIVE, plot_bar.STICK]
+        drawn = line_map.transitions(plot_bar.POSITIVE, plot_bar.STICK)
         np.testing.assert_array_equal(~np.isnan(drawn), cycle.slips)
-        # A parabola through three instants of a sine errs by a step cubed: 2e-9 rad.
+        # Both are the angle of one complex number: rounding of states written with 17 digits, in degrees.
         self.assertLess(np.abs(drawn - cycle.angle)[cycle.slips].max(), 1e-6)
+        begins = line_map.transitions(plot_bar.STICK, plot_bar.POSITIVE)
         for point in np.flatnonzero(cycle.slips):  # the state written at 90° is the one drawn there
-            slipping = angles[plot_bar.STICK, plot_bar.POSITIVE][point] < 90 < drawn[point]
+            slipping = begins[point] < 90 < drawn[point]
             self.assertEqual(line_map.state[point, np.argmin(np.abs(line_map.phase - 90))], int(slipping))
+
+    def test_field_and_lines_of_a_bar_are_one_drawing(self):
+        """What is drawn at an instant of the map is the state written there."""
+        sys.path.insert(0, os.path.join(SOURCE, "share", "scripts"))
+        import plot_bar
+        from matplotlib.path import Path
+        cycle = BarCycle("quadratic", 1000, 150, "count=10", maps="['1000 Hz']")
+        line_map = plot_bar.LineMap(cycle.folder, "scale_1_1000Hz_1", plot_bar.line_positions(cycle.folder))
+        field = plot_bar.Field(line_map)
+        areas = [(Path(corners), colour) for corners, colour in zip(field.polygons, field.colours)]
+        names = {"stick to slip", "slip to stick"}
+        self.assertEqual({plot_bar.KINDS[kind][0] for kind, _, _ in field.lines}, names)
+        for point in range(0, len(line_map.x), 7):
+            for phase in range(0, len(line_map.phase), 5):
+                at = (line_map.x[point] + 1e-6, line_map.phase[phase] + 0.01)  # off the borders of areas
+                colours = [colour for area, colour in areas if area.contains_point(at)]
+                starts = np.array([angle for _, angle in line_map.cycles[point]])
+                if starts.size and np.abs((starts - at[1] + 180) % 360 - 180).min() < 0.5:
+                    continue
+                self.assertEqual(colours[-1], plot_bar.COLOURS[line_map.state[point, phase]], at)  # the one on top
 
     def test_points_are_certified(self):
         point = BarCycle("quadratic", 3100, 250, "count=10").point

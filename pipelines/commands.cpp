@@ -1,0 +1,165 @@
+#include "pipelines/commands.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <system_error>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "fem/slepc_session.hpp"
+#include "pipelines/cycle_plot.hpp"
+#include "pipelines/cycle_table.hpp"
+#include "pipelines/exit_code.hpp"
+#include "pipelines/interrupt.hpp"
+#include "pipelines/output_file.hpp"
+#include "pipelines/scene_file.hpp"
+#include "pipelines/scene_template.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+RunOptions options_of(const Arguments& arguments, const std::filesystem::path& output) {
+  RunOptions options;
+  options.output = output;
+  options.jobs = arguments.jobs;
+  options.rank = arguments.rank;
+  if (arguments.quiet) options.verbosity = Verbosity::quiet;
+  if (arguments.verbose) options.verbosity = Verbosity::verbose;
+  return options;
+}
+
+/// runs/STEM in the working folder, where -o names none.
+void choose_run_folder(Arguments& arguments) {
+  if (!arguments.output.empty()) return;
+  const std::filesystem::path stem = std::filesystem::path(arguments.input).stem();
+  arguments.output = (std::filesystem::path("runs") / stem).string();
+}
+
+SceneDescription scene_of(const Arguments& arguments) {
+  return read_scene(arguments.input, arguments.overrides);
+}
+
+/// To the file given with -o, whole or not at all; else to standard output.
+void put_out(const Arguments& arguments, const std::string& text) {
+  if (arguments.output.empty()) {
+    std::cout << text;
+  } else {
+    write_whole(arguments.output, text);
+  }
+}
+
+}  // namespace
+
+void refuse_idle_options(const Arguments& arguments) {
+  const auto refuse_later = [](bool given, const char* name) {
+    if (given) throw SceneError(fmt::format("{} is not available in this version", name));
+  };
+  refuse_later(arguments.resume, "--resume");
+  refuse_later(!arguments.tolerance.empty(), "--tolerance");
+  refuse_later(!arguments.budget.empty(), "--budget");
+  const bool reads_scene =
+      arguments.command != "init" && arguments.command != "cycle" && arguments.command != "report";
+  if (!reads_scene && !arguments.overrides.empty()) {
+    throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
+  }
+  if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report")) {
+    throw SceneError(fmt::format("--dry-run: {} has nothing to leave out", arguments.command));
+  }
+}
+
+/// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
+int check(Arguments& arguments) {
+  const SceneDescription scene = scene_of(arguments);
+  watch_for_interrupts();
+  const CheckResult result = check_study(scene, std::cout);
+  const Forecast& forecast = result.forecast;
+  nlohmann::ordered_json& cost = arguments.findings["forecast"];
+  cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},
+          {"modes_seconds", forecast.modes_seconds},
+          {"curves_seconds", forecast.curves_seconds},
+          {"memory_GB", forecast.memory_gb}};
+  if (forecast.curves_seconds_along_r) cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
+  nlohmann::ordered_json& effects = arguments.findings["effects"] = nlohmann::ordered_json::array();
+  for (const EffectRecord& effect : result.effects) {
+    effects.push_back({{"name", effect.name},
+                       {"setting", effect.setting},
+                       {"simulated", effect.simulated},
+                       {"reason", effect.reason}});
+  }
+  arguments.findings["warnings"] = result.warnings;
+  return static_cast<int>(ExitCode::complete);
+}
+
+int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
+  if (arguments.dry_run) return check(arguments);
+  const SceneDescription scene = scene_of(arguments);
+  choose_run_folder(arguments);
+  require_folder_name(arguments.output, "-o");
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may leave; the run is for its folder
+  std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
+  if (!std::holds_alternative<ModalModel>(scene.model)) {
+    session = std::make_unique<fem::SlepcSession>();
+    arguments.rank = session->rank();
+  }
+  watch_for_interrupts();  // after MPI, which sets handlers of its own
+  return study(scene, options_of(arguments, arguments.output));
+}
+
+int mesh(Arguments& arguments) {
+  if (arguments.dry_run) return check(arguments);
+  const SceneDescription scene = scene_of(arguments);
+  if (!std::holds_alternative<BladeModel>(scene.model)) {
+    throw SceneError(scene.file.string() +
+                     ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
+  }
+  require_file_name(arguments.output, "-o");
+  if (std::filesystem::path(arguments.output).extension() != ".msh") {
+    throw SceneError(fmt::format("-o {}: expected a name that ends in .msh: gmsh's format is written", arguments.output));
+  }
+  const std::filesystem::path file = std::filesystem::absolute(arguments.output);
+  if (!std::filesystem::is_directory(file.parent_path())) {
+    throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
+  }
+  require_writable(file.parent_path());  // before the mesher works for nothing
+  watch_for_interrupts();
+  return mesh_study(scene, options_of(arguments, arguments.output));
+}
+
+int init(const Arguments& arguments) {
+  const std::string text = scene_template(arguments.input.empty() ? "blade" : arguments.input);
+  std::error_code ignored;  // a path that cannot be looked at cannot be written either: said there
+  if (!arguments.output.empty() && std::filesystem::exists(arguments.output, ignored)) {
+    throw SceneError(arguments.output + ": exists; init overwrites nothing");
+  }
+  if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
+  put_out(arguments, text);
+  return 0;
+}
+
+int cycle(const Arguments& arguments) {
+  if (arguments.plot_folder && arguments.plot_folder->empty()) {
+    throw SceneError("--plot: expected the name of a folder");
+  }
+  if (arguments.plot_folder) require_folder_name(*arguments.plot_folder, "--plot");
+  if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
+  const CsvTable table = CsvTable::read(arguments.input);
+  const std::string json = cycles_as_json(table, arguments.harmonics);
+  if (table.n_rows() == 0) {
+    std::cerr << fmt::format("warning: {}: no rows below the header: there is no cycle to compute\n", table.name());
+  }
+  std::vector<CyclePlot> plots;
+  if (arguments.plot_folder) plots = cycle_plots(table);
+  if (arguments.dry_run) {
+    std::cout << fmt::format("{} points; every row is complete\n", table.n_rows());
+    return 0;
+  }
+  if (arguments.plot_folder) write_cycle_plots(plots, *arguments.plot_folder);
+  put_out(arguments, json);
+  if (arguments.plot_folder) draw_cycle_plots(plots, *arguments.plot_folder);
+  return 0;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,48 @@
+/// @file
+/// The commands of the program: what was typed, and the studies it asks for.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pipelines/study.hpp"
+
+namespace microslip::pipelines {
+
+struct Arguments {
+  std::string command;
+  std::string input;  // scene, table, kind or folder
+  std::string output;
+  std::vector<std::string> overrides;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::optional<int> harmonics;
+  std::optional<std::string> plot_folder;
+  std::string tolerance;
+  std::string budget;
+  bool resume = false;
+  bool dry_run = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;
+  int rank = 0;
+  nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // of `check`, for --json
+};
+
+/// Options this version does not have, or that say nothing to the command: refused, never ignored.
+/// @throws SceneError  one of them is given.
+void refuse_idle_options(const Arguments& arguments);
+
+// One command each. All return the exit code and throw what exit_code_of() knows.
+int check(Arguments& arguments);
+/// `run` and `modes`, by the study.
+int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&));
+int mesh(Arguments& arguments);
+int init(const Arguments& arguments);
+int cycle(const Arguments& arguments);
+
+}  // namespace microslip::pipelines

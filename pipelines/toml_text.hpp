@@ -1,0 +1,19 @@
+/// @file
+/// The text of a scene as TOML, with mistakes told by line, column and the key they stand under.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <toml++/toml.h>
+
+namespace microslip::pipelines {
+
+/// @param name  how messages call the text, e.g. the file.
+/// @throws SceneError  not TOML: "name:line:column: section.key: …".
+[[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& name);
+
+/// What is wrong, in the words of scenes: numbers too large for their type are told as such.
+[[nodiscard]] std::string description_of(const toml::parse_error& error);
+
+}  // namespace microslip::pipelines
