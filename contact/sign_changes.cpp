@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "contact/vector_lanes.hpp"
+
 namespace microslip::contact {
 namespace {
 
@@ -33,7 +35,7 @@ struct Grid {
   std::vector<double> cos;
 };
 
-// Sixteen cells per shortest wave: there the cubic is good to 6e-5 of M / H⁴.
+// Sixteen cells per shortest wave: there the cubic is good to 6e-5 of M / H⁴. A multiple of all lanes.
 constexpr int cells_per_wave = 16;
 
 const Grid& grid(int order) {
@@ -204,6 +206,70 @@ class Isolation {
   double rounding_;
 };
 
+// What the sampling of a polynomial reads and writes: directions of n nodes, coefficients of harmonics 1 to
+// `order`; n is a multiple of the lanes.
+struct Sampling {
+  std::size_t n;
+  const double* sin_node;
+  const double* cos_node;
+  int order;
+  double mean;
+  const double* sin;
+  const double* cos;
+  double* value;
+  double* slope;
+};
+
+// W nodes side by side: their sums stay in registers from the highest harmonic to the first.
+//   sum ← (sum + s_h + i c_h) e^{iθ}:   p = p₀ + Im Σ C_h z^h,   p' = Re Σ h C_h z^h
+template <int W>
+MICROSLIP_INLINE void sample_nodes(const Sampling& p) {
+  using Vector = typename Lanes<W>::Vector;
+  for (std::size_t i = 0; i < p.n; i += W) {
+    const Vector sin = lanes_at<W>(p.sin_node + i);
+    const Vector cos = lanes_at<W>(p.cos_node + i);
+    Vector re{};
+    Vector im{};
+    Vector re_slope{};
+    Vector im_slope{};
+    for (int h = p.order; h >= 1; --h) {
+      const Vector x = re + p.sin[h - 1];
+      const Vector y = im + p.cos[h - 1];
+      re = x * cos - y * sin;
+      im = x * sin + y * cos;
+      const Vector dx = re_slope + h * p.sin[h - 1];
+      const Vector dy = im_slope + h * p.cos[h - 1];
+      re_slope = dx * cos - dy * sin;
+      im_slope = dx * sin + dy * cos;
+    }
+    lanes_at<W>(p.value + i) = im + p.mean;
+    lanes_at<W>(p.slope + i) = re_slope;
+  }
+}
+
+struct Sampler {
+  void (*sample)(const Sampling&);
+};
+
+void sample_plain(const Sampling& p) { sample_nodes<2>(p); }
+constexpr Sampler plain{sample_plain};
+#if defined(__x86_64__)
+[[gnu::target("avx2,fma")]] void sample_avx2(const Sampling& p) { sample_nodes<4>(p); }
+[[gnu::target("avx512f,fma")]] void sample_avx512(const Sampling& p) { sample_nodes<8>(p); }
+constexpr Sampler avx2_sampler{sample_avx2};
+constexpr Sampler avx512_sampler{sample_avx512};
+constexpr const Sampler* avx2 = &avx2_sampler;
+constexpr const Sampler* avx512 = &avx512_sampler;
+#else
+constexpr const Sampler* avx2 = nullptr;
+constexpr const Sampler* avx512 = nullptr;
+#endif
+
+const Sampler& fastest_sampler() {
+  static const Sampler& fastest = *runnable_kernels(plain, avx2, avx512).back();
+  return fastest;
+}
+
 // Values and slopes on the grid by Horner's rule, all nodes side by side; the first node stands
 // again at the end.
 class Samples {
@@ -211,15 +277,10 @@ class Samples {
   void take(const TrigonometricPolynomial& p, int order) {
     const Grid& g = grid(order);
     n_ = g.sin.size();
-    for (std::vector<double>* part : {&value_, &slope_, &re_, &im_slope_}) {
-      part->assign(n_ + 1, 0.0);
-    }
-    for (int h = order; h >= 1; --h) {
-      add_harmonic(g, h, p.sin(h), p.cos(h));
-    }
-    for (std::size_t i = 0; i < n_; ++i) {
-      value_[i] += p.mean();
-    }
+    value_.resize(n_ + 1);
+    slope_.resize(n_ + 1);
+    fastest_sampler().sample({n_, g.sin.data(), g.cos.data(), order, p.mean(), p.sines(),
+                              p.cosines(), value_.data(), slope_.data()});
     value_[n_] = value_[0];
     slope_[n_] = slope_[0];
   }
@@ -250,32 +311,9 @@ class Samples {
   }
 
  private:
-  void add_harmonic(const Grid& g, int h, double s, double c) {
-    double* __restrict re = re_.data();
-    double* __restrict im = value_.data();
-    double* __restrict re_slope = slope_.data();
-    double* __restrict im_slope = im_slope_.data();
-    const double* __restrict sin = g.sin.data();
-    const double* __restrict cos = g.cos.data();
-    const double hs = h * s;
-    const double hc = h * c;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const double x = re[i] + s;
-      const double y = im[i] + c;
-      re[i] = x * cos[i] - y * sin[i];
-      im[i] = x * sin[i] + y * cos[i];
-      const double dx = re_slope[i] + hs;
-      const double dy = im_slope[i] + hc;
-      re_slope[i] = dx * cos[i] - dy * sin[i];
-      im_slope[i] = dx * sin[i] + dy * cos[i];
-    }
-  }
-
   std::size_t n_ = 0;
-  std::vector<double> value_;  // imaginary part of the sum, then p
-  std::vector<double> slope_;  // real part of the sum with factors h
-  std::vector<double> re_;
-  std::vector<double> im_slope_;
+  std::vector<double> value_;
+  std::vector<double> slope_;
   std::vector<double> open_;
 };
 

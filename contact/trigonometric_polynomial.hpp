@@ -38,6 +38,9 @@ class TrigonometricPolynomial {
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] double sin(int h) const { return sin_[static_cast<std::size_t>(h) - 1]; }
   [[nodiscard]] double cos(int h) const { return cos_[static_cast<std::size_t>(h) - 1]; }
+  /// All of them, from the first harmonic on.
+  [[nodiscard]] const double* sines() const { return sin_.data(); }
+  [[nodiscard]] const double* cosines() const { return cos_.data(); }
   /// Σ h^power (|p_sh| + |p_ch|): bounds the derivative of that order.
   [[nodiscard]] double bound(int power) const;
 

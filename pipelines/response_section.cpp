@@ -95,6 +95,22 @@ void read_harmonics(const SectionReader& s, ResponseDescription& response) {
   }
 }
 
+/// What time integration has no equations for would be dropped in silence.
+void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response) {
+  if (response.harmonic_tolerance > 0.0) {
+    s.fail("harmonics",
+           "\"auto\" chooses the equations of harmonic balance; a motion integrated in time has all "
+           "harmonics: give the number to be written, or method = \"harmonic_balance\"",
+           s.node("harmonics"));
+  }
+  if (response.search_starts > 0) {
+    s.fail("search_starts",
+           "looks for detached branches of harmonic balance; integration in time follows the motion from "
+           "point to point: sweep both ways, or give method = \"harmonic_balance\"",
+           s.node("search_starts"));
+  }
+}
+
 void read_method(const SectionReader& s, ResponseDescription& response) {
   constexpr std::array<std::string_view, 2> methods{"harmonic_balance", "time"};
   if (s.word("method", methods) == "time") {
@@ -108,6 +124,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   }
   response.search_starts = s.integer("search_starts");
   read_harmonics(s, response);
+  if (response.method == ResponseDescription::Method::time) refuse_choices_of_balance(s, response);
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {

@@ -46,6 +46,7 @@ CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
       range_(std::abs(options.frequency_end - options.frequency_begin)) {
   if (options.harmonic_tolerance > 0.0) {
     choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
+    screening_.emplace(scene, *choice_);
   }
 }
 

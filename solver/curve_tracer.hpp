@@ -15,6 +15,7 @@
 #include "solver/continuation.hpp"
 #include "solver/harmonic_balance.hpp"
 #include "solver/harmonic_choice.hpp"
+#include "solver/harmonic_screening.hpp"
 #include "solver/special_points.hpp"
 #include "solver/stability.hpp"
 
@@ -49,7 +50,7 @@ class CurveTracer {
   [[nodiscard]] NewtonResult settled(NewtonResult at);
   [[nodiscard]] bool change_harmonics(BranchWalker& walker, const HarmonicSet& set);
   /// Harmonics that a point on the last step needs, on the whole step. False: there are none.
-  [[nodiscard]] bool enlarge(BranchWalker& walker, const BranchVector& point);
+  [[nodiscard]] bool enlarge(BranchWalker& walker, const NewtonResult& at);
   void enlarge(BranchWalker& walker);
   /// The last step on a force fitted to its ends and the points between. True: it was solved again.
   [[nodiscard]] bool refit(BranchWalker& walker, const std::vector<SpecialPoint>& between);
@@ -82,6 +83,7 @@ class CurveTracer {
   ContinuationOptions options_;
   std::unique_ptr<HarmonicBalance> balance_;
   std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
+  std::optional<HarmonicScreening> screening_;
   double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked
   double change_ = 0.0;                   ///< by the last refit of the force
   const PointObserver& observe_;

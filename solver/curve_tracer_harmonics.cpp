@@ -69,11 +69,19 @@ bool CurveTracer::change_harmonics(BranchWalker& walker, const HarmonicSet& set)
   return changed;
 }
 
-bool CurveTracer::enlarge(BranchWalker& walker, const BranchVector& point) {
+bool CurveTracer::enlarge(BranchWalker& walker, const NewtonResult& at) {
   const WalkerPoint& now = walker.now();
-  const HarmonicDecision decision = choice_->enlarged(*balance_, point, now.tangent, now.scaling);
+  if (!scene_.contact) return false;
+  const double scale = now.scaling.residual;
+  if (const std::optional<double> missing = screening_->missing(*balance_, at, scale)) {
+    left_out_ = *missing;
+    return false;
+  }
+  const HarmonicDecision decision =
+      choice_->enlarged(*balance_, at.point, now.tangent, now.scaling, screening_->skips());
   ++curve_.contact_evaluations;
   left_out_ = decision.missing;
+  screening_->remember(*balance_, at, decision);
   if (decision.added.empty()) return false;
   if (change_harmonics(walker, decision.set)) return true;
   const HarmonicSet next = balance_->set().united({decision.added.front()});
@@ -84,7 +92,7 @@ bool CurveTracer::enlarge(BranchWalker& walker, const BranchVector& point) {
 
 void CurveTracer::enlarge(BranchWalker& walker) {
   if (!choice_) return;
-  while (enlarge(walker, walker.now().solution.point)) {
+  while (enlarge(walker, walker.now().solution)) {
   }
 }
 
@@ -92,7 +100,7 @@ void CurveTracer::reduce(BranchWalker& walker) {
   if (!choice_) return;
   const WalkerPoint& now = walker.now();
   const HarmonicDecision decision =
-      choice_->reduced(*balance_, now.solution, now.tangent, now.scaling);
+      choice_->reduced(*balance_, now.solution, now.tangent, now.scaling, left_out_);
   if (decision.set != balance_->set()) static_cast<void>(change_harmonics(walker, decision.set));
 }
 

@@ -53,7 +53,7 @@ std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
   std::vector<SpecialPoint> found;
   const auto any_lacks = [&] {
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (enlarge(walker, found[i].solution.point)) return true;
+      if (enlarge(walker, found[i].solution)) return true;
       left_out[i] = left_out_;
     }
     return false;

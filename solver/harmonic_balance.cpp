@@ -167,9 +167,30 @@ Eigen::MatrixXd HarmonicBalance::linear_operator(double frequency) const {
 
 Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
                                                  const Eigen::MatrixXd& stiffness) const {
-  Eigen::MatrixXd matrix = linear_operator(frequency);
-  add_stiffness(stiffness, 1.0, matrix);
-  return matrix.partialPivLu().solve(excitation_);
+  // No linear force couples harmonics: one at a time.
+  const Eigen::Index n = scene_.n_modes();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size());
+  const auto solve = [&](int k, Eigen::Index first, Eigen::Index count) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index i = 0; i < count; i += n) {
+      matrix.block(i, i, n, n) = stiffness;
+      matrix.block(i, i, n, n).diagonal().array() +=
+          stiffness_.array() - (k * frequency) * (k * frequency);
+    }
+    if (k > 0) {
+      matrix.topRightCorner(n, n).diagonal() -= k * frequency * damping_;
+      matrix.bottomLeftCorner(n, n).diagonal() += k * frequency * damping_;
+    }
+    x.segment(first, count) = matrix.partialPivLu().solve(excitation_.segment(first, count));
+  };
+  solve(0, 0, n);
+  Eigen::Index first = n;
+  for (const int k : set_.orders()) {
+    // What is not driven rests, at a resonance without damping as well.
+    if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);
+    first += 2 * n;
+  }
+  return x;
 }
 
 double HarmonicBalance::force_scale(double frequency) const {

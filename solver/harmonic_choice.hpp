@@ -6,12 +6,13 @@
 ///   added   [∂R/∂x  ∂R/∂ω; tᵀ] δ_k = [−G^(k); 0],     G^(k) the contact force at the motion without k
 ///   dropped the same matrix, with the force on rows k that takes x^(k) to zero
 ///
-///   e_k = Σ_h |output · δ_k^(h)| / a                   a the amplitude of the output
+///   e(θ) = Σ_k output · δ_k(θ) / a           a the amplitude of the output, means aside
 ///
 /// The contact stiffness and the coupling of harmonics are in the matrix: without contact it is
-/// Z(kω)⁻¹ G^(k). Harmonics are added, the largest e_k first, until those left out sum to half the tolerance
-/// (a margin for second order and for harmonics beyond those probed), and dropped while they sum to a
-/// twentieth: a factor of ten between the two keeps a set from chattering.
+/// Z(kω)⁻¹ G^(k). max_θ |e| bounds the change of the amplitude, half the difference of the output's extrema.
+/// Harmonics are added, the largest first, until those left out make no more than half the tolerance (a margin
+/// for second order and for harmonics beyond those probed), and dropped while all that is left out makes no
+/// more than a third: the gap between the two keeps a set from chattering.
 #pragma once
 
 #include <optional>
@@ -22,12 +23,27 @@
 
 namespace microslip::solver {
 
+/// What one harmonic does to the output.
+struct HarmonicShare {
+  int order = 0;
+  double error = 0.0;    ///< Σ_h |output · δ_k^(h)| / a
+  Eigen::VectorXd wave;  ///< harmonics of output · δ_k / a: mean, which is zero, sine, cosine, …
+};
+
 /// A set of harmonics with what it leaves out.
 struct HarmonicDecision {
   HarmonicSet set;
   std::vector<int> added;  ///< those that matter most first
-  double left_out = 0.0;   ///< Σ e_k of harmonics that the set misses, of those probed
+  double left_out = 0.0;   ///< max_θ |e| by harmonics that the set misses, of those probed
   double missing = 0.0;    ///< the same of the set that was asked about
+  std::vector<HarmonicShare> shares;  ///< of those probed
+  Harmonics force;                    ///< of the contact, up to the highest probed
+};
+
+/// Harmonics known to do next to nothing, which a probe need not look at.
+struct HarmonicSkips {
+  std::vector<int> orders;
+  double error = 0.0;  ///< bound on what they do together
 };
 
 class HarmonicChoice {
@@ -38,23 +54,29 @@ class HarmonicChoice {
   /// @throws std::invalid_argument  tolerance or highest out of range.
   HarmonicChoice(const Scene& scene, double tolerance, int highest);
 
+  /// Error that needs no more harmonics [-]: half the tolerance.
+  [[nodiscard]] double allowed() const;
+  /// Highest order that is looked at.
+  [[nodiscard]] int probed(const HarmonicSet& set, double frequency) const;
+  /// Orders that a set leaves out in which a force is more than rounding.
+  /// @param scale  of forces [N/√kg].
+  [[nodiscard]] static std::vector<int> heard(const HarmonicSet& set, const Harmonics& force,
+                                              double scale);
   /// What every point has: the first harmonic and those of the excitation.
   [[nodiscard]] const HarmonicSet& least() const { return least_; }
   /// The set of a balance with what its solution misses.
   /// @param tangent  of the branch in variables of `scaling`; (0, 1): at a fixed frequency.
+  /// @param skips    left out of the probe, their error is added to what is missing.
   [[nodiscard]] HarmonicDecision enlarged(const HarmonicBalance& balance, const BranchVector& point,
-                                          const BranchVector& tangent,
-                                          const Scaling& scaling) const;
+                                          const BranchVector& tangent, const Scaling& scaling,
+                                          const HarmonicSkips& skips = {}) const;
   /// The set without what its solution does not need; `left_out` is what goes.
+  /// @param missing  of the set now, as enlarged() tells.
   [[nodiscard]] HarmonicDecision reduced(const HarmonicBalance& balance, const NewtonResult& solution,
-                                         const BranchVector& tangent, const Scaling& scaling) const;
+                                         const BranchVector& tangent, const Scaling& scaling,
+                                         double missing) const;
 
  private:
-  /// Orders up to the highest in which the contact answers, those of the balance left out.
-  [[nodiscard]] std::vector<int> heard(const HarmonicBalance& balance, const BranchVector& point,
-                                       int highest, const Scaling& scaling) const;
-  [[nodiscard]] int probed(const HarmonicSet& set, double frequency) const;
-
   const Scene& scene_;
   double tolerance_;
   int highest_;

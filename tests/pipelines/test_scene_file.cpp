@@ -469,6 +469,14 @@ TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
   EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).response->harmonic_tolerance, 0.0);
 }
 
+TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
+  expect_complaint(complaint(modal_text, {"response.method=time", "response.harmonics=auto"}),
+                   {"response.harmonics", "harmonic_balance"});
+  expect_complaint(complaint(modal_text, {"response.method=time", "response.search_starts=3"}),
+                   {"response.search_starts", "harmonic_balance"});
+  EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
+}
+
 TEST(SceneFile, QuadratureIsOnCellsOrFitted) {
   using Quadrature = ContactDescription::Quadrature;
   EXPECT_EQ(parse(blade_text).contact->quadrature, Quadrature::cells);
