@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include "solver/harmonic_choice.hpp"
 #include "solver/linear_certificate.hpp"
 #include "solver/linear_force.hpp"
+#include "solver/linear_resonance.hpp"
 #include "solver/refit.hpp"
 #include "solver/solved_point.hpp"
 #include "solver/start_point.hpp"
@@ -107,6 +109,21 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
                       " over the whole range (" + std::to_string(proof.n_intervals) +
                       " frequency intervals): the linear response is a solution; others may exist";
+  return curve;
+}
+
+/// A linear curve as far as to an undamped resonance, where the response has no bound.
+ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, double resonance) {
+  constexpr double nearest = 1e-3;  // of the frequency: some 500 times the static response
+  const double way = resonance - options.frequency_begin;
+  options.frequency_end = resonance - std::copysign(nearest * resonance, way);
+  ResponseCurve curve;
+  if (std::abs(way) > nearest * resonance) curve = trace_response(linear, options);
+  if (!curve.diagnosis.empty()) return curve;
+  curve.complete = false;
+  curve.diagnosis = "unbounded";
+  curve.message = "undamped resonance at " + std::to_string(resonance / (2.0 * std::numbers::pi)) +
+                  " Hz: the linear response has no bound there";
   return curve;
 }
 
@@ -235,17 +252,23 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
 
 ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                            const ContinuationOptions& options) {
+  const Eigen::MatrixXd stiffness = scene.contact
+                                        ? limit_stiffness(scene, limit)
+                                        : Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
   std::unique_ptr<contact::ModalForce> force;
   if (scene.contact) {
     const bool stuck = limit == LinearLimit::stuck;
-    force = std::make_unique<LinearForce>(
-        limit_stiffness(scene, limit),
-        stuck ? contact::CycleReport{1.0, 0.0, 0.0} : contact::CycleReport{0.0, 0.0, 1.0});
+    force = std::make_unique<LinearForce>(stiffness, stuck
+                                                         ? contact::CycleReport{1.0, 0.0, 0.0}
+                                                         : contact::CycleReport{0.0, 0.0, 1.0});
   }
   const Scene linear = with_force(scene, std::move(force));
   ContinuationOptions alone = options;
   alone.search_starts = 0;  // a linear response is the only one
-  ResponseCurve curve = trace_response(linear, alone);
+  const std::optional<double> unbounded =
+      unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);
+  ResponseCurve curve =
+      unbounded ? trace_below(linear, alone, *unbounded) : trace_response(linear, alone);
   forget_evaluations(curve);
   return curve;
 }

@@ -55,6 +55,7 @@ using PointObserver = std::function<bool(const ResponsePoint&)>;
 
 enum class LinearLimit { free, stuck };
 /// Linear limit as a curve of its own: peaks solved for, points denser near resonances. Nothing is searched.
+/// An undamped resonance that is excited ends it ("unbounded").
 [[nodiscard]] ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                                          const ContinuationOptions& options);
 

@@ -276,6 +276,37 @@ TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {
   EXPECT_LT(std::abs(duffing.defect(curve.points[0].amplitude, 0.8)), 1e-12);
 }
 
+TEST(TraceLinear, EndsAtAnUndampedResonanceWithItsName) {
+  tests::SinglePoint single;
+  single.damping_ratio = 0.0;
+  single.point = {3.0, 0.0, 0.5, 1.0};  // k_u, k_v, μ, n₀: stuck at ω = 2
+  const Scene scene = tests::single_point_scene(single);
+  const struct {
+    LinearLimit limit;
+    double begin, end, resonance;
+  } cases[] = {{LinearLimit::free, 0.5, 1.5, 1.0},
+               {LinearLimit::stuck, 1.5, 3.0, 2.0},
+               {LinearLimit::stuck, 3.0, 1.5, 2.0}};
+  for (const auto& c : cases) {
+    const ResponseCurve curve = trace_linear(scene, c.limit, frequency_range(c.begin, c.end));
+    EXPECT_FALSE(curve.complete);
+    EXPECT_EQ(curve.diagnosis, "unbounded");
+    ASSERT_GT(curve.points.size(), 5U);
+    EXPECT_LT(curve.points.size(), 500U);
+    EXPECT_EQ(curve.points.front().frequency, c.begin);
+    EXPECT_NEAR(curve.points.back().frequency, c.resonance, 2e-3 * c.resonance);
+    for (const ResponsePoint& point : curve.points) {
+      const double exact = 1.0 / std::abs(c.resonance * c.resonance - point.frequency * point.frequency);
+      EXPECT_NEAR(point.amplitude, exact, 1e-9 * exact);
+    }
+  }
+  // Beyond the resonance, or where nothing moves it, there is nothing to name.
+  EXPECT_TRUE(trace_linear(scene, LinearLimit::free, frequency_range(1.1, 3.0)).complete);
+  single.force = 0.0;
+  EXPECT_TRUE(trace_linear(tests::single_point_scene(single), LinearLimit::free, frequency_range(0.5, 1.5))
+                  .complete);
+}
+
 TEST(TraceLinear, HasTheLimitsOfTheContact) {
   const Scene scene = tests::chain_scene(30.0);
   const ContinuationOptions options = frequency_range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
