@@ -37,7 +37,7 @@ void add_stick(const PlanarMotion& motion, const PlanarPiece& piece, int n_harmo
   visit_nodes(motion, piece.begin, piece.end, n_harmonics,
               [&](const PlanarInstant& now, double weight) {
                 const Vector2d force =
-                    motion.force_scale() * now.surface.stiffness_ratio * now.force(piece.slider);
+                    motion.force_scale() * now.surface.stiffness_ratio * now.held_force(piece.slider);
                 sum.add(now.phase, weight, traction(force));
               });
 }
@@ -46,7 +46,7 @@ void add_slip(const PlanarMotion& motion, const SlipStep& step, FourierSum& sum)
   const RadauNodes& rule = radau_nodes();
   for (std::size_t i = 0; i < n_stages; ++i) {
     const PlanarInstant& now = step.instant[i];
-    const double limit = motion.force_scale() * now.radius * now.surface.stiffness_ratio;
+    const double limit = motion.force_scale() * now.limit * now.surface.stiffness_ratio;
     sum.add(now.phase, step.length * rule.weight[i],
             traction(limit * step.direction.col(static_cast<Eigen::Index>(i))));
   }

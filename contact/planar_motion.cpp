@@ -70,7 +70,7 @@ void PlanarMotion::set_scales() {
   force_scale_ = 1.0;
   const int n_samples = 8 * n_harmonics();  // a scale, not a bound: short contacts may be missed
   for (int i = 0; i < n_samples; ++i) {
-    radius = std::max(radius, at(2.0 * std::numbers::pi * i / n_samples).radius);
+    radius = std::max(radius, at(2.0 * std::numbers::pi * i / n_samples).limit);
   }
   const double spring = k.cwiseProduct(amplitude).sum();
   const double scale = radius + spring;
@@ -114,7 +114,8 @@ PlanarInstant PlanarMotion::at(double phase) const {
   if (force_scale_ == 0.0 || y.load <= 0.0 || y.stiffness_ratio <= 0.0) return now;
   const double mu = y.friction_coefficient;
   const double ratio = y.load_per_ratio * per_force_;
-  now.radius = mu * ratio;
+  now.limit = mu * ratio;
+  now.radius = std::max(now.limit, least_radius);
   now.radius_by_approach = mu * (y.load_per_ratio_by_approach * per_force_);
   now.radius_by_rate = y.friction_coefficient_by_rate * ratio;
   now.radius_rate =
@@ -128,7 +129,10 @@ PlanarInstant PlanarMotion::at(double phase, double nudge) const {
   const PlanarInstant beside = at(phase + nudge);
   // The radius of Gaussian heights is not zero where contact begins, nor is it on both sides.
   const bool jumps = now.radius == 0.0 && !law_.is_smooth();
-  if (jumps) now.radius = std::max(0.0, beside.radius - nudge * beside.radius_rate);
+  if (jumps) {
+    now.limit = std::max(0.0, beside.limit - nudge * beside.radius_rate);
+    now.radius = std::max(now.limit, least_radius);
+  }
   now.radius_rate = beside.radius_rate;
   now.radius_by_approach = beside.radius_by_approach;
   now.stiffness_rate = beside.stiffness_rate;

@@ -22,6 +22,11 @@
 
 namespace microslip::contact {
 
+/// r / F₀ where contact leaves less of it. The slider follows the motion without memory there, s' ∥ x' to the
+/// square root of this, and forces are limit · e: any r below it gives the same e, this one without products
+/// that underflow (fourth powers of it times ratios of stiffness down to 1e-60 are normal numbers).
+inline constexpr double least_radius = 1e-60;
+
 /// One phase. Rates are with respect to θ.
 struct PlanarInstant {
   double phase = 0.0;
@@ -32,7 +37,8 @@ struct PlanarInstant {
   Eigen::Vector2d stiffness_by_approach = Eigen::Vector2d::Zero();  ///< [1/m]
   double approach_rate = 0.0;                                       ///< v' [m]
   SurfaceState surface;                                             ///< in units of the law
-  double radius = 0.0;                                              ///< r / F₀
+  double limit = 0.0;                                               ///< μ n/g / F₀
+  double radius = 0.0;                                              ///< r / F₀, see least_radius
   double radius_rate = 0.0;                                         ///< r' / F₀
   double radius_by_approach = 0.0;                                  ///< ∂r/∂v / F₀ [1/m]
   double radius_by_rate = 0.0;                                      ///< ∂r/∂σ / F₀ [s/m]
@@ -42,6 +48,12 @@ struct PlanarInstant {
   /// K (x − s) / F₀: the force of a slider, but for g.
   [[nodiscard]] Eigen::Vector2d force(const Eigen::Vector2d& slider) const {
     return stiffness.cwiseProduct(position - slider);
+  }
+  /// The same of a slider at rest, no more than friction holds: of a limit below rounding of x − s nothing else is known.
+  [[nodiscard]] Eigen::Vector2d held_force(const Eigen::Vector2d& slider) const {
+    const Eigen::Vector2d whole = force(slider);
+    const double size = whole.norm();
+    return size > limit ? Eigen::Vector2d(whole * (limit / size)) : whole;
   }
   /// Its rate while the slider rests.
   [[nodiscard]] Eigen::Vector2d force_rate(const Eigen::Vector2d& slider) const {

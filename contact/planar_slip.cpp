@@ -261,7 +261,7 @@ double rest_of(const PlanarMotion& motion, const SlipStep& step) {
     const double mu = now.surface.friction_coefficient;
     fourth += rule.tail[j] * mu;
     third += rule.below_tail[j] * mu;
-    if (mu > 0.0) load = std::max(load, now.radius * now.surface.stiffness_ratio / mu);
+    if (mu > 0.0) load = std::max(load, now.limit * now.surface.stiffness_ratio / mu);
   }
   const double c4 = std::abs(fourth);
   const double ratio = c4 < std::abs(third) ? c4 / std::abs(third) : 1.0;
@@ -276,7 +276,7 @@ double top_term(const PlanarMotion& motion, const SlipStep& step) {
   for (int j = 0; j < n_stages; ++j) {
     const PlanarInstant& now = step.instant[static_cast<std::size_t>(j)];
     top += rule.top[j + 1] * (step.stage.col(j) - step.slider);
-    limit += rule.tail[j] * now.radius * now.surface.stiffness_ratio;
+    limit += rule.tail[j] * now.limit * now.surface.stiffness_ratio;
   }
   const double of_slider = motion.stiffness().cwiseProduct(top).norm();
   return motion.law().is_smooth() ? of_slider : std::max(of_slider, std::abs(limit));

@@ -208,9 +208,9 @@ void OrbitVariation::step(const SlipStep& slip) {
 void OrbitVariation::integrate_slip(const PlanarInstant& now, const Vector2d& direction,
                                     const Eigen::RowVectorXd& turn, double weight) {
   const double ratio = now.surface.stiffness_ratio;
-  force_now_.noalias() = (ratio * now.radius * across(direction)) * turn;
+  force_now_.noalias() = (ratio * now.limit * across(direction)) * turn;
   force_now_.leftCols(n_parameters_).noalias() +=
-      direction * (ratio * radius_ + now.radius * ratio_);
+      direction * (ratio * radius_ + now.limit * ratio_);
   add_force(weight);
 }
 
