@@ -15,19 +15,29 @@ const PlanarPiece& piece_at(const PlanarOrbit& orbit, double phase) {
   return found != orbit.pieces.end() ? *found : orbit.pieces.back();
 }
 
-Eigen::Vector2d slider_at(const PlanarMotion& motion, const PlanarPiece& piece, double phase) {
+/// Slider / L₀ and K (x − s) / F₀ of a piece in contact. In slip the latter lies along the direction of the
+/// collocation: of little friction x − s is rounding.
+struct Held {
+  Eigen::Vector2d slider = Eigen::Vector2d::Zero();
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();
+};
+
+Held held_at(const PlanarMotion& motion, const PlanarPiece& piece, const PlanarInstant& now) {
+  constexpr int last = n_stages - 1;
   for (const SlipStep& step : piece.steps) {
-    if (phase >= step.end()) continue;
-    if (phase <= step.begin) return step.slider;
+    if (now.phase >= step.end()) continue;
+    if (now.phase <= step.begin) return {step.slider, now.limit * step.direction_at(0.0).normalized()};
     SlipStep part;
     part.begin = step.begin;
     part.slider = step.slider;
-    part.length = phase - step.begin;
+    part.length = now.phase - step.begin;
     // Where a shorter step does not converge its successive returns stand in, as in the walk.
     static_cast<void>(solve_slip(motion, 0.0, part));
-    return part.end_slider();
+    return {part.end_slider(), now.limit * part.direction.col(last)};
   }
-  return piece.steps.empty() ? piece.slider : piece.steps.back().end_slider();
+  if (piece.steps.empty()) return {piece.slider, now.held_force(piece.slider)};
+  const SlipStep& step = piece.steps.back();
+  return {step.end_slider(), now.limit * step.direction.col(last)};
 }
 
 }  // namespace
@@ -57,13 +67,11 @@ PointInstant planar_instant(const PlanarMotion& motion, const PlanarOrbit& orbit
     if (piece.state != ContactState::stick) result.slider = {signals[0], signals[2]};
     return result;
   }
-  const Eigen::Vector2d slider = slider_at(motion, piece, turn);
-  Eigen::Vector2d force = now.force(slider);
-  const double size = force.norm();
-  if (size > now.radius) force *= now.radius / size;
-  force *= now.surface.stiffness_ratio * motion.force_scale();
+  const Held held = held_at(motion, piece, now);
+  const Eigen::Vector2d force =
+      held.force * (now.surface.stiffness_ratio * motion.force_scale());
   result.traction = {force[0], now.surface.load, force[1]};
-  result.slider = mean + slider * motion.length_scale();
+  result.slider = mean + held.slider * motion.length_scale();
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "contact/planar_reversal.hpp"
 #include "contact/planar_stick.hpp"
@@ -33,6 +34,7 @@ class Walk {
         allowed_(allowed_top_term(options.tolerance)),
         longest_(longest_step_length(options)),
         next_length_(std::min(0.6 / motion.n_harmonics(), longest_)),
+        left_(options.most_steps + 200.0 * options.highest_harmonic),
         orbit_(orbit) {}
 
   void start(const Vector2d& slider) { slider_ = slider; }
@@ -54,6 +56,7 @@ class Walk {
     int idle = 0;
     while (time_ < interval.end) {
       const double before = time_;
+      if (left_ <= 0.0) return finish_roughly();
       slipping_ ? slip() : stick();
       idle = time_ > before ? 0 : idle + 1;
       if (idle > 3) creep();
@@ -72,6 +75,7 @@ class Walk {
     piece.at_begin = now;
     piece.slider = slider_;
     orbit_.pieces.push_back(std::move(piece));
+    left_ -= 1.0;
     if (state == ContactState::slip) orbit_.slips = true;
   }
 
@@ -129,7 +133,8 @@ class Walk {
         time_ == interval_->begin ? interval_->grid.front() : motion_.at(time_);
     open_piece(ContactState::slip, entry_, now);
     entry_ = PlanarEntry::continued;
-    while (slipping_ && time_ < interval_->end) {
+    while (slipping_ && time_ < interval_->end && left_ > 0.0) {
+      left_ -= 1.0;
       SlipStep step = longest_step();
       const double fraction = first_reversal(motion_, *interval_, step);
       if (fraction <= 1.0) {
@@ -230,11 +235,33 @@ class Walk {
     slipping_ = false;
   }
 
+  /// The rest of an interval in slip, by steps that nothing controls. Both the force and what it should be
+  /// lie in the disc of friction: their coefficients differ by at most 8/π of its radius.
+  void finish_roughly() {
+    double limit = 0.0;
+    for (const PlanarInstant& now : interval_->grid) limit = std::max(limit, now.limit);
+    orbit_.defect = std::max(orbit_.defect, 8.0 / std::numbers::pi * limit);
+    open_piece(ContactState::slip, PlanarEntry::continued, motion_.at(time_));
+    const double length = 0.1 / motion_.n_harmonics();
+    while (time_ < interval_->end) {
+      const double left = interval_->end - time_;
+      SlipStep step;
+      // What does not converge is a solution of first order, by successive returns.
+      static_cast<void>(solve(step, std::min(length, left)));
+      time_ = left <= length ? interval_->end : step.end();
+      slider_ = step.end_slider();
+      orbit_.pieces.back().steps.push_back(step);
+    }
+    orbit_.pieces.back().end = time_;
+    slipping_ = true;
+  }
+
   const PlanarMotion& motion_;
   double tolerance_;
   double allowed_;
   double longest_;
   double next_length_;
+  double left_;  // pieces and steps
   PlanarOrbit& orbit_;
   const PlanarInterval* interval_ = nullptr;
   double time_ = 0.0;

@@ -43,11 +43,16 @@ struct PlanarOrbit {
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< and ended with
   bool slips = false;
   bool separates = false;
+  /// Bound of what the coefficients of the forces may miss, / F₀: 0 unless the walk ran out of steps.
+  double defect = 0.0;
 };
 
 struct OrbitOptions {
   double tolerance = 1e-10;       ///< of forces, relative to F₀; 1e-13 to 1e-2
   double highest_harmonic = 1.0;  ///< that forces are integrated against, ≥ 1
+  /// Pieces and steps of a period, and 200 per harmonic on top: hundreds are usual. Beyond, the rest of the
+  /// period is walked in steps of a fixed length, and the defect of the orbit says so.
+  int most_steps = 20000;
 };
 
 /// Walks one period.

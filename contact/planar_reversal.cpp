@@ -145,7 +145,10 @@ class Reversal {
 
 double slip_rate_at(const PlanarMotion& motion, const SlipStep& step, double x) {
   const PlanarInstant now = motion.at(step.begin + x * step.length);
-  const Eigen::Vector2d force = now.force(step.slider_at(x));
+  // Of smaller ellipses the polynomial does not know on which side of x its slider lies.
+  constexpr double lost = 1e-12;
+  const Eigen::Vector2d force =
+      now.radius > lost ? now.force(step.slider_at(x)) : step.direction_at(x);
   const double size = force.norm();
   return size > 0.0 ? slip_rate(now, force / size) : 0.0;
 }

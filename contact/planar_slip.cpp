@@ -317,6 +317,21 @@ Eigen::Vector2d SlipStep::slider_at(double x) const {
   return sum / total;
 }
 
+Eigen::Vector2d SlipStep::direction_at(double x) const {
+  const auto& node = radau_nodes().node;
+  static const Points<n_stages> weight = barycentric_weights(node);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double total = 0.0;
+  for (std::size_t j = 0; j < node.size(); ++j) {
+    const Eigen::Vector2d value = direction.col(static_cast<Eigen::Index>(j));
+    if (x == node[j]) return value;
+    const double w = weight[j] / (x - node[j]);
+    sum += w * value;
+    total += w;
+  }
+  return sum / total;
+}
+
 bool solve_slip(const PlanarMotion& motion, double end_nudge, SlipStep& step,
                 const SlipStep* before) {
   const RadauNodes& rule = radau_nodes();

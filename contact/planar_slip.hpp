@@ -76,6 +76,8 @@ struct SlipStep {
   }
   /// The polynomial at begin + x · length, x in [0, 1].
   [[nodiscard]] Eigen::Vector2d slider_at(double x) const;
+  /// The polynomial through the directions at the nodes, of any length.
+  [[nodiscard]] Eigen::Vector2d direction_at(double x) const;
 };
 
 /// Solves (2) by Newton's method, started from the step before, or else from successive returns.

@@ -151,7 +151,9 @@ class FixedPoint {
   }
 
   [[nodiscard]] bool is_done(const SteadyOrbit& steady) const {
-    return !steady.orbit.slips || steady.closes || steady.defect <= 0.1 * options_.tolerance;
+    const bool gives_up = steady.orbit.defect > 0.0;
+    return gives_up || !steady.orbit.slips || steady.closes ||
+           steady.defect <= 0.1 * options_.tolerance;
   }
 
   SteadyOrbit iterate(const Vector2d& start) const {
@@ -206,7 +208,8 @@ class FixedPoint {
       steady.orbit = walk_orbit(motion_, intervals_, slider, options_);
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       steady.closes = steady.defect <= rounding;
-      if (!steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) return true;
+      const bool gives_up = steady.orbit.defect > 0.0;
+      if (gives_up || !steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) return true;
       if (rest_in_corner(steady, period >= slow_march)) return true;
     }
     return false;
@@ -278,9 +281,14 @@ SteadyOrbit steady_orbit(const PlanarMotion& motion, const std::vector<PlanarInt
   if (intervals.front().touches_down) {
     steady.orbit = walk_orbit(motion, intervals, Vector2d::Zero(), options);
     steady.regime = CycleRegime::separation;
-    return steady;
+  } else {
+    steady = FixedPoint(motion, intervals, options).solve();
   }
-  return FixedPoint(motion, intervals, options).solve();
+  if (steady.orbit.defect > 0.0) {
+    steady.closes = false;
+    steady.defect = std::max(steady.defect, steady.orbit.defect);
+  }
+  return steady;
 }
 
 SteadyDerivative steady_derivative(const PlanarMotion& motion, const SteadyOrbit& steady) {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "contact/planar_quadrature.hpp"
+#include "contact/planar_stick.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -15,6 +16,13 @@ using Eigen::Index;
 using Eigen::Vector2d;
 
 Vector2d across(const Vector2d& e) { return {-e[1], e[0]}; }
+
+/// Whether friction is too little to tell from rounding of x − s: how long the point sticks is not known.
+bool is_lost(const PlanarMotion& motion, const PlanarPiece& piece) {
+  const auto is_little = [](const PlanarInstant& now) { return now.limit <= stick_slack; };
+  return is_little(piece.at_begin) && is_little(motion.at(0.5 * (piece.begin + piece.end))) &&
+         is_little(motion.at(piece.end));
+}
 
 }  // namespace
 
@@ -214,7 +222,27 @@ void OrbitVariation::integrate_slip(const PlanarInstant& now, const Vector2d& di
   add_force(weight);
 }
 
+void OrbitVariation::integrate_lost_stick(const PlanarPiece& piece) {
+  const PlanarInstant& now = piece.at_begin;
+  const Vector2d active = motion_.active();
+  const Vector2d bend = motion_.tangential_acceleration(now.phase).cwiseProduct(active);
+  const double size = bend.norm();
+  const double speed = now.velocity.norm() * motion_.length_scale();
+  if (n_parameters_ == 0 || !(2.0 * speed < size * (piece.end - piece.begin))) return;
+  trigonometric_basis(motion_.n_harmonics(), now.phase, basis_);
+  basis_rate(basis_, basis_rate_);
+  const Vector2d e = bend / size;
+  const double jump = 2.0 * now.limit * now.surface.stiffness_ratio;
+  force_now_.setZero();
+  for (Index k = 1; k < basis_.size(); ++k) {
+    force_now_.col(3 * k) = (jump * e[0] * active[0] * basis_rate_[k] / size) * e;
+    force_now_.col(3 * k + 2) = (jump * e[1] * active[1] * basis_rate_[k] / size) * e;
+  }
+  add_force(1.0);
+}
+
 void OrbitVariation::integrate_stick(const PlanarPiece& piece) {
+  if (is_lost(motion_, piece)) return integrate_lost_stick(piece);
   const auto add = [&](const PlanarInstant& now, double weight) {
     set_parameters(now);
     const double ratio = now.surface.stiffness_ratio;

@@ -60,6 +60,9 @@ class OrbitVariation {
   void begin_slip(const PlanarPiece& piece);
   void step(const SlipStep& step);
   void integrate_stick(const PlanarPiece& piece);
+  /// Of friction below rounding: nothing, but where the motion turns back the force jumps by 2 μn e, and the
+  /// jump moves by δθ = −e·δx'/|x''|.
+  void integrate_lost_stick(const PlanarPiece& piece);
   void integrate_slip(const PlanarInstant& now, const Eigen::Vector2d& direction,
                       const Eigen::RowVectorXd& turn, double weight);
   void add_force(double weight);
