@@ -26,7 +26,8 @@ Held held_at(const PlanarMotion& motion, const PlanarPiece& piece, const PlanarI
   constexpr int last = n_stages - 1;
   for (const SlipStep& step : piece.steps) {
     if (now.phase >= step.end()) continue;
-    if (now.phase <= step.begin) return {step.slider, now.limit * step.direction_at(0.0).normalized()};
+    if (now.phase <= step.begin)
+      return {step.slider, now.limit * step.direction_at(0.0).normalized()};
     SlipStep part;
     part.begin = step.begin;
     part.slider = step.slider;
@@ -68,8 +69,7 @@ PointInstant planar_instant(const PlanarMotion& motion, const PlanarOrbit& orbit
     return result;
   }
   const Held held = held_at(motion, piece, now);
-  const Eigen::Vector2d force =
-      held.force * (now.surface.stiffness_ratio * motion.force_scale());
+  const Eigen::Vector2d force = held.force * (now.surface.stiffness_ratio * motion.force_scale());
   result.traction = {force[0], now.surface.load, force[1]};
   result.slider = mean + held.slider * motion.length_scale();
   return result;

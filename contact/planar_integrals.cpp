@@ -34,12 +34,12 @@ Eigen::RowVector3d traction(const Vector2d& friction) { return {friction[0], 0.0
 
 void add_stick(const PlanarMotion& motion, const PlanarPiece& piece, int n_harmonics,
                FourierSum& sum) {
-  visit_nodes(motion, piece.begin, piece.end, n_harmonics,
-              [&](const PlanarInstant& now, double weight) {
-                const Vector2d force =
-                    motion.force_scale() * now.surface.stiffness_ratio * now.held_force(piece.slider);
-                sum.add(now.phase, weight, traction(force));
-              });
+  visit_nodes(
+      motion, piece.begin, piece.end, n_harmonics, [&](const PlanarInstant& now, double weight) {
+        const Vector2d force =
+            motion.force_scale() * now.surface.stiffness_ratio * now.held_force(piece.slider);
+        sum.add(now.phase, weight, traction(force));
+      });
 }
 
 void add_slip(const PlanarMotion& motion, const SlipStep& step, FourierSum& sum) {

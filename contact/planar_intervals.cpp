@@ -83,8 +83,12 @@ std::vector<double> breakpoints(const PlanarMotion& motion) {
 }
 
 bool is_in_contact(const PlanarMotion& motion, double begin, double end) {
-  const SurfaceState surface = motion.at(0.5 * (begin + end)).surface;
-  return surface.load > 0.0 && surface.stiffness_ratio > 0.0;
+  const auto touches = [&](double share) {
+    const SurfaceState surface = motion.at(begin + share * (end - begin)).surface;
+    return surface.load > 0.0 && surface.stiffness_ratio > 0.0;
+  };
+  // Load that touches zero without passing it may do so right in the middle.
+  return touches(0.5) || (touches(0.3) && touches(0.8));
 }
 
 /// Intervals between neighbouring points, the last one across 2π.

@@ -49,7 +49,8 @@ struct PlanarInstant {
   [[nodiscard]] Eigen::Vector2d force(const Eigen::Vector2d& slider) const {
     return stiffness.cwiseProduct(position - slider);
   }
-  /// The same of a slider at rest, no more than friction holds: of a limit below rounding of x − s nothing else is known.
+  /// The same of a slider at rest, at most what friction holds: of a limit below rounding of x − s
+  /// nothing else is known.
   [[nodiscard]] Eigen::Vector2d held_force(const Eigen::Vector2d& slider) const {
     const Eigen::Vector2d whole = force(slider);
     const double size = whole.norm();

@@ -119,6 +119,11 @@ Eigen::Vector2d returned(const Eigen::Vector2d& trial, const Eigen::Vector2d& st
   if (size <= radius) return trial;
   if (radius <= 0.0) return Eigen::Vector2d::Zero();
   if (stiffness[0] == stiffness[1]) return trial * (radius / size);
+  // λK ≫ 1: what is left of the trial is its direction, and powers of λ would overflow.
+  constexpr double vanishing = 1e-30;
+  if (radius <= vanishing * (stiffness.minCoeff() / stiffness.maxCoeff()) * size) {
+    return trial.cwiseQuotient(stiffness).normalized() * radius;
+  }
   // 1/|f| is nearly linear and concave in λ: Newton's method on it rises to the root without
   // overshooting from λ = 0.
   double lambda = 0.0;

@@ -209,7 +209,8 @@ class FixedPoint {
       steady.defect = force_of(motion_, steady.orbit.end - slider);
       steady.closes = steady.defect <= rounding;
       const bool gives_up = steady.orbit.defect > 0.0;
-      if (gives_up || !steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance) return true;
+      if (gives_up || !steady.orbit.slips || steady.defect <= 0.01 * options_.tolerance)
+        return true;
       if (rest_in_corner(steady, period >= slow_march)) return true;
     }
     return false;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/planar_cycle.hpp"
+#include "contact/planar_integrals.hpp"
 #include "contact/planar_rest.hpp"
 #include "support/planar_cases.hpp"
 
@@ -147,6 +148,33 @@ TEST(PlanarSteady, SearchesNextToAnyOnsetMeetTheirTolerance) {
     EXPECT_EQ(traction.defect, 0.0) << i;
     const Eigen::VectorXd apart = traction.force.vector() - loose.force.vector();
     EXPECT_LE(apart.cwiseAbs().maxCoeff(), 1e-8 * test::planar_scale(c)) << i;  // ten tolerances
+  }
+}
+
+// Never more than that: the rest of the period is walked roughly, and the defect bounds what it
+// misses.
+TEST(PlanarSteady, AWalkThatRunsOutOfStepsSaysSo) {
+  std::mt19937_64 random(57);
+  for (int i = 0; i < 20; ++i) {
+    const test::PlanarCase c = test::slipping_planar(random);
+    const SurfaceLaw law(c.point, c.second_stiffness);
+    const PlanarMotion motion(law, c.motion, 1.0);
+    const std::vector<PlanarInterval> intervals = planar_intervals(motion);
+    OrbitOptions options{tight, static_cast<double>(c.motion.n_harmonics())};
+    const SteadyOrbit exact = steady_orbit(motion, intervals, options);
+    options.most_steps = 4 - 200 * c.motion.n_harmonics();
+    const SteadyOrbit steady = steady_orbit(motion, intervals, options);
+    EXPECT_EQ(exact.orbit.defect, 0.0) << i;
+    ASSERT_GT(steady.defect, 0.0) << i;
+    EXPECT_FALSE(steady.closes) << i;
+    EXPECT_LE(steady.orbit.pieces.size(), 8U + intervals.size()) << i;
+    EXPECT_EQ(steady.orbit.pieces.back().end, intervals.back().end) << i;
+    const int H = c.motion.n_harmonics();
+    const Harmonics rough = planar_force(motion, intervals, steady.orbit, H);
+    const Harmonics fine = planar_force(motion, intervals, exact.orbit, H);
+    EXPECT_LE((rough.rows() - fine.rows()).cwiseAbs().maxCoeff(),
+              steady.defect * motion.force_scale())
+        << i;
   }
 }
 

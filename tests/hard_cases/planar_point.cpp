@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "contact/event_law.hpp"
 #include "contact/planar_cycle.hpp"
@@ -253,6 +254,152 @@ TEST(PlanarPointHard, TheJacobianNextToGrazingContactIsThatOfItsSide) {
       const Eigen::VectorXd away =
           one_sided(law, c.motion, k, k == 1 ? std::copysign(1e-6, aside) : 1e-6);
       EXPECT_LE((now.jacobian.col(k) - away).cwiseAbs().maxCoeff(), 1e-4) << k << ", " << aside;
+    }
+  }
+}
+
+/// Ever less friction against the same motion.
+struct LittleFriction {
+  double preload;    ///< in the unit of load
+  double stiffness;  ///< k_v, against an approach of amplitude 1; likewise
+  double load_unit;
+  double friction_unit = 1.0;
+};
+
+constexpr double half = 0.5;  // μ in its unit
+
+MotionCase vanishing(const LittleFriction& x) {
+  const double mu = half * x.friction_unit;
+  MotionCase c{{1.0, x.stiffness * x.load_unit, mu, x.preload * x.load_unit}, Harmonics(1, 3)};
+  c.motion.rows() << 0.0, 0.0, 0.0,  //
+      0.0, 0.0, 0.2,                 //
+      1.0, 1.0, 0.3;
+  return c;
+}
+
+/// Friction without memory, μ n x'/|x'|, by the trapezoidal rule.
+struct Memoryless {
+  Eigen::Matrix3d force = Eigen::Matrix3d::Zero();         ///< / (μn), as Harmonics::rows()
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(9, 9);  ///< of friction alone
+  double dissipation = 0.0;
+};
+
+Memoryless memoryless(const LittleFriction& x) {
+  const Harmonics motion = vanishing(x).motion;
+  constexpr int n_samples = 40000;
+  Memoryless sum;
+  for (int i = 0; i < n_samples; ++i) {
+    const double angle = 2.0 * pi * (i + 0.5) / n_samples;
+    const Eigen::Vector3d basis(1.0, std::sin(angle), std::cos(angle));
+    const Eigen::Vector3d rate(0.0, basis[2], -basis[1]);
+    const Eigen::Vector3d x_rate = motion.rows().transpose() * rate;
+    const Eigen::Vector2d v(x_rate[0], x_rate[2]);
+    const Eigen::Vector2d e = v.normalized();
+    const double load = x.preload + x.stiffness * basis[2];
+    if (load <= 0.0) continue;
+    const Eigen::Vector3d weight = basis.cwiseProduct(Eigen::Vector3d(1.0, 2.0, 2.0)) / n_samples;
+    sum.force.col(0) += half * load * e[0] * weight;
+    sum.force.col(2) += half * load * e[1] * weight;
+    sum.dissipation += 2.0 * pi / n_samples * half * load * v.norm();
+    const Eigen::Matrix2d turn =
+        half * load / v.norm() * (Eigen::Matrix2d::Identity() - e * e.transpose());
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      Eigen::Matrix<double, 2, 3> change;
+      change << turn.col(0) * rate[k], half * x.stiffness * basis[k] * e, turn.col(1) * rate[k];
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        sum.jacobian.block<1, 3>(3 * j, 3 * k) += weight[j] * change.row(0);
+        sum.jacobian.block<1, 3>(3 * j + 2, 3 * k) += weight[j] * change.row(1);
+      }
+    }
+  }
+  return sum;
+}
+
+// Forces that are lost in the rounding of the slider, whose squares underflow, that are subnormal:
+// relative to μ n all are the same.
+TEST(PlanarPointHard, VanishingFrictionFollowsTheMotionWithoutMemory) {
+  std::vector<LittleFriction> cases;
+  for (const double n : {1e-30, 1e-100, 1e-120, 1e-140, 1e-155, 1e-200, 1e-310}) {
+    cases.push_back({1.0, 0.0, n});
+    cases.push_back({1.0, 1.0, n});  // touches zero load
+    cases.push_back({0.5, 1.0, n});
+    cases.push_back({1.0, 0.9, 1.0, n});
+  }
+  for (const LittleFriction& x : cases) {
+    const MotionCase c = vanishing(x);
+    const PlanarLaw law(SurfaceLaw(c.point, 2.0), tight);
+    const PointTraction now = traction(law, c.motion);
+    const double scale = x.load_unit * x.friction_unit;
+    const Memoryless exact = memoryless(x);
+    const std::string name = std::to_string(std::log10(scale)) + ", " + std::to_string(x.stiffness);
+    // 1e-15 of the slider in its velocity, by five stages, is 1e-10 in the direction.
+    constexpr double near = 1e-8;
+    EXPECT_EQ(now.defect, 0.0) << name;
+    for (const Eigen::Index i : {0, 2}) {
+      const Eigen::Vector3d force = now.force.rows().col(i) / scale;
+      EXPECT_LE((force - exact.force.col(i)).cwiseAbs().maxCoeff(), near) << name;
+    }
+    ASSERT_TRUE(now.jacobian.allFinite()) << name;
+    const bool separates = x.preload < x.stiffness;
+    for (Eigen::Index row = 0; row < 9 && !separates; ++row) {
+      if (row % 3 == 1) continue;
+      const Eigen::RowVectorXd J = now.jacobian.row(row) / scale;
+      EXPECT_LE((J - exact.jacobian.row(row)).cwiseAbs().maxCoeff(), near) << name;
+    }
+    const Eigen::VectorXd phases = Eigen::VectorXd::LinSpaced(7, 0.1, 5.9);
+    const PointHistory history = law.history(c.motion, 1.0, phases, 3);
+    EXPECT_NEAR(history.dissipated_energy / scale, exact.dissipation, near) << name;
+    for (Eigen::Index i = 0; i < phases.size(); ++i) {
+      const Eigen::Vector3d& f = history.instants[static_cast<std::size_t>(i)].traction;
+      const double load = std::max(0.0, x.preload + x.stiffness * std::cos(phases[i]));
+      EXPECT_NEAR(std::hypot(f[0] / scale, f[2] / scale), half * load, near)
+          << name << ", " << phases[i];
+    }
+  }
+}
+
+// Along a line friction jumps where the motion turns back, at n = 1e-6 within √(4 r/(k a)) = 2e-3.
+TEST(PlanarPointHard, VanishingFrictionOfAStraightMotionIsItsSign) {
+  for (const double share : {0.0, 0.3}) {
+    for (const double n : {1e-6, 1e-30, 1e-155, 1e-200, 1e-310}) {
+      MotionCase c = vanishing({1.0, 0.0, n});
+      c.motion.rows().col(2) = share * c.motion.rows().col(0);
+      const PlanarLaw law(SurfaceLaw(c.point, 2.0), tight);
+      const PointTraction now = traction(law, c.motion);
+      const Eigen::Vector3d f = now.force.rows().col(0) / n;
+      const double along = 1.0 / std::hypot(1.0, share);
+      constexpr double near = 2e-3;
+      EXPECT_NEAR(f[1], -0.5 * along * 4.0 / pi, near) << n;
+      EXPECT_NEAR(f[2], 0.0, near) << n;
+      EXPECT_TRUE(now.jacobian.allFinite()) << n;
+      const PointHistory history = law.history(c.motion, 1.0, {}, 1);
+      EXPECT_NEAR(history.dissipated_energy / n, 0.5 * 4.0 / along, near) << n;
+    }
+  }
+  const MotionCase none = vanishing({0.0, 0.0, 1.0});
+  const PointTraction now = traction(PlanarLaw(SurfaceLaw(none.point, 2.0), tight), none.motion);
+  EXPECT_EQ(now.force.rows().norm(), 0.0);
+}
+
+// exp(−λσ) underflows where the motion is fast, or everywhere.
+TEST(PlanarPointHard, FrictionThatUnderflowsWithTheRateIsNone) {
+  for (const double decay : {600.0, 2e3, 2e4, 1e6, 1e9}) {
+    for (const double preload : {2.0, 1.0, 0.8}) {
+      for (const double second : {0.0, 0.02, 0.2}) {
+        MotionCase c = vanishing({preload, 1.0, 1.0});
+        c.motion.rows().col(2) *= second;
+        const contact::FrictionLaw friction = contact::FrictionLaw::exponential(0.3, 0.0, decay);
+        const PlanarLaw law(SurfaceLaw(c.point, 2.0, friction), tight);
+        const PointTraction now = traction(law, c.motion);
+        ASSERT_TRUE(now.force.rows().allFinite() && now.jacobian.allFinite()) << decay;
+        // |f| ≤ μ n: at most the part of the period with λσ < 1, at either turn, and its tail.
+        const double most = 2.0 * 0.3 * (preload + 1.0) * 4.0 / decay;
+        EXPECT_LE(now.force.rows().col(0).cwiseAbs().maxCoeff(), most) << decay;
+        const PointHistory history = law.history(c.motion, 1.0, {}, 1);
+        const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+        // Ten times the tolerance for each force, along the way.
+        EXPECT_NEAR(done, history.dissipated_energy, 20.0 * tight) << decay << ", " << second;
+      }
     }
   }
 }
