@@ -76,7 +76,7 @@ struct ResponseCurve {
   ///   loop           a branch entered by a jump is closed and does not reach the end
   ///   budget         max_points were not enough
   ///   out-of-range   the branch turned back out of the range at its begin
-  ///   unbounded      linear limit: an undamped resonance lies ahead
+  ///   unbounded      at an undamped resonance that nothing limits
   ///   interrupted    the observer asked to stop
   std::string diagnosis;
   std::string message;  ///< a sentence with the numbers
