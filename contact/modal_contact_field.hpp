@@ -30,10 +30,12 @@ class ModalContactField {
   /// @param degree   total degree of the basis, 0 … max_degree; without a value it is chosen by
   ///                 leave-one-out cross-validation. A degree the samples cannot carry is lowered
   ///                 (see degree()).
+  /// @param between  places (p, r) all over the patch, k × 2: terms that the samples hold down and that grow
+  ///                 there are left out. Without rows nothing is known between the samples.
   /// @throws std::invalid_argument  sizes differ, a value is not finite or out of its range.
   ModalContactField(const Eigen::VectorXd& p, const Eigen::VectorXd& r,
                     const Eigen::VectorXd& weights, const ModalShapes& shapes,
-                    std::optional<int> degree);
+                    std::optional<int> degree, const Eigen::MatrixX2d& between = {});
 
   /// @param p, r  any points of the patch plane [m], n each.   @return n × n_modes each.
   [[nodiscard]] ModalShapes at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;

@@ -179,7 +179,8 @@ CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
     out << describe_mesh(mesh, scene.material.density) << '\n';
     for (std::string& warning : mesh::shape_warnings(mesh)) result.warnings.push_back(std::move(warning));
     if (scene.clamped.empty() && scene.response) {
-      result.warnings.emplace_back("nothing is clamped: `run` will refuse rigid-body modes that nothing holds");
+      result.warnings.emplace_back(
+          "nothing is clamped: the structure has rigid-body modes, which only a contact that sticks holds");
     }
     if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
     result.forecast = forecast_of(mesh, scene);

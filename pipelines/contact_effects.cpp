@@ -1,14 +1,8 @@
 #include "pipelines/contact_effects.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <numbers>
 #include <utility>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "contact/any_harmonics_force.hpp"
@@ -22,15 +16,12 @@
 #include "contact/surface_event_law.hpp"
 #include "pipelines/patch_fields.hpp"
 #include "pipelines/response_stage.hpp"
+#include "pipelines/motion_along_r.hpp"
 #include "pipelines/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-// Friction along r does ½ ratio² of the work of that along p: 0.05 % at 3 %, as much as harmonics are left out
-// for. Simulated on the default blade (1.5 %), it changes the peak by 0.013 %.
-constexpr double negligible_ratio = 0.03;
-constexpr int n_trial_frequencies = 200;
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
 // Of the force: peaks of one scene that are solved for twice, on a curve and alone, are told to be the same by
@@ -46,52 +37,6 @@ std::string setting_of(const SceneDescription& scene, const char* name) {
     if (effect == name) return setting;
   }
   return "auto";
-}
-
-bool rubs(const ReducedModel& model, Eigen::Index point) {
-  return model.friction_coefficient[point] > 0.0 &&
-         (model.tangential_stiffness[point] > 0.0 || model.second_stiffness[point] > 0.0);
-}
-
-bool any_rubbing_motion_along_r(const ReducedModel& model) {
-  if (model.shapes.w.size() == 0) return false;
-  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-    if (rubs(model, i) && (model.shapes.w.row(i).array() != 0.0).any()) return true;
-  }
-  return false;
-}
-
-/// Response of the modes with a stiffness added, q_s + i q_c.
-Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
-                                 double frequency) {
-  const Eigen::ArrayXd omega = model.frequency.array();
-  const Eigen::ArrayXcd diagonal =
-      (omega.square() - frequency * frequency).cast<std::complex<double>>() +
-      std::complex<double>(0.0, 2.0 * frequency) * (model.damping_ratio.array() * omega);
-  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
-  dynamic.diagonal() += diagonal.matrix();
-  Eigen::VectorXcd force(model.frequency.size());
-  force.real() = model.force_sine;
-  force.imag() = model.force_cosine;
-  return dynamic.partialPivLu().solve(force);
-}
-
-double rms(const Eigen::MatrixXd& shape, const Eigen::VectorXd& weights, const Eigen::VectorXcd& q) {
-  const Eigen::VectorXcd motion = shape.cast<std::complex<double>>() * q;
-  return std::sqrt(weights.dot(motion.cwiseAbs2()));
-}
-
-Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
-  Eigen::VectorXd u = model.weights.cwiseProduct(model.tangential_stiffness);
-  Eigen::VectorXd w = model.weights.cwiseProduct(model.second_stiffness);
-  const Eigen::VectorXd v = model.weights.cwiseProduct(model.normal_stiffness);
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    if (model.friction_coefficient[i] == 0.0) u[i] = w[i] = 0.0;
-  }
-  const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
-    return shape.transpose() * k.asDiagonal() * shape;
-  };
-  return part(model.shapes.u, u) + part(model.shapes.v, v) + part(model.shapes.w, w);
 }
 
 /// Constants of a point have its bodies in series; rough surfaces change their part alone.
@@ -130,29 +75,6 @@ std::unique_ptr<contact::ModalForce> fitted_force(const std::shared_ptr<const Pa
 
 }  // namespace
 
-double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene) {
-  if (!scene.response || !any_rubbing_motion_along_r(model)) return 0.0;
-  const double begin = 2.0 * std::numbers::pi * scene.response->frequency_begin_hz;
-  const double end = 2.0 * std::numbers::pi * scene.response->frequency_end_hz;
-  const Eigen::Index n = model.frequency.size();
-  const std::array<Eigen::MatrixXd, 2> limits{Eigen::MatrixXd::Zero(n, n), stuck_stiffness(model)};
-  double ratio = 0.0;
-  for (const Eigen::MatrixXd& stiffness : limits) {
-    double along_p = 0.0;
-    double along_r = 0.0;
-    for (int i = 0; i < n_trial_frequencies; ++i) {
-      const double frequency = begin + (end - begin) * i / (n_trial_frequencies - 1);
-      const Eigen::VectorXcd q = linear_response(model, stiffness, frequency);
-      if (!q.allFinite()) continue;  // a resonance without damping
-      along_p = std::max(along_p, rms(model.shapes.u, model.weights, q));
-      along_r = std::max(along_r, rms(model.shapes.w, model.weights, q));
-    }
-    if (along_r == 0.0) continue;
-    ratio = std::max(ratio, along_p > 0.0 ? along_r / along_p : std::numeric_limits<double>::infinity());
-  }
-  return ratio;
-}
-
 ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
   ContactEffects effects;
   effects.n_harmonics = scene.response ? scene.response->harmonics : 1;
@@ -165,8 +87,8 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   const std::string setting = setting_of(scene, "second_direction");
   effects.motion_ratio = motion_ratio_along_r(model, scene);
   const bool meshed = model.vertices.rows() > 0;
-  const bool called_for =
-      meshed ? effects.motion_ratio > negligible_ratio : any_rubbing_motion_along_r(model);
+  // Motion of given modes along r is meant, unless it is rounding.
+  const bool called_for = effects.motion_ratio > (meshed ? negligible_motion_along_r : 1e-9);
   effects.second_direction =
       setting == "on" || (setting == "auto" && called_for && model.weights.size() > 0);
   if (effects.second_direction && !(model.second_stiffness.minCoeff() >= 0.0)) {

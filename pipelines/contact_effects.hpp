@@ -15,10 +15,6 @@
 
 namespace microslip::pipelines {
 
-/// Motion of the patch along r against that along p: of the largest rms over the patch in the frequency range,
-/// in the free or in the stuck linear response, whichever has more. 0 where nothing moves or nothing rubs.
-[[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
-
 /// Decides what `auto` in [effects] leaves open.
 /// @param model  with its contact arrays.
 [[nodiscard]] ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene);

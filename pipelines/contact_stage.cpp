@@ -82,6 +82,17 @@ Eigen::MatrixX3d node_positions(const mesh::Mesh& mesh, const mesh::Surface& sur
   return positions;
 }
 
+/// Places all over the patch, the same whatever number of contact points it has.
+Eigen::MatrixX2d places_between_nodes(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                                      const PatchPlane& plane) {
+  constexpr int enough = 1000;  // some ten between nodes where the patch is coarse
+  const mesh::SurfaceSampling dense = mesh::sample_surface(mesh.nodes(), surface, enough);
+  const auto places = in_plane(dense.centres, plane.origin, plane.frame);
+  Eigen::MatrixX2d result(places.p.size(), 2);
+  result << places.p, places.r;
+  return result;
+}
+
 contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surface& surface,
                                         const mesh::SurfaceSampling& sampling,
                                         const ContactDescription& contact,
@@ -93,7 +104,7 @@ contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surf
   const auto degree = contact.fit == ContactDescription::Fit::degree
                           ? std::optional<int>(contact.fit_degree)
                           : std::nullopt;
-  return {nodes.p, nodes.r, weights, nodal, degree};
+  return {nodes.p, nodes.r, weights, nodal, degree, places_between_nodes(mesh, surface, plane)};
 }
 
 ShapesOnPatch shapes_of(const contact::ModalContactField& field,

@@ -150,8 +150,8 @@ std::vector<std::string> scene_warnings(const SceneDescription& scene) {
   if (!is_excited(scene)) warnings.emplace_back("no force excites the structure: its response will be zero");
   if (is_undamped(scene)) {
     warnings.emplace_back(
-        "a mode has no damping: where friction takes no energy, as in the free and the stuck limit, its peak has no "
-        "end, and the curve will be incomplete");
+        "a mode has no damping: where friction takes no energy, as in the free and the stuck limit, its peak may "
+        "have no end, and the curve be incomplete then");
   }
   const auto [low, high] =
       std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);

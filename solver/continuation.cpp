@@ -173,7 +173,11 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
     const long readings = curve.state_readings + other.state_readings;
     const long cuts = curve.state_cuts + other.state_cuts;
-    if (other.complete || other.points.size() > curve.points.size()) {
+    const bool two_sides = curve.diagnosis == "unbounded" && other.diagnosis == "unbounded" &&
+                           curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
+    if (two_sides) {
+      curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
+    } else if (other.complete || other.points.size() > curve.points.size()) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, "other-end"});
       curve = std::move(other);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/linear_resonance.hpp"
 #include "solver/start_point.hpp"
 
 namespace microslip::solver {
@@ -44,6 +45,8 @@ CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
       balance_(std::make_unique<HarmonicBalance>(scene, first_harmonics(scene, options))),
       observe_(observe),
       range_(std::abs(options.frequency_end - options.frequency_begin)) {
+  const Eigen::MatrixXd free = Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
+  unbounded_ = unbounded_resonance(scene, free, options.frequency_begin, options.frequency_end);
   if (options.harmonic_tolerance > 0.0) {
     choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
     screening_.emplace(scene, *choice_);
@@ -104,6 +107,16 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
   return distance(now, entry) < distance(now, walker.before().solution.point);
 }
 
+/// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is the smaller
+/// one, nothing bounds an undamped resonance of the free structure, and the branch climbs for ever.
+bool CurveTracer::endless() const {
+  constexpr double near = 1e-6;  // of the frequency: 5e5 times the static response
+  constexpr double high = 1e4;   // times the first point
+  const ResponsePoint& now = curve_.points.back();
+  return unbounded_ && std::abs(now.frequency - *unbounded_) <= near * *unbounded_ &&
+         now.amplitude > high * curve_.points.front().amplitude;
+}
+
 bool CurveTracer::walk(BranchWalker& walker) {
   for (int n_steps = 0; static_cast<int>(curve_.points.size()) < options_.max_points; ++n_steps) {
     const bool stepped = walker.advance();
@@ -125,6 +138,10 @@ bool CurveTracer::walk(BranchWalker& walker) {
     }
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
       stop("interrupted", at_hertz("stopped", frequency));
+      return false;
+    }
+    if (endless()) {
+      stop("unbounded", at_hertz("an undamped resonance that friction does not hold", frequency));
       return false;
     }
     if (closed(walker, n_steps)) {

@@ -62,6 +62,7 @@ class CurveTracer {
   void reduce(BranchWalker& walker);
   /// Brings all points to the same number of harmonics.
   [[nodiscard]] ResponseCurve finished();
+  [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
   void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
@@ -82,6 +83,7 @@ class CurveTracer {
   const Scene& scene_;
   ContinuationOptions options_;
   std::unique_ptr<HarmonicBalance> balance_;
+  std::optional<double> unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
   std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
   std::optional<HarmonicScreening> screening_;
   double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked

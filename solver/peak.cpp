@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -30,6 +31,8 @@ double parabola_step(const std::array<double, 3>& at, const std::array<double, 3
   return -0.5 * ((at[0] - at[2]) * q - (at[0] - at[1]) * r) / (q - r);
 }
 
+constexpr double bracket_left = 4.0;  // tolerances: what a search leaves of its bracket
+
 /// Golden section with parabolic steps (Brent 1973, chapter 5) until the bracket is below the tolerance.
 void minimise(const PeakFunction& f, const Bracket& bracket, double tolerance) {
   constexpr double golden = 0.3819660112501051;
@@ -39,7 +42,7 @@ void minimise(const PeakFunction& f, const Bracket& bracket, double tolerance) {
   std::array<double, 3> value{bracket.value, bracket.value, bracket.value};
   double last = c - a;
   double before_last = last;
-  while (c - a > 4.0 * tolerance) {
+  while (c - a > bracket_left * tolerance) {
     const double middle = 0.5 * (a + c);
     double step = parabola_step(x, value);
     // A parabola that leaves the bracket or does not halve the step before last is not trusted.
@@ -76,6 +79,7 @@ constexpr double as_good = 1.01;  // times the minimum
 constexpr double the_same = 1.0 + 1e-7;
 // A smooth minimum is as level as that over some 1e-3 of its parameter; of the scale.
 constexpr double flat_width = 0.02;
+constexpr double rough = 1e-2;  // of the scale: tolerance for a valley that may not be the lowest
 
 /// A share of the scale as a distance of positions.
 double on_scale(const OptimumOptions& options, double share) {
@@ -141,15 +145,15 @@ class Search {
       static_cast<void>(peaks_.confirm(parameter));
       return peaks_.highest(parameter).amplitude;
     };
-    // A peak that only the curve at the optimum shows is followed from there and the search
-    // repeated; each round finds one more.
+    // A peak that only the curve at the optimum shows is followed from there, a valley that only its edges
+    // show is searched, and all repeated; each round finds one more.
     constexpr int rounds = 4;
     for (int i = 0; i < rounds; ++i) {
       refine(followed);
-      if (settled()) return finished();
+      if (settled() && open_valleys(peaks_.result().peaks).empty()) return finished();
     }
     result_.notes.emplace_back(
-        "peaks followed kept missing the highest one; search on whole curves");
+        "peaks followed kept missing the highest one, or valleys kept appearing; search on whole curves");
     refine(on_whole_curves);
     static_cast<void>(settled());
     return finished();
@@ -197,35 +201,65 @@ class Search {
              on_scale(options_, relative_tolerance));
   }
 
-  /// Valleys that the scan shows only roughly may be deeper than the lowest value known.
-  void search_rivals(const PeakFunction& amplitude) {
-    constexpr double rough = 1e-2;
+  /// Inner values lower than their neighbours that may hide the minimum: nearly as low as the lowest known, between
+  /// neighbours further apart than a rough search leaves them, and not searched between just these.
+  [[nodiscard]] std::vector<Place> open_valleys(const std::vector<PeakOfParameter>& peaks) const {
     constexpr double rival = 1.1;
-    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
-    const double limit = rival * lowest(peaks)->amplitude;
     std::vector<Place> valleys;
-    for (auto one = peaks.begin(); one != peaks.end(); ++one) {
-      if (one == peaks.begin() || std::next(one) == peaks.end()) continue;
-      const bool lower =
-          one->amplitude < std::prev(one)->amplitude && one->amplitude < std::next(one)->amplitude;
-      if (lower && one->amplitude < limit) valleys.push_back(one);
+    if (peaks.size() < 3) return valleys;
+    const double limit = rival * lowest(peaks)->amplitude;
+    for (auto one = std::next(peaks.begin()); std::next(one) != peaks.end(); ++one) {
+      const double beside = std::min(std::prev(one)->amplitude, std::next(one)->amplitude);
+      const double width = position(std::next(one)->parameter) - position(std::prev(one)->parameter);
+      // Less deep than the_same is the rounding of a flat stretch.
+      const bool valley = one->amplitude * the_same < beside && one->amplitude < limit;
+      const bool wide = width > bracket_left * on_scale(options_, rough);
+      if (valley && wide && searched_.count(neighbourhood(one)) == 0) valleys.push_back(one);
     }
+    return valleys;
+  }
+
+  static std::array<double, 3> neighbourhood(Place place) {
+    return {std::prev(place)->parameter, place->parameter, std::next(place)->parameter};
+  }
+
+  /// Valleys beside the lowest that the values known show only roughly may be deeper than it.
+  void search_rivals(const PeakFunction& amplitude) {
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    const std::vector<Place> valleys = open_valleys(peaks);
     const bool only_the_lowest = valleys.size() == 1 && valleys.front() == lowest(peaks);
     if (only_the_lowest) return;
-    for (const Place one : valleys) search_beside(peaks, one, amplitude, rough);
+    for (const Place one : valleys) {
+      search_beside(peaks, one, amplitude, rough);
+      searched_.insert(neighbourhood(one));
+    }
   }
 
   /// Searches the minimum between the neighbours of the lowest value known.
-  void refine(const PeakFunction& amplitude) {
-    if (peaks_.result().peaks.empty()) return;
-    search_rivals(amplitude);
+  void search_lowest(const PeakFunction& amplitude) {
     std::vector<PeakOfParameter> known = peaks_.result().peaks;
     const Place least = lowest(known);
     if (least == known.begin() || least == std::prev(known.end())) {
       probe_beside(known, least, amplitude);
       known = peaks_.result().peaks;
     }
-    search_beside(known, lowest(known), amplitude, options_.relative_tolerance);
+    const Place place = lowest(known);
+    search_beside(known, place, amplitude, options_.relative_tolerance);
+    if (place != known.begin() && std::next(place) != known.end()) {
+      searched_.insert(neighbourhood(place));
+    }
+  }
+
+  /// Searches the valleys that may hold the minimum until their values show no other.
+  void refine(const PeakFunction& amplitude) {
+    constexpr int most_searches = 8;  // each finds what the one before laid open, seldom more than once
+    if (peaks_.result().peaks.empty()) return;
+    searched_.clear();  // amplitudes may have changed: a peak more is followed
+    for (int i = 0; i < most_searches; ++i) {
+      search_rivals(amplitude);
+      search_lowest(amplitude);
+      if (open_valleys(peaks_.result().peaks).empty()) return;
+    }
   }
 
   /// Whether the lowest value is confirmed by its curve, and stays the lowest while the edges of its
@@ -339,6 +373,7 @@ class Search {
   OptimumOptions options_;
   bool one_frequency_;
   PeakFamilies peaks_;
+  std::set<std::array<double, 3>> searched_;  // valleys of the present search, with their neighbours
   Optimum result_;
 };
 

@@ -19,7 +19,7 @@ enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 
 /// What a verdict of stability rests on (stability.hpp). Hill's exponents do not prove that pairs of a hysteretic
 /// force decay: what they call stable is not proved stable.
-enum class StabilityBasis { slow_flow, hill, period_map };
+enum class StabilityBasis { slow_flow, hill, period_map, damped_linear };
 
 struct ResponsePoint {
   double frequency = 0.0;         ///< ω [rad/s]
@@ -76,7 +76,7 @@ struct ResponseCurve {
   ///   loop           a branch entered by a jump is closed and does not reach the end
   ///   budget         max_points were not enough
   ///   out-of-range   the branch turned back out of the range at its begin
-  ///   unbounded      linear limit: an undamped resonance lies ahead
+  ///   unbounded      at an undamped resonance that nothing limits
   ///   interrupted    the observer asked to stop
   std::string diagnosis;
   std::string message;  ///< a sentence with the numbers

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "solver/floquet.hpp"
+#include "solver/linear_force.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -173,6 +174,24 @@ double nearest_resonance(const Eigen::VectorXcd& eigenvalues) {
   return real > 0.0 ? std::min(real, oscillating) : oscillating;
 }
 
+/// Whether a matrix is symmetric without negative eigenvalues, up to rounding of the sum that made it.
+bool is_spring(const Eigen::MatrixXd& stiffness) {
+  constexpr double rounding = 1e-12;  // of the norm: sums over some thousand points
+  const double least = rounding * stiffness.norm();
+  if (!((stiffness - stiffness.transpose()).norm() <= least)) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
+  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -least;
+}
+
+/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0: the energy of a perturbation falls until it is at rest.
+bool is_damped_linear(const Scene& scene) {
+  const bool damped =
+      (scene.natural_frequency.array() > 0.0).all() && (scene.damping_ratio.array() > 0.0).all();
+  if (!damped || !scene.contact) return damped;
+  const auto* linear = dynamic_cast<const LinearForce*>(scene.contact.get());
+  return linear != nullptr && is_spring(linear->stuck_stiffness());
+}
+
 }  // namespace
 
 StabilityReport slow_flow_stability(const HarmonicBalance& balance,
@@ -200,6 +219,11 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
                                double frequency, StabilityReport slow) {
   if (balance.set().highest() == 1) return slow;
   StabilityReport report = std::move(slow);
+  if (is_damped_linear(balance.scene())) {
+    report.stability = Stability::stable;
+    report.basis = StabilityBasis::damped_linear;
+    return report;
+  }
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
@@ -236,6 +260,7 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
                                   double frequency, StabilityReport hill, PeriodMapEffort effort) {
   const Scene& scene = balance.scene();
   if (balance.set().highest() == 1 || !scene.transient) return hill;
+  if (hill.basis == StabilityBasis::damped_linear) return hill;
   if (hill.stability == Stability::unstable) return hill;
   const Eigen::Index n_points = scene.transient->n_points();
   const bool few = effort == PeriodMapEffort::few_points;

@@ -16,7 +16,8 @@
 /// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
 /// point is not assessed. With no exponent growing it is called stable, which pairs of a hysteretic force do
 /// not prove either: where the scene can be integrated in time, the multipliers of its period map judge them
-/// (floquet.hpp).
+/// (floquet.hpp). A linear structure, without contact or with a LinearForce that is a spring (S = Sᵀ ≥ 0), needs
+/// none of this: with every natural frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +41,7 @@ struct StabilityReport {
                                                   const Eigen::MatrixXd& jacobian,
                                                   double frequency);
 
-/// The same judged by Hill's exponents where there are several harmonics.
+/// The same judged by Hill's exponents where there are several harmonics and the scene is no damped linear one.
 /// @param slow  slow_flow_stability() of the same point.
 [[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance,
                                              const Eigen::MatrixXd& jacobian, double frequency,

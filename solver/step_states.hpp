@@ -19,7 +19,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_states.hpp"
+#include "contact/modal_force.hpp"
 #include "solver/branch_geometry.hpp"
 
 namespace microslip::solver {

@@ -3,12 +3,27 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "solver/output_amplitude.hpp"
 #include "solver/periodicity.hpp"
 
 namespace microslip::solver {
 namespace {
+
+/// Sizes that changes are held against are those of the period; where nothing keeps up a motion, those of the
+/// largest period so far: motion that decays to rest is small only against what it was.
+void keep_largest(const TimeSystem& system, PeriodState& state, PeriodState& largest) {
+  if (system.is_driven()) return;
+  largest.displacement_size = std::max(largest.displacement_size, state.displacement_size);
+  largest.force_size = std::max(largest.force_size, state.force_size);
+  // Begun at rest there is none but the displacement that the static force holds.
+  largest.velocity_size = std::max({largest.velocity_size, state.velocity_size,
+                                    system.frequency() * largest.displacement_size});
+  state.displacement_size = largest.displacement_size;
+  state.velocity_size = largest.velocity_size;
+  state.force_size = largest.force_size;
+}
 
 PeriodState period_state(const TimeSystem& system, const TimeState& state,
                          const TimeStepper& stepper) {
@@ -24,7 +39,9 @@ PeriodState period_state(const TimeSystem& system, const TimeState& state,
 
 double ratio_of(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 
-void fill_response(const TimeSystem& system, const TimeRecorder& recorder, TimePoint& point) {
+/// @param at_rest  energy that comes and goes where nothing drives the motion [J]: works of a decay vanish with it.
+void fill_response(const TimeSystem& system, const TimeRecorder& recorder, double at_rest,
+                   TimePoint& point) {
   ResponsePoint& response = point.response;
   response.frequency = system.frequency();
   response.q = recorder.harmonics();
@@ -38,7 +55,7 @@ void fill_response(const TimeSystem& system, const TimeRecorder& recorder, TimeP
   response.iterations = point.n_periods;
   point.work = recorder.work();
   const PeriodWork& w = point.work;
-  const double size = std::max(std::abs(w.excitation), w.damping + w.slip);
+  const double size = std::max({std::abs(w.excitation), w.damping + w.slip, at_rest});
   response.energy_imbalance = ratio_of(std::abs(w.excitation - w.damping - w.slip), size);
   response.dissipation_mismatch = ratio_of(std::abs(w.contact - w.slip), size);
   point.stick_phases = recorder.stick_phases();
@@ -47,10 +64,13 @@ void fill_response(const TimeSystem& system, const TimeRecorder& recorder, TimeP
 TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions& options,
               TimeState& state) {
   PeriodicityTest test;
+  PeriodState largest;
   TimePoint point;
   while (point.n_periods < options.max_periods) {
     stepper.advance_period(state, nullptr);
-    test.add(period_state(system, state, stepper));
+    PeriodState now = period_state(system, state, stepper);
+    keep_largest(system, now, largest);
+    test.add(std::move(now));
     ++point.n_periods;
     if (point.n_periods < options.min_periods) continue;
     point.period_multiple = test.multiple(options.periodicity_tolerance);
@@ -65,7 +85,8 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
   point.n_events = stepper.n_events() - events_before;
   point.response.residual =
       test.distance(static_cast<std::size_t>(std::max(1, point.period_multiple)));
-  fill_response(system, recorder, point);
+  // Kinetic energy, which only velocities that decay give a size here.
+  fill_response(system, recorder, largest.velocity_size * largest.velocity_size, point);
   return point;
 }
 

@@ -48,6 +48,11 @@ class TimeSystem {
   [[nodiscard]] int least_steps() const;
   /// ‖Q‖ over the period [N/√kg].
   [[nodiscard]] double excitation_size() const { return scene_.excitation.rows().norm(); }
+  /// Whether Q varies over the period; else a damped motion comes to rest.
+  [[nodiscard]] bool is_driven() const {
+    const auto& rows = scene_.excitation.rows();
+    return (rows.bottomRows(rows.rows() - 1).array() != 0.0).any();
+  }
 
  private:
   const Scene& scene_;

@@ -46,6 +46,43 @@ ModalShapes first_mode(const ModalShapes& s) {
   return {s.u.leftCols(1), s.v.leftCols(1), s.w.leftCols(1)};
 }
 
+// Nodes of a strip of quadratic elements, one element wide: three lines, which a turned slip direction crosses
+// askew. Between them a polynomial of high degree is free.
+TEST(ModalContactField, StaysWithTheModesBetweenTheNodesOfATurnedStrip) {
+  const auto turned = [](Eigen::Index along, Eigen::Index across, double degrees) {
+    const double angle = degrees * M_PI / 180.0;
+    Eigen::MatrixX2d places(along * across, 2);
+    for (Eigen::Index i = 0; i < places.rows(); ++i) {
+      const double x = 0.03 * static_cast<double>(i % along) / static_cast<double>(along - 1);
+      const double y = 0.006 * static_cast<double>(i / along) / static_cast<double>(across - 1);
+      places.row(i) << std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y;
+    }
+    return places;
+  };
+  const auto shapes = [](const Eigen::MatrixX2d& at, double degrees) {
+    const double angle = -degrees * M_PI / 180.0;
+    const Eigen::ArrayXd x = std::cos(angle) * at.col(0).array() - std::sin(angle) * at.col(1).array();
+    const Eigen::ArrayXd y = std::sin(angle) * at.col(0).array() + std::cos(angle) * at.col(1).array();
+    ModalShapes s{Eigen::MatrixXd(at.rows(), 1), Eigen::MatrixXd(at.rows(), 1), {}};
+    s.u.col(0) = (60.0 * x).sin() + 20.0 * y;
+    s.v.col(0) = (40.0 * x).cos() * (1.0 + 30.0 * y);
+    return s;
+  };
+  for (const double degrees : {0.0, 1e-6, 1e-3, 0.1, 0.5, 1.0, 2.0, 5.0, 30.0, 45.0, -5.0, 90.0}) {
+    const Eigen::MatrixX2d nodes = turned(31, 3, degrees);
+    const Eigen::MatrixX2d dense = turned(101, 21, degrees);
+    const ModalContactField field(nodes.col(0), nodes.col(1), Eigen::VectorXd::Ones(nodes.rows()),
+                                  shapes(nodes, degrees), {}, dense);
+    const ModalShapes expected = shapes(dense, degrees);
+    const ModalShapes ours = field.at(dense.col(0), dense.col(1));
+    const double error = (ours.u - expected.u).norm() / expected.u.norm() +
+                         (ours.v - expected.v).norm() / expected.v.norm();
+    // 1e-8 where the lines are axes; else terms are missing that only the lines tell from others.
+    EXPECT_LE(error, degrees == 0.0 || degrees == 90.0 ? 1e-6 : 1e-3)
+        << degrees << " degrees, degree " << field.degree();
+  }
+}
+
 TEST(ModalContactField, PolynomialsAreReproducedAndTheirDegreeIsFound) {
   const Samples s = scattered(200, 1);
   const ModalContactField field(s.p, s.r, s.weights, first_mode(shapes_at(s.p, s.r)), {});

@@ -100,6 +100,39 @@ TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
   EXPECT_EQ(n_told, 3);
 }
 
+// A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along r.
+TEST(Effects, APeakThatMovesAlongRCountsHoweverSmallBesideAnother) {
+  constexpr const char* two = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10, 20]
+damping_ratio = 0.001
+force_sine = [1, 1e-4]
+output = [1, 1]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e3
+tangential_stiffness_r = 2e3
+normal_stiffness = 1e3
+friction_coefficient = 0.4
+preload = 20
+phi_u_1 = 1
+phi_u_2 = 0.01
+phi_w_1 = 0.001
+phi_w_2 = 1
+[response]
+frequency = [8, 12]
+)toml";
+  const auto ratio = [&](const Overrides& overrides) {
+    return model_in(parse_scene(two, "scene.toml", "/nowhere", overrides)).effects.motion_ratio;
+  };
+  EXPECT_NEAR(ratio({}), 0.001, 1e-4);
+  EXPECT_GT(ratio({"response.frequency=[8, 25]"}), 0.5);
+  EXPECT_EQ(ratio({"response.frequency=[25, 8]"}), ratio({"response.frequency=[8, 25]"}));
+  // Far from a resonance the place of the largest motion decides.
+  EXPECT_LT(ratio({"response.frequency=[5, 6]"}), 0.01);
+}
+
 TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
   const auto warnings = [](const std::string& law) {
     return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", {"contact.friction_law=" + law}));

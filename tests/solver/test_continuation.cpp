@@ -307,6 +307,20 @@ TEST(TraceLinear, EndsAtAnUndampedResonanceWithItsName) {
                   .complete);
 }
 
+// Friction takes 4 μn₀ A a period and the excitation gives π F A: below F = 4 μn₀ / π there is a peak.
+TEST(Continuation, NamesAnUndampedResonanceThatFrictionDoesNotHold) {
+  tests::SinglePoint single;
+  single.damping_ratio = 0.0;
+  single.point = {3.0, 0.0, 0.5, 1.0};
+  single.force = 1.1 * 4.0 * 0.5 / M_PI;
+  const ResponseCurve beyond =
+      trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5));
+  EXPECT_FALSE(beyond.complete);
+  EXPECT_EQ(beyond.diagnosis, "unbounded");
+  single.force = 0.9 * 4.0 * 0.5 / M_PI;
+  EXPECT_TRUE(trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5)).complete);
+}
+
 TEST(TraceLinear, HasTheLimitsOfTheContact) {
   const Scene scene = tests::chain_scene(30.0);
   const ContinuationOptions options = frequency_range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);

@@ -1,6 +1,7 @@
 #include "solver/peak.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -157,6 +158,38 @@ TEST(MinimisePeak, FindsAPreloadThatNoNeighbourBeats) {
   EXPECT_TRUE(
       std::is_sorted(optimum.trace.begin(), optimum.trace.end(),
                      [](const auto& a, const auto& b) { return a.parameter < b.parameter; }));
+}
+
+/// Straight lines between knots over ln(parameter): two valleys between the scan values 4 and 6, the deeper
+/// one on the side of the scan value 5 that the first golden section leaves.
+double two_valleys(double parameter) {
+  constexpr std::array<std::array<double, 2>, 10> knots{{{0.0, 2.0},
+                                                        {4.0, 1.05},
+                                                        {4.64, 1.0},
+                                                        {4.7, 1.007},
+                                                        {4.85, 1.007},
+                                                        {5.0, 1.0045},
+                                                        {5.25, 0.997},
+                                                        {5.5, 1.006},
+                                                        {6.0, 1.05},
+                                                        {11.0, 2.0}}};
+  const double x = std::log(parameter);
+  std::size_t i = 1;
+  while (i + 1 < knots.size() && x > knots[i][0]) ++i;
+  const double share = (x - knots[i - 1][0]) / (knots[i][0] - knots[i - 1][0]);
+  return (1.0 - share) * knots[i - 1][1] + share * knots[i][1];
+}
+
+TEST(MinimisePeak, SearchesEveryValleyThatTheSearchItselfLaysOpen) {
+  const auto family = [](double parameter) {
+    Scene scene = rubbing(1.0);
+    scene.contact = nullptr;
+    scene.excitation.rows() *= two_valleys(parameter);
+    return scene;
+  };
+  const Optimum optimum = minimise_peak(family, range(), preloads(1.0, std::exp(11.0)));
+  EXPECT_TRUE(optimum.found) << optimum.message;
+  EXPECT_NEAR(std::log(optimum.best.parameter), 5.25, 1e-3);  // the tolerance of the search is 1e-4
 }
 
 TEST(MinimisePeak, SaysWhenTheSmallestPeakLiesAtABound) {

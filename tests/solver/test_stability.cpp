@@ -1,5 +1,6 @@
 #include "solver/stability.hpp"
 
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -7,6 +8,8 @@
 
 #include "duffing.hpp"
 #include "solver/continuation.hpp"
+#include "solver/linear_force.hpp"
+#include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -59,6 +62,72 @@ TEST(Stability, DeterminantAndGrowthJudgeAlike) {
       const auto at = balance.evaluate(point.q.vector(), point.frequency);
       const StabilityReport report = assess_stability(balance, at.jacobian, point.frequency);
       EXPECT_EQ(report.growth > 0.0, report.determinant_sign < 0.0) << preload;
+    }
+  }
+}
+
+/// Two modes on a spring between them, three harmonics.
+Scene sprung_modes(double damping_ratio) {
+  Scene scene;
+  scene.natural_frequency = Eigen::Vector2d(1.0, 2.2);
+  scene.damping_ratio = Eigen::Vector2d(0.01, damping_ratio);
+  scene.output = Eigen::Vector2d(1.0, 0.5);
+  scene.excitation = contact::Harmonics(3, 2);
+  scene.excitation.rows()(1, 0) = 1.0;
+  scene.excitation.rows()(5, 1) = 0.3;
+  const Eigen::Matrix2d stiffness{{1.0, 0.4}, {0.4, 0.16}};  // of one spring: singular
+  scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+  return scene;
+}
+
+StabilityBasis basis_of(const Scene& scene) {
+  ContinuationOptions options;
+  options.n_harmonics = 3;
+  const auto curve = solve_at_frequency(scene, 0.83, options);
+  EXPECT_TRUE(curve.complete);
+  if (!curve.complete) return StabilityBasis::hill;
+  EXPECT_EQ(curve.points[0].stability, Stability::stable);
+  return curve.points[0].stability_basis;
+}
+
+TEST(Stability, OfADampedLinearStructureIsProvedForAnyNumberOfHarmonics) {
+  EXPECT_EQ(basis_of(sprung_modes(0.02)), StabilityBasis::damped_linear);
+  Scene free = sprung_modes(0.02);
+  free.contact = nullptr;
+  EXPECT_EQ(basis_of(free), StabilityBasis::damped_linear);
+}
+
+TEST(Stability, OfALinearStructureWithAnUndampedModeIsNotProved) {
+  EXPECT_EQ(basis_of(sprung_modes(0.0)), StabilityBasis::hill);
+  Scene free = sprung_modes(0.0);
+  free.contact = nullptr;
+  EXPECT_EQ(basis_of(free), StabilityBasis::hill);
+}
+
+TEST(Stability, OfALinearForceThatIsNoSpringIsNotProved) {
+  // A circulatory or a softening force can make a damped structure unstable.
+  for (const Eigen::Matrix2d& stiffness :
+       {Eigen::Matrix2d{{0.0, 0.01}, {-0.01, 0.0}}, Eigen::Matrix2d{{-0.1, 0.0}, {0.0, 0.0}}}) {
+    Scene scene = sprung_modes(0.02);
+    scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+    EXPECT_EQ(basis_of(scene), StabilityBasis::hill);
+  }
+}
+
+TEST(Stability, OfEveryLinearCurveIsProved) {
+  Scene scene = tests::three_dof_scene(1e6);  // sticks: certified
+  tests::use_event_cycles(scene);
+  ContinuationOptions options;
+  options.n_harmonics = 3;
+  options.frequency_begin = 2.0 * std::numbers::pi * 18.0;
+  options.frequency_end = 2.0 * std::numbers::pi * 28.0;
+  for (const auto& curve :
+       {trace_response(scene, options), trace_linear(scene, LinearLimit::free, options),
+        trace_linear(scene, LinearLimit::stuck, options)}) {
+    ASSERT_TRUE(curve.complete) << curve.message;
+    for (const auto& point : curve.points) {
+      EXPECT_EQ(point.stability, Stability::stable) << point.frequency;
+      EXPECT_EQ(point.stability_basis, StabilityBasis::damped_linear) << point.frequency;
     }
   }
 }

@@ -55,6 +55,50 @@ TEST_P(Methods, ReachTheLinearResponseWithoutContact) {
   EXPECT_TRUE(point.stick_phases.empty());
 }
 
+TEST_P(Methods, ComeToRestUnderAStaticForceAlone) {
+  // A step load: from 0 the motion decays to where the spring, and with contact whatever the slider
+  // holds, carries it.
+  for (const bool rubs : {false, true}) {
+    Scene scene = oscillator(1.0);
+    if (!rubs) {
+      scene.contact = nullptr;
+      scene.transient = nullptr;
+    }
+    scene.excitation = contact::Harmonics(1, 1);
+    scene.excitation.rows()(0, 0) = 2.0;
+    TimeState state;
+    for (const double omega : {0.6, 0.9}) {  // the second begins at rest
+      const TimeSystem system(scene, omega);
+      if (omega == 0.6) state = state_at_rest(system);
+      const TimePoint point = integrate_to_steady_state(system, options(), state);
+      ASSERT_TRUE(point.periodic) << rubs << ' ' << omega;
+      EXPECT_EQ(point.period_multiple, 1);
+      EXPECT_LT(point.n_periods, 200);
+      // 1e-7, the tolerance, of twice the static response, the largest motion.
+      EXPECT_LT(point.response.amplitude, 1e-6);
+      EXPECT_LT(point.response.energy_imbalance, 1e-6);
+      if (!rubs) {
+        EXPECT_NEAR(point.response.mean, 2.0, 1e-6);
+      } else {
+        EXPECT_LE(std::abs(2.0 - point.response.mean), 0.5 * (1.0 + 1e-6));  // held by friction
+      }
+    }
+  }
+}
+
+TEST_P(Methods, ComeToRestWithoutAnyForce) {
+  Scene scene = oscillator(0.0);
+  scene.contact = nullptr;
+  scene.transient = nullptr;
+  scene.excitation.rows().setZero();
+  contact::Harmonics begin(1, 1);
+  begin.rows()(1, 0) = 1.0;
+  const TimePoint point = steady_state_from(scene, 0.9, begin, options());
+  ASSERT_TRUE(point.periodic);
+  EXPECT_LT(point.n_periods, 200);
+  EXPECT_LT(point.response.amplitude, 1e-6);  // tolerance 1e-7 of the largest motion, 1.1
+}
+
 TEST_P(Methods, GiveHalfThePeakToPeakValueOfTheMotion) {
   const TimePoint point = steady_state(oscillator(1.0), 0.5, options());
   TimeOptions fine = options();
