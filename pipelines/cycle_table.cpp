@@ -63,6 +63,7 @@ Json cycle_json(const CycleRow& row, bool two_directions) {
   json["normal"] = force_json(cycle.force, 1);
   json["dissipated_energy"] = cycle.dissipated_energy;
   json["slip_distance"] = cycle.slip_distance;
+  if (cycle.defect > 0.0) json["defect"] = cycle.defect;  // the search ended before its tolerance
   if (row.jacobian) json["jacobian"] = jacobian_json(*row.jacobian);
   return json;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "contact/event_law.hpp"
@@ -141,6 +142,29 @@ TEST(CycleTable, TheSecondDirectionHasItsOwnStiffness) {
   EXPECT_THROW(static_cast<void>(cycles(columns + ",tangential_stiffness_r\n"
                                                   "1,1,0.5,1,3,0,0,0,0,-1\n")),
                SceneError);
+}
+
+// A circle of radius 1 (theory section 9): force μn, of which ρ = μn / k is in phase with the displacement and
+// √(1 − ρ²) against the velocity. Next to the onset of slip, ρ = 1, a slider comes to its circle slowly: the force
+// is as good as the root of rounding there, and a search that ends before its tolerance says so.
+TEST(CycleTable, CirclesNextToTheOnsetOfSlipAreThoseOfTheFormula) {
+  const std::string columns = header.substr(0, header.size() - 1) + ",w_sin,w_cos\n";
+  constexpr double root_of_rounding = 1e-9;  // √ε · k a, with a margin of 15 below it
+  int n_told = 0;
+  for (int k = 1; k <= 13; ++k) {
+    const std::string preload = fmt::format("{:.17g}", 1.0 - std::pow(10.0, -k));
+    const Json row = cycles(columns + "1,0,1," + preload + ",1,0,0,0,0,0,1\n")[0];
+    const double rho = std::stod(preload);
+    const double across = rho * std::sqrt((1.0 - rho) * (1.0 + rho));
+    EXPECT_NEAR(row["friction"]["sin"][0].get<double>(), rho * rho, root_of_rounding) << preload;
+    EXPECT_NEAR(row["friction"]["cos"][0].get<double>(), across, root_of_rounding) << preload;
+    if (!row.contains("defect")) continue;
+    ++n_told;
+    EXPECT_GT(row["defect"].get<double>(), 0.0) << preload;
+    EXPECT_LE(row["defect"].get<double>(), root_of_rounding) << preload;
+  }
+  EXPECT_LT(n_told, 6);  // those within 1e-9 of the onset at most
+  EXPECT_FALSE(cycles(header + "1,1,0.5,1,3,0,0,0.2,0.1\n")[0].contains("defect"));
 }
 
 TEST(CycleTable, TheMeanOfUPushesAStuckPoint) {
