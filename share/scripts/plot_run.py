@@ -267,8 +267,9 @@ def draw_curve(axes, run, curve, table):
     frequency = table["frequency_Hz"]
     amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
     for unstable, part in branches(table):
-        axes.plot(frequency[part], amplitude[part], color=colour, zorder=3.5 if limit else 3,
-                  linewidth=1.0 if limit else 1.4, linestyle=(0, (2.5, 1.6)) if unstable else "-")
+        # Curves that follow a limit lie on it, and both are seen.
+        axes.plot(frequency[part], amplitude[part], color=colour, zorder=2.5 if limit else 3,
+                  linewidth=2.4 if limit else 1.3, linestyle=(0, (2.5, 1.6)) if unstable else "-")
     marks = np.array(table["mark"])
     for mark, style in (("peak", {"marker": "o", "s": 14}),
                         ("fold", {"marker": "D", "s": 13, "facecolor": "white"})):
@@ -295,7 +296,8 @@ def plot_curves(run, folder):
     loads = [load_of(curve) for curve, _ in run.curves]
     order = (["free"] if "free" in loads else []) + list(run.colours) + (
         ["stuck"] if "stuck" in loads else [])
-    lines = [Line2D([], [], color=run.colour(load), label=run.label(load)) for load in order]
+    lines = [Line2D([], [], color=run.colour(load), label=run.label(load),
+                    linewidth=1.3 if is_number(load) else 2.4) for load in order]
     axes.legend(handles=lines, loc="upper left", bbox_to_anchor=(1.0, 1.02), alignment="left",
                 title="preload scale" if run.scaled else "preload")
     kinds = [Line2D([], [], color="0.3", label="stable"),
