@@ -177,6 +177,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
                            curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
     if (two_sides) {
       curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
+      curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
     } else if (other.complete || other.points.size() > curve.points.size()) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
       other.log.push_back({options.frequency_end, "other-end"});

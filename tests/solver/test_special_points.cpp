@@ -144,51 +144,37 @@ TEST(SpecialPoints, FoldsCloseTogetherAreFoundByLongStepsToo) {
   }
 }
 
-TEST(SpecialPoints, APeakWhereAPointBeginsToSlipIsFoundEitherWay) {
-  // Cusps less than 1e-4 of the amplitude high: the slope has recovered long before the step ends.
-  for (const auto& [seed, n_peaks] : {std::pair{116U, 6U}, std::pair{138U, 7U}}) {
-    SCOPED_TRACE(seed);
-    tests::RandomScene random = tests::wild_scene(seed);
-    const auto there = marked(trace_response(random.scene, random.options), PointMark::peak);
-    std::swap(random.options.frequency_begin, random.options.frequency_end);
-    auto back = marked(trace_response(random.scene, random.options), PointMark::peak);
-    std::reverse(back.begin(), back.end());
-    EXPECT_EQ(there.size(), n_peaks);
-    ASSERT_EQ(there.size(), back.size());
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
-    }
-  }
-}
-
-TEST(SpecialPoints, TwoFoldsOnASteepPartAreFoundEitherWay) {
-  // 3e-7 of the frequency apart, between two others.
-  tests::RandomScene random = tests::random_scene(121);
-  const auto there = marked(trace_response(random.scene, random.options), PointMark::fold);
+/// As many marks of a kind, at the same frequencies, upwards and downwards.
+void expect_either_way(tests::RandomScene random, PointMark mark, std::size_t n_marks) {
+  const auto there = marked(trace_response(random.scene, random.options), mark);
   std::swap(random.options.frequency_begin, random.options.frequency_end);
-  auto back = marked(trace_response(random.scene, random.options), PointMark::fold);
+  auto back = marked(trace_response(random.scene, random.options), mark);
   std::reverse(back.begin(), back.end());
-  EXPECT_EQ(there.size(), 4U);
+  EXPECT_EQ(there.size(), n_marks);
   ASSERT_EQ(there.size(), back.size());
   for (std::size_t i = 0; i < there.size(); ++i) {
     EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
   }
 }
 
+TEST(SpecialPoints, APeakWhereAPointBeginsToSlipIsFoundEitherWay) {
+  // Cusps less than 1e-4 of the amplitude high: the slope has recovered long before the step ends.
+  for (const auto& [seed, n_peaks] : {std::pair{116U, 6U}, std::pair{138U, 7U}}) {
+    SCOPED_TRACE(seed);
+    expect_either_way(tests::wild_scene(seed), PointMark::peak, n_peaks);
+  }
+}
+
+TEST(SpecialPoints, TwoFoldsOnASteepPartAreFoundEitherWay) {
+  // 3e-7 of the frequency apart, between two others.
+  expect_either_way(tests::random_scene(121), PointMark::fold, 4U);
+}
+
 TEST(SpecialPoints, AHumpWhereAPointTurnsItsPhasesIsFoundEitherWay) {
   // One of 21 points turns its cycle round within a step; a valley and a peak within a long level step.
   for (const auto& [seed, n_peaks] : {std::pair{402U, 4U}, std::pair{141U, 9U}}) {
     SCOPED_TRACE(seed);
-    tests::RandomScene random = tests::wild_scene(seed);
-    const auto there = marked(trace_response(random.scene, random.options), PointMark::peak);
-    std::swap(random.options.frequency_begin, random.options.frequency_end);
-    auto back = marked(trace_response(random.scene, random.options), PointMark::peak);
-    std::reverse(back.begin(), back.end());
-    EXPECT_EQ(there.size(), n_peaks);
-    ASSERT_EQ(there.size(), back.size());
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      EXPECT_NEAR(there[i].frequency, back[i].frequency, 1e-9 * there[i].frequency);
-    }
+    expect_either_way(tests::wild_scene(seed), PointMark::peak, n_peaks);
   }
 }
 
