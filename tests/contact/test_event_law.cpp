@@ -36,17 +36,6 @@ double difference(const Harmonics& a, const Harmonics& b, int signal) {
   return (a.rows().col(signal) - b.rows().col(signal)).cwiseAbs().maxCoeff();
 }
 
-// Σ h π (y_s f_c − y_c f_s) = ∮ f dy.
-double work(const Harmonics& motion, const Harmonics& force, int signal) {
-  double sum = 0.0;
-  for (int h = 1; h <= motion.n_harmonics(); ++h) {
-    sum += pi * h *
-           (motion.rows()(2 * h - 1, signal) * force.rows()(2 * h, signal) -
-            motion.rows()(2 * h, signal) * force.rows()(2 * h - 1, signal));
-  }
-  return sum;
-}
-
 Harmonics shifted(const Harmonics& y, double angle) {
   Harmonics result = y;
   for (int h = 1; h <= y.n_harmonics(); ++h) {
@@ -104,9 +93,9 @@ TEST_P(EventLawProperties, FrictionWorkIsSlipWorkAndNormalWorkIsNone) {
     const double k_u = c.point.tangential_stiffness;
     const double u = k_u > 0.0 ? friction_scale(c) / k_u : 0.0;
     const double v = c.motion.rows().col(1).tail(2 * H).cwiseAbs().sum();
-    ASSERT_LE(std::abs(work(c.motion, history.force, 0) - history.dissipated_energy),
+    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 0) - history.dissipated_energy),
               10.0 * rounding * H * friction_scale(c) * u + smallest);
-    ASSERT_LE(std::abs(work(c.motion, history.force, 1)),
+    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 1)),
               10.0 * rounding * H * normal_scale(c) * v + smallest);
     ASSERT_GE(history.dissipated_energy, 0.0);
     ASSERT_EQ(history.dissipated_energy, c.point.friction_coefficient * history.normal_slip);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/planar_cycle.hpp"
+#include "support/motion_cases.hpp"
 #include "support/planar_reference.hpp"
 
 namespace microslip::contact {
@@ -27,14 +28,6 @@ PlanarCase random_case(std::mt19937_64& random, int i) {
     }
   }
   return c;
-}
-
-double work(const Harmonics& x, const Harmonics& f, Eigen::Index signal) {
-  double sum = 0.0;
-  for (int h = 1; h <= x.n_harmonics(); ++h) {
-    sum += h * (x.sine(h)[signal] * f.cosine(h)[signal] - x.cosine(h)[signal] * f.sine(h)[signal]);
-  }
-  return std::acos(-1.0) * sum;
 }
 
 struct Tally {
@@ -87,11 +80,11 @@ TEST(PlanarLawReference, WorkOfTheForceIsDissipatedBySlip) {
     const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), tolerance);
     const PointHistory history =
         law.history(c.motion, 1.0, Eigen::VectorXd(), c.motion.n_harmonics());
-    const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+    const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
     const double size = c.motion.rows().bottomRows(c.motion.rows().rows() - 1).norm();
     const double scale = test::planar_scale(c) * size * c.motion.n_harmonics();
     EXPECT_NEAR(done, history.dissipated_energy, 10.0 * tolerance * scale) << "case " << i;
-    EXPECT_NEAR(work(c.motion, history.force, 1), 0.0, 1e-12 * (history.force.rows().norm() + 1.0));
+    EXPECT_NEAR(test::cycle_work(c.motion, history.force, 1), 0.0, 1e-12 * (history.force.rows().norm() + 1.0));
     EXPECT_GE(history.dissipated_energy, 0.0);
   }
 }

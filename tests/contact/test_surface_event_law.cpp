@@ -198,16 +198,6 @@ TEST_P(SurfaceEventLaws, HaveTheFrequencyDerivativeOfDifferences) {
   EXPECT_GT(n_checked, 25);
 }
 
-/// ∮ F dx for one signal.
-double work(const Harmonics& motion, const Harmonics& force, Eigen::Index signal) {
-  double sum = 0.0;
-  for (int h = 1; h <= motion.n_harmonics(); ++h) {
-    sum += h * (motion.sine(h)[signal] * force.cosine(h)[signal] -
-                motion.cosine(h)[signal] * force.sine(h)[signal]);
-  }
-  return pi * sum;
-}
-
 // Theory sections 7, 11: the normal law is elastic; the work of friction is that of slip where the
 // tangential stiffness does not depend on the load.
 TEST_P(SurfaceEventLaws, BalanceTheirWork) {
@@ -218,9 +208,9 @@ TEST_P(SurfaceEventLaws, BalanceTheirWork) {
     const double u = friction_scale(c) / c.point.tangential_stiffness;
     const double v = c.motion.rows().col(1).tail(2 * H).cwiseAbs().sum();
     // 1e-13 for the forces, times the highest harmonic.
-    ASSERT_LE(std::abs(work(c.motion, history.force, 1)), 1e-12 * H * normal_scale(c) * v);
+    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 1)), 1e-12 * H * normal_scale(c) * v);
     if (!surface.is_smooth()) continue;
-    ASSERT_NEAR(work(c.motion, history.force, 0), history.dissipated_energy,
+    ASSERT_NEAR(test::cycle_work(c.motion, history.force, 0), history.dissipated_energy,
                 1e-12 * H * friction_scale(c) * u);
   }
 }

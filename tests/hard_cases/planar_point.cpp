@@ -77,16 +77,6 @@ TEST_P(StraightMotion, InAnyDirectionIsTheLawOfOneDirection) {
 INSTANTIATE_TEST_SUITE_P(Strata, StraightMotion, testing::ValuesIn(motion_strata()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-/// ∮ F dx for one signal.
-double work(const Harmonics& motion, const Harmonics& force, Eigen::Index signal) {
-  double sum = 0.0;
-  for (int h = 1; h <= motion.n_harmonics(); ++h) {
-    sum += h * (motion.sine(h)[signal] * force.cosine(h)[signal] -
-                motion.cosine(h)[signal] * force.sine(h)[signal]);
-  }
-  return pi * sum;
-}
-
 double amplitude(const Harmonics& motion, Eigen::Index signal) {
   return motion.rows().col(signal).tail(motion.rows().rows() - 1).cwiseAbs().sum();
 }
@@ -111,12 +101,12 @@ TEST_P(PlaneMotion, BalancesItsWork) {
     const double scale = friction_scale(c) + second * amplitude(c.motion, 2);
     const double way =
         c.point.tangential_stiffness > 0.0 ? scale / c.point.tangential_stiffness : 0.0;
-    const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+    const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
     // Ten times the tolerance for each force; what the search did not reach on top.
     ASSERT_NEAR(done, history.dissipated_energy,
                 (20.0 * H * tight * scale + history.defect) * way + smallest)
         << i;
-    ASSERT_LE(std::abs(work(c.motion, history.force, 1)),
+    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 1)),
               1e-12 * H * normal_scale(c) * amplitude(c.motion, 1) + smallest)
         << i;
     ASSERT_GE(history.dissipated_energy, 0.0);
@@ -396,7 +386,7 @@ TEST(PlanarPointHard, FrictionThatUnderflowsWithTheRateIsNone) {
         const double most = 2.0 * 0.3 * (preload + 1.0) * 4.0 / decay;
         EXPECT_LE(now.force.rows().col(0).cwiseAbs().maxCoeff(), most) << decay;
         const PointHistory history = law.history(c.motion, 1.0, {}, 1);
-        const double done = work(c.motion, history.force, 0) + work(c.motion, history.force, 2);
+        const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
         // Ten times the tolerance for each force, along the way.
         EXPECT_NEAR(done, history.dissipated_energy, 20.0 * tight) << decay << ", " << second;
       }

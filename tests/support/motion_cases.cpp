@@ -192,6 +192,15 @@ double normal_scale(const MotionCase& c) {
   return std::abs(c.point.preload + k_v * c.motion.rows()(0, 1)) + k_v * size(c.motion, 1);
 }
 
+double cycle_work(const Harmonics& motion, const Harmonics& force, Eigen::Index signal) {
+  double sum = 0.0;
+  for (int h = 1; h <= motion.n_harmonics(); ++h) {
+    sum += h * (motion.sine(h)[signal] * force.cosine(h)[signal] -
+                motion.cosine(h)[signal] * force.sine(h)[signal]);
+  }
+  return std::numbers::pi * sum;
+}
+
 double friction_scale(const MotionCase& c) {
   return c.point.tangential_stiffness * size(c.motion, 0) +
          c.point.friction_coefficient * normal_scale(c);

@@ -24,6 +24,10 @@ struct MotionCase {
 /// n₀' + k_v v at its smallest, by dense sampling and refinement.
 [[nodiscard]] double smallest_load(const MotionCase& c);
 
+/// ∮ f dy of one signal over a period, Σ h π (y_s f_c − y_c f_s).
+[[nodiscard]] double cycle_work(const contact::Harmonics& motion, const contact::Harmonics& force,
+                                Eigen::Index signal);
+
 struct MotionStratum {
   std::string_view name;
   MotionCase (*draw)(std::mt19937_64&);
