@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/fitted_patch_force.hpp"
-#include "contact/patch_force.hpp"
+#include "contact/force/fitted_patch_force.hpp"
+#include "contact/force/patch_force.hpp"
 
 namespace {
 

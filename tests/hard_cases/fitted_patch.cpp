@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "contact/fitted_patch_force.hpp"
-#include "contact/patch_force.hpp"
-#include "solver/harmonic_balance.hpp"
-#include "solver/newton.hpp"
+#include "contact/force/fitted_patch_force.hpp"
+#include "contact/force/patch_force.hpp"
+#include "solver/balance/harmonic_balance.hpp"
+#include "solver/balance/newton.hpp"
 
 namespace microslip::solver {
 namespace {
