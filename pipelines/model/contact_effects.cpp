@@ -7,14 +7,12 @@
 
 #include "contact/force/any_harmonics_force.hpp"
 #include "contact/line/event_law.hpp"
-#include "contact/force/fitted_patch_force.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/planar_transient.hpp"
 #include "contact/line/surface_event_law.hpp"
-#include "pipelines/model/patch_fields.hpp"
 #include "pipelines/model/point_parameters.hpp"
 #include "pipelines/model/motion_along_r.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -24,14 +22,6 @@ namespace {
 
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
-// Of the force: peaks of one scene that are solved for twice, on a curve and alone, are told to be the same by
-// 1e-7 of their amplitude.
-constexpr double fitted_tolerance = 1e-8;
-// Traction is continuous across the lines, so that the force errs by a higher power of where they lie: against
-// 1e-10 and 8 points the peaks of the blade change by 1e-8, and a curve takes a tenth of the time.
-constexpr double fitted_lines = 1e-6;
-constexpr int fitted_order = 6;
-
 std::string setting_of(const SceneDescription& scene, const char* name) {
   for (const auto& [effect, setting] : scene.effects) {
     if (effect == name) return setting;
@@ -51,26 +41,6 @@ contact::SurfaceLaw surface_law(const contact::PointParameters& point, double se
   local.normal_stiffness = *effects.local_normal_stiffness;
   return {local, local.tangential_stiffness, friction, effects.roughness,
           {compliance[0], compliance[1], compliance[2]}};
-}
-
-/// Points that follow the motion.
-std::unique_ptr<contact::ModalForce> fitted_force(const std::shared_ptr<const PatchFields>& fields,
-                                                  const ContactEffects& effects, double load) {
-  contact::FittedPatchOptions options;
-  options.force_tolerance = fitted_tolerance;
-  options.rule.line_tolerance = fitted_lines;
-  options.rule.order = fitted_order;
-  return std::make_unique<contact::FittedPatchForce>(
-      fields->cells(),
-      [fields](const Eigen::VectorXd& p, const Eigen::VectorXd& r) { return fields->shapes(p, r); },
-      [fields, effects, load](const Eigen::VectorXd& p, const Eigen::VectorXd& r) {
-        std::vector<contact::PointParameters> points = fields->parameters(p, r, load);
-        for (contact::PointParameters& point : points) {
-          point.normal_stiffness = effects.normal_stiffness(point.normal_stiffness);
-        }
-        return points;
-      },
-      options);
 }
 
 }  // namespace
@@ -96,12 +66,6 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
         "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} N/m^3): "
         "give a finite local stiffness, more modes, or modes.residual = \"none\"",
         model.second_stiffness.minCoeff()));
-  }
-  if (effects.second_direction && model.fields) {
-    throw RefusedError(fmt::format(
-        "contact.quadrature = \"fitted\" is for friction along p alone, and the patch moves along r ({:.2g} % "
-        "of that along p): use \"cells\", or leave friction along r out with effects.second_direction = \"off\"",
-        100.0 * effects.motion_ratio));
   }
   if (effects.roughness && meshed) {
     effects.local_tangential_stiffness = scene.contact->tangential_stiffness;
@@ -177,7 +141,6 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
 
 std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
-  if (model.fields) return fitted_force(model.fields, model.effects, load);
   if (model.effects.closed_form()) {
     return std::make_unique<contact::PatchForce>(
         contact::ContactPatch(model.weights, point_parameters(model, load, false)),

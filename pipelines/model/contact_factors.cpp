@@ -3,7 +3,6 @@
 #include <utility>
 #include <variant>
 
-#include "pipelines/model/patch_fields.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines {
@@ -47,11 +46,6 @@ ReducedModel with_point_stiffness(ReducedModel model, double factor, double load
 ReducedModel with_friction(ReducedModel model, double factor) {
   model.friction_coefficient *= factor;
   model.vertex_friction_coefficient *= factor;
-  if (model.fields) {
-    PatchFields fields = *model.fields;
-    fields.multiply_friction(factor);
-    model.fields = std::make_shared<const PatchFields>(std::move(fields));
-  }
   return model;
 }
 

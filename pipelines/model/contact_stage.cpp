@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "contact/patch/modal_contact_field.hpp"
-#include "pipelines/model/patch_fields.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -64,6 +63,12 @@ contact::ModalShapes interpolate(const Eigen::SparseMatrix<double>& to,
   return {to * nodal.u, to * nodal.v, to * nodal.w};
 }
 
+/// The plane of a patch: where p = r = 0, and rows p, q, r.
+struct PatchPlane {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d frame;
+};
+
 struct PlaneCoordinates {
   Eigen::VectorXd p;
   Eigen::VectorXd r;
@@ -113,16 +118,6 @@ ShapesOnPatch shapes_of(const contact::ModalContactField& field,
   const auto centres = in_plane(sampling.centres, plane.origin, plane.frame);
   const auto vertices = in_plane(sampling.vertices, plane.origin, plane.frame);
   return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
-}
-
-/// The cells of a sampling in the plane.
-contact::PatchCells cells_of(const ReducedModel& model, const PatchPlane& plane) {
-  const auto vertices = in_plane(model.vertices, plane.origin, plane.frame);
-  contact::PatchCells cells{Eigen::MatrixX2d(vertices.p.size(), 2),
-                            Eigen::MatrixX4i::Constant(model.cells.rows(), 4, -1)};
-  cells.vertices << vertices.p, vertices.r;
-  cells.corners.leftCols(model.cells.cols()) = model.cells.cast<int>();
-  return cells;
 }
 
 void set_stiffness(ReducedModel& model, const ContactDescription& contact,
@@ -192,26 +187,19 @@ void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescr
                                    along(basis.shapes, surface.nodes, model.frame.row(1)),
                                    along(basis.shapes, surface.nodes, model.frame.row(2))};
   ShapesOnPatch shapes;
-  std::optional<contact::ModalContactField> field;
   if (contact.fit == ContactDescription::Fit::none) {
     shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
   } else {
     const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, model.frame};
-    field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
-    model.fit_degree = field->degree();
-    model.fit_error = field->fit_error();
-    shapes = shapes_of(*field, sampling, plane);
+    const contact::ModalContactField field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
+    model.fit_degree = field.degree();
+    model.fit_error = field.fit_error();
+    shapes = shapes_of(field, sampling, plane);
   }
   model.shapes = std::move(shapes.centres);
   model.vertex_shapes = std::move(shapes.vertices);
   set_stiffness(model, contact, sampling, residual);
   set_fields(model, contact);
-  if (field && contact.quadrature == ContactDescription::Quadrature::fitted) {
-    const PatchPlane plane{patch_centroid(model), model.frame};
-    model.fields = std::make_shared<const PatchFields>(
-        mesh, contact, plane, std::move(*field), mesh::fit_plane(mesh.nodes(), surface).centroid,
-        residual, cells_of(model, plane));
-  }
 }
 
 void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,

@@ -2,7 +2,6 @@
 /// What the response stage solves: modes, excitation, output and the contact, as plain arrays.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,8 +14,6 @@
 #include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
-
-class PatchFields;
 
 /// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
 struct ContactEffects {
@@ -67,9 +64,6 @@ struct ReducedModel {
   /// Compliance of the omitted modes along p, q, r [m³/N]; without rows where there is none.
   Eigen::MatrixX3d compliance, vertex_compliance;
   ContactEffects effects;
-  /// The patch as functions of position where its quadrature is fitted, else none. Shared: it does not change,
-  /// and the forces of all curves refer to it. Not in model.h5.
-  std::shared_ptr<const PatchFields> fields;
 };
 
 }  // namespace microslip::pipelines

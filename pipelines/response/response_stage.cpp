@@ -156,7 +156,7 @@ solver::ContinuationOptions continuation_options(const ResponseDescription& resp
 solver::Scene balanced_scene(const ReducedModel& model, double load,
                              const solver::ContinuationOptions& options) {
   solver::Scene problem = solver_scene(model, load);
-  if (options.n_harmonics > 1 && !model.fields) problem.transient = transient_force(model, load);
+  if (options.n_harmonics > 1) problem.transient = transient_force(model, load);
   return problem;
 }
 

@@ -34,19 +34,12 @@ constexpr double event_cost = 1e-5;
 constexpr double planar_cost = 1.5e-4;
 constexpr double chosen_cost = 5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
 constexpr double iterations_per_curve = 350.0;
-// Cells that cost as much as a rule fitted to the motion: 40 to 70 times the default 300 on the blade.
-constexpr double fitted_cells = 18'000.0;
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
-
-bool is_fitted(const SceneDescription& scene) {
-  return scene.contact && scene.contact->quadrature == ContactDescription::Quadrature::fitted;
-}
 
 /// Seconds a curve takes, by the law of its points.
 double curve_seconds(const SceneDescription& scene, bool second_direction) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
-  const double n_points = is_fitted(scene)  ? fitted_cells
-                          : scene.contact   ? scene.contact->n_points
+  const double n_points = scene.contact   ? scene.contact->n_points
                           : modal != nullptr ? static_cast<double>(modal->points.size())
                                              : 0.0;
   const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
@@ -71,7 +64,7 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   const std::string along_r = second_direction_of(scene);
   const bool is_on = model != nullptr ? model->effects.second_direction : along_r == "on";
   forecast.curves_seconds = n_curves * curve_seconds(scene, is_on);
-  if (model == nullptr && along_r == "auto" && !is_fitted(scene)) {
+  if (model == nullptr && along_r == "auto") {
     forecast.curves_seconds_along_r = n_curves * curve_seconds(scene, true);
   }
 }

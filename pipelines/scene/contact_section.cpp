@@ -136,24 +136,6 @@ void read_preload(SectionReader& s, const std::filesystem::path& folder,
   }
 }
 
-void read_quadrature(const SectionReader& s, ContactDescription& contact, const ContactLaws& laws) {
-  constexpr std::array<std::string_view, 2> rules{"cells", "fitted"};
-  contact.quadrature_place = s.place("quadrature");
-  if (s.word("quadrature", rules) == "cells") return;
-  contact.quadrature = ContactDescription::Quadrature::fitted;
-  const auto refuse = [&](const char* why) {
-    s.fail("quadrature", fmt::format("\"fitted\" {}; use \"cells\"", why), s.node("quadrature"));
-  };
-  if (contact.fit == ContactDescription::Fit::none) {
-    refuse("needs fitted mode shapes, and fit = \"none\"");
-  }
-  if (laws.friction) refuse("knows no friction law of the slip speed");
-  if (laws.roughness) refuse("knows no rough surfaces");
-  if (contact.preload_moment[0] != 0.0 || contact.preload_moment[1] != 0.0) {
-    refuse("knows no preload_moment");
-  }
-}
-
 void read_fit(const SectionReader& s, ContactDescription& contact) {
   const toml::node& fit = *s.node("fit");
   if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
@@ -236,7 +218,6 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   contact.wear_coefficient = s.number("wear_coefficient");
   contact.n_points = s.integer("points");
   read_fit(s, contact);
-  read_quadrature(s, contact, laws);
   return contact;
 }
 

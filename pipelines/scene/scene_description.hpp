@@ -88,8 +88,6 @@ struct ContactDescription {
   int fit_degree = 0;
   double wear_coefficient = 0.0;  ///< Archard [m²/N]
   int n_points = 300;             ///< at least so many contact points
-  enum class Quadrature { cells, fitted } quadrature = Quadrature::cells;
-  std::string quadrature_place;   ///< "file:line: key", for messages
 };
 
 struct ForceDescription {

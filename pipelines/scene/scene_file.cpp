@@ -87,21 +87,6 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
-/// Rules fitted to the lines of slip are there for the closed form of one harmonic.
-void check_quadrature(const SceneDescription& scene) {
-  if (!scene.contact || !scene.response) return;
-  if (scene.contact->quadrature != ContactDescription::Quadrature::fitted) return;
-  const ResponseDescription& response = *scene.response;
-  const auto refuse = [&](const char* why) {
-    throw SceneError(fmt::format("{}: \"fitted\" {}; use \"cells\"", scene.contact->quadrature_place, why));
-  };
-  if (response.method == ResponseDescription::Method::time) {
-    refuse("is not available with response.method = \"time\"");
-  }
-  if (response.harmonics > 1) refuse("is for one harmonic, and response.harmonics has more");
-  if (response.search_starts > 0) refuse("is not available with response.search_starts");
-}
-
 /// Without contact there is no preload to set, and none to choose.
 std::string contact_keys_without_contact(const SectionReader& response) {
   for (const char* key : {"preload", "optimum", "maps"}) {
@@ -189,7 +174,6 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  check_quadrature(scene);
   const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
   scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);

@@ -226,9 +226,6 @@ constexpr std::array contact_keys{
             "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
     wear_key,
     KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
-    KeySpec{"quadrature", text, "", "\"cells\"", 0, 0, false,
-            "cells: one point in each; fitted: points that follow the lines of slip and separation (one harmonic, "
-            "friction along p, fitted mode shapes; `points` is then for maps alone)"},
 };
 
 constexpr std::array excitation_keys{

@@ -8,17 +8,38 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/patch/patch_quadrature.hpp"
+#include <Eigen/Core>
 
 namespace microslip::contact {
 namespace {
 
+struct PatchRule {
+  Eigen::VectorXd p, r, weights;  // [m], [m], [m²]
+};
+
+/// n × n equal cells of a square, one point in the middle of each.
+PatchRule square(double p_begin, double r_begin, double side, Eigen::Index n) {
+  const auto cells = static_cast<double>(n);
+  PatchRule rule{Eigen::VectorXd(n * n), Eigen::VectorXd(n * n),
+                 Eigen::VectorXd::Constant(n * n, side * side / (cells * cells))};
+  for (Eigen::Index i = 0; i < n * n; ++i) {
+    rule.p[i] = p_begin + side * (static_cast<double>(i % n) + 0.5) / cells;
+    rule.r[i] = r_begin + side * (static_cast<double>(i / n) + 0.5) / cells;
+  }
+  return rule;
+}
+
+/// Three squares of a centimetre, nine cells in each.
 PatchRule l_shape() {
-  PatchCells cells{Eigen::MatrixX2d(8, 2), Eigen::MatrixX4i(3, 4)};
-  cells.vertices << 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2;
-  cells.vertices *= 0.01;
-  cells.corners << 0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 7, 6;
-  return gauss_rule(cells, 3);
+  constexpr double side = 0.01;
+  const PatchRule a = square(0.0, 0.0, side, 3);
+  const PatchRule b = square(side, 0.0, side, 3);
+  const PatchRule c = square(0.0, side, side, 3);
+  PatchRule rule{Eigen::VectorXd(27), Eigen::VectorXd(27), Eigen::VectorXd(27)};
+  rule.p << a.p, b.p, c.p;
+  rule.r << a.r, b.r, c.r;
+  rule.weights << a.weights, b.weights, c.weights;
+  return rule;
 }
 
 template <typename Call>
@@ -58,12 +79,12 @@ TEST(PreloadField, LinearPressureHasTheResultantsAskedFor) {
 
 // Theory section 12: n × m cells, F/(nm) + M_y z/Σz² − M_z y/Σy² with (y, z) = (r, p).
 TEST(PreloadField, IsTheFormulaOfTheContactAreaOnAGrid) {
-  const PatchRule rule = midpoint_rule(rectangle_cells({-0.05, -0.05}, {0.05, 0.05}, 4, 4));
+  const PatchRule rule = square(-0.05, -0.05, 0.1, 4);
   const double My = 1.0;
   const double Mz = -0.4;
   const Eigen::VectorXd n = linear_preload(
       rule.p, rule.r, rule.weights, {.force = 48.0, .moment_about_p = Mz, .moment_about_r = My});
-  for (Eigen::Index i = 0; i < rule.n_points(); ++i) {
+  for (Eigen::Index i = 0; i < rule.p.size(); ++i) {
     const double cell =
         48.0 / 16.0 + My * rule.p[i] / rule.p.squaredNorm() - Mz * rule.r[i] / rule.r.squaredNorm();
     EXPECT_NEAR(n[i] * rule.weights[i], cell, 1e-13 * 48.0);
@@ -99,7 +120,7 @@ TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
 
 // Hard case 21: without a mean; and a shape that scaling alone would turn round, gaps into pressure.
 TEST(PreloadField, AShapeWithoutPositiveMeanIsNotScaled) {
-  const PatchRule rule = midpoint_rule(rectangle_cells({-1, -1}, {1, 1}, 4, 4));
+  const PatchRule rule = square(-1.0, -1.0, 2.0, 4);
   EXPECT_NE(refusal([&] { return scaled_preload(rule.p, rule.weights, 750.0); }).find("above 0"),
             std::string::npos);
   for (const double mean : {-0.5, -2.0}) {  // partly pressing, a gap everywhere

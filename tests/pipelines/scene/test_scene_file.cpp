@@ -477,30 +477,6 @@ TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
   EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
 }
 
-TEST(SceneFile, QuadratureIsOnCellsOrFitted) {
-  using Quadrature = ContactDescription::Quadrature;
-  EXPECT_EQ(parse(blade_text).contact->quadrature, Quadrature::cells);
-  EXPECT_EQ(parse(blade_text, {"contact.quadrature=fitted"}).contact->quadrature, Quadrature::fitted);
-}
-
-TEST(BadScene, FittedQuadratureRefusesWhatItDoesNotKnow) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"contact.fit=none", "fit"},
-      {"response.method=time", "time"},
-      {"response.harmonics=3", "one harmonic"},
-      {"response.harmonics=auto", "one harmonic"},
-      {"response.search_starts=5", "search_starts"},
-      {"contact.preload_moment=[1, 0]", "preload_moment"},
-      {"contact.roughness={ law = \"cubic\", height = \"10 um\" }", "rough"},
-      {"contact.friction_coefficient={ law = \"hyperbolic\", static = 0.5, rate = 1 }", "slip speed"}};
-  for (const auto& [setting, why] : cases) {
-    const std::string text = complaint(blade_text, {"contact.quadrature=fitted", setting});
-    EXPECT_NE(text.find("contact.quadrature"), std::string::npos) << setting << ": " << text;
-    EXPECT_NE(text.find(why), std::string::npos) << setting << ": " << text;
-  }
-  EXPECT_NE(complaint(blade_text, {"contact.quadrature=gauss"}), "");
-}
-
 TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
   const auto bad = [](const std::string& value, const std::vector<std::string>& words) {
     expect_complaint(complaint(blade_text, {value}), words);
