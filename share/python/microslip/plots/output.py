@@ -11,9 +11,20 @@ from microslip.files import RunError
 METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
 
 
+def settle(figure):
+    """Gives texts that are empty a place; else it is searched for in each pass, a third of the time of a figure."""
+    for axes in figure.axes + [child for axes in figure.axes for child in axes.child_axes]:
+        for axis in (axes.xaxis, axes.yaxis):
+            if not axis.get_label_text():
+                axis.set_label_coords(0.0, 0.0)
+        if not any(axes.get_title(loc) for loc in ("left", "center", "right")):
+            axes.set_title("", y=1.0)
+
+
 def save(figure, folder, name):
     """FOLDER/NAME.svg and .png, each whole or not at all."""
-    figure.draw_without_rendering()
+    settle(figure)
+    figure.get_layout_engine().execute(figure)
     figure.set_layout_engine(None)  # the layout is found; finding it again takes half of the time
     for extension, metadata in METADATA.items():
         buffer = io.BytesIO()

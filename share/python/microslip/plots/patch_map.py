@@ -2,11 +2,13 @@
 
 import numpy as np
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, to_rgba_array
 from matplotlib.ticker import MaxNLocator
 
 from microslip.plots.boundaries import draw_boundaries, draw_guards, guard_handles
 from microslip.plots.style import STATE_COLOURS, state_legend, subplots
+
+STATE_RGBA = to_rgba_array(STATE_COLOURS)
 
 
 def draw_patch(axes, contact, colours=None, values=None, cmap=None):
@@ -38,11 +40,11 @@ def layout_of(contact):
 def draw_states(axes, contact, angle):
     """The patch at the phase nearest to an angle [deg]."""
     phase = contact.phase_near(angle)
-    draw_patch(axes, contact, colours=[STATE_COLOURS[int(s)] for s in contact.state[:, phase]])
+    draw_patch(axes, contact, colours=STATE_RGBA[contact.state[:, phase].astype(int)])
     draw_boundaries(axes, contact, phase)
     stick, slip, apart = contact.shares(phase)
     axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
-                   f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8)
+                   f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8, y=1.0)
 
 
 def draw_sum(figure, axes, contact, values, name):
