@@ -33,10 +33,19 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
+def document(name):
+    return text(os.path.join(SOURCE, "share", "doc", name))
+
+
+def sections_of(page):
+    """Numbers of its headings."""
+    return set(re.findall(r"^#+ (\d+(?:\.\d+)?)\.? ", page, re.M))
+
+
 def theory_sections():
-    """Numbers of the headings; the numbered checks of section 15 are cited as 15.1, 15.2, …"""
-    theory = text(os.path.join(SOURCE, "share", "doc", "theory.md"))
-    sections = set(re.findall(r"^#+ (\d+(?:\.\d+)?)\.? ", theory, re.M))
+    """The numbered checks of section 15 are cited as 15.1, 15.2, …"""
+    theory = document("theory.md")
+    sections = sections_of(theory)
     checks = theory[theory.index("\n## 15."):theory.index("\n## 16.")]
     return sections | {f"15.{number}" for number in re.findall(r"^(\d)\. ", checks, re.M)}
 
@@ -53,16 +62,23 @@ class Documents(unittest.TestCase):
                     self.assertTrue(os.path.exists(target))
                     self.assertTrue(not anchor or anchor in anchors(target))
 
-    def test_cited_sections_of_the_theory_exist(self):
-        known, cited = theory_sections(), 0
+    def find_citations(self, pattern, known):
+        """Asserts that the numbers cited are known; returns how many there are."""
+        cited = 0
         for path in files(CODE):
             plain = re.sub(r"\n\s*(///|//|#)\s*", " ", text(path))  # a citation may run over a line
-            for numbers in re.findall(r"[Tt]heory,?(?: sections?)? (\d[\d., to–and]*)", plain):
+            for numbers in re.findall(pattern + r" (\d[\d., to–and]*)", plain):
                 for number in re.findall(r"\d+(?:\.\d+)?", numbers):
                     cited += 1
                     with self.subTest(path=path):
                         self.assertIn(number, known)
-        self.assertGreater(cited, 100)  # that is what there were when this was written
+        return cited
+
+    def test_cited_sections_exist(self):
+        pattern = r"[Tt]heory,?(?: sections?)?"
+        self.assertGreater(self.find_citations(pattern, theory_sections()), 100)  # 244 when this was written
+        pattern = r"interfaces\.md sections?"
+        self.assertGreater(self.find_citations(pattern, sections_of(document("interfaces.md"))), 0)
 
     def test_readme_is_short(self):
         readme = text(os.path.join(SOURCE, "README.md"))
