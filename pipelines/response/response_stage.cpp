@@ -6,9 +6,9 @@
 #include <memory>
 #include <numbers>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/point_parameters.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -106,13 +106,13 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const solver::Scene problem = limit_scene(model);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
   if (problem.contact) stuck += problem.contact->stuck_stiffness();
-  const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
-  if (factors.isInvertible()) return;
+  const Eigen::Index n_loose = contact::nullity(stuck);
+  if (n_loose == 0) return;
   const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
       "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
       "with every contact point stuck): {}",
-      n_rigid, model.frequency.size(), factors.dimensionOfKernel(),
+      n_rigid, model.frequency.size(), n_loose,
       has_supports ? "name the clamped surfaces in [supports] clamped"
                    : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
 }
