@@ -10,10 +10,10 @@
 #include <Eigen/Core>
 
 #include "contact/contact_patch.hpp"
-#include "contact/friction_cycle.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
-#include "contact/point_law.hpp"
-#include "contact/surface_law.hpp"
+#include "contact/point/point_law.hpp"
+#include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "contact/period_states.hpp"
+#include "contact/point/period_states.hpp"
 
 namespace microslip::contact {
 

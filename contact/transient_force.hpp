@@ -19,7 +19,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/friction_cycle.hpp"
+#include "contact/contact_state.hpp"
 
 namespace microslip::contact {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "fem/element_matrices.hpp"
+#include "fem/elements/element_matrices.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
 #include "mesh/mesh.hpp"

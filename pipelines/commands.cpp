@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 
 #include "fem/slepc_session.hpp"
-#include "pipelines/cycle_plot.hpp"
-#include "pipelines/cycle_table.hpp"
-#include "pipelines/exit_code.hpp"
-#include "pipelines/interrupt.hpp"
-#include "pipelines/output_file.hpp"
-#include "pipelines/scene_file.hpp"
-#include "pipelines/scene_template.hpp"
+#include "pipelines/cycle/cycle_plot.hpp"
+#include "pipelines/cycle/cycle_table.hpp"
+#include "pipelines/system/exit_code.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/scene/scene_template.hpp"
 
 namespace microslip::pipelines {
 namespace {

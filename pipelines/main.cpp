@@ -11,11 +11,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/command_line.hpp"
-#include "pipelines/command_options.hpp"
+#include "pipelines/command_line/command_line.hpp"
+#include "pipelines/command_line/command_options.hpp"
 #include "pipelines/commands.hpp"
-#include "pipelines/exit_code.hpp"
-#include "pipelines/scene_error.hpp"
+#include "pipelines/system/exit_code.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace {
 

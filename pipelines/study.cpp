@@ -7,17 +7,18 @@
 #include <fmt/format.h>
 
 #include "mesh/element_shape.hpp"
-#include "pipelines/contact_stage.hpp"
-#include "pipelines/curve_family.hpp"
-#include "pipelines/effects.hpp"
-#include "pipelines/interrupt.hpp"
-#include "pipelines/model_family.hpp"
-#include "pipelines/optimum_stage.hpp"
-#include "pipelines/response_stage.hpp"
-#include "pipelines/run_record.hpp"
-#include "pipelines/scene_error.hpp"
-#include "pipelines/structure_stage.hpp"
-#include "pipelines/write_report.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/run/curve_family.hpp"
+#include "pipelines/model/effects.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/model/model_family.hpp"
+#include "pipelines/response/optimum_stage.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/run_record.hpp"
+#include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/files/write_report.hpp"
 
 namespace microslip::pipelines {
 namespace {

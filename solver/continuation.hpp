@@ -5,29 +5,12 @@
 #include <functional>
 #include <vector>
 
-#include "solver/harmonic_set.hpp"
+#include "solver/continuation_options.hpp"
+#include "solver/balance/harmonic_set.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
 
 namespace microslip::solver {
-
-struct ContinuationOptions {
-  double frequency_begin = 0.0;  ///< [rad/s], > 0
-  double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
-  int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
-  std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
-  /// Above 0: harmonics are added to 1 and those of the excitation, and dropped again, point by point, so
-  /// that those left out change the amplitude by less than this share of it (harmonic_choice.hpp);
-  /// n_harmonics is the highest that may be added, `orders` is not used.
-  double harmonic_tolerance = 0.0;
-  /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
-  double residual_tolerance = 1e-11;
-  int max_points = 20000;
-  /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
-  bool linear_certificate = true;
-  /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
-  int search_starts = 0;
-};
 
 /// What a curve, or the points of one that chooses its harmonics, begins with.
 [[nodiscard]] HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options);

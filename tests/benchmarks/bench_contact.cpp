@@ -11,15 +11,15 @@
 #include <random>
 #include <vector>
 
-#include "contact/block_kernels.hpp"
-#include "contact/event_law.hpp"
-#include "contact/patch_force.hpp"
-#include "contact/point_motions.hpp"
-#include "contact/sampled_cycle.hpp"
-#include "contact/surface_event_law.hpp"
+#include "contact/force/block_kernels.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/force/patch_force.hpp"
+#include "contact/patch/point_motions.hpp"
+#include "tests/support/sampled/sampled_cycle.hpp"
+#include "contact/line/surface_event_law.hpp"
 
-#include "contact/preload_equilibrium.hpp"
-#include "contact/surface_law.hpp"
+#include "contact/patch/preload_equilibrium.hpp"
+#include "contact/surface/surface_law.hpp"
 
 namespace {
 

@@ -15,9 +15,9 @@
 #include <random>
 #include <vector>
 
-#include "contact/event_law.hpp"
-#include "contact/law_patch_force.hpp"
-#include "contact/planar_cycle.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/plane/planar_cycle.hpp"
 
 namespace {
 

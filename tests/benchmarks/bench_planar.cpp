@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/law_patch_force.hpp"
-#include "contact/planar_cycle.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/plane/planar_cycle.hpp"
 #include "solver/continuation.hpp"
 #include "support/planar_cases.hpp"
 

@@ -9,11 +9,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "contact/any_harmonics_force.hpp"
-#include "contact/patch_force.hpp"
+#include "contact/force/any_harmonics_force.hpp"
+#include "contact/force/patch_force.hpp"
 #include "solver/continuation.hpp"
-#include "solver/peak_trace.hpp"
-#include "solver/start_point.hpp"
+#include "solver/peak/peak_trace.hpp"
+#include "solver/branch/start_point.hpp"
 
 namespace {
 

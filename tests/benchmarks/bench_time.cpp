@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "solver/time_stepper.hpp"
+#include "solver/time/time_stepper.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/friction_cycle.hpp"
-#include "contact/slip_functions.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
+#include "contact/closed_form/slip_functions.hpp"
 #include "support/cycle_cases.hpp"
 #include "support/cycle_reference.hpp"
 

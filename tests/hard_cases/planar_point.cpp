@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/event_law.hpp"
-#include "contact/planar_cycle.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/planar_cases.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/patch_transient.hpp"
+#include "contact/transient/patch_transient.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"

@@ -11,7 +11,8 @@
 #include <numbers>
 #include <string>
 
-#include "pipelines/run_results.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
 
 namespace microslip::pipelines::synthetic {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/friction_cycle.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
 
 namespace microslip::test {
 

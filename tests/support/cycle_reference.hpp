@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "contact/friction_cycle.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
 
 namespace microslip::test {
 

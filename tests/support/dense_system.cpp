@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/element_matrices.hpp"
+#include "fem/elements/element_matrices.hpp"
 
 namespace microslip::test {
 

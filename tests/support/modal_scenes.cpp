@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/event_law.hpp"
-#include "contact/law_patch_force.hpp"
-#include "contact/patch_force.hpp"
-#include "contact/patch_transient.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/force/patch_force.hpp"
+#include "contact/transient/patch_transient.hpp"
 
 namespace microslip::tests {
 namespace {

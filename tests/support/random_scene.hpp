@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "contact/patch_force.hpp"
+#include "contact/force/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/surface_law.hpp"
+#include "contact/surface/surface_law.hpp"
 #include "support/motion_cases.hpp"
 
 namespace microslip::test {

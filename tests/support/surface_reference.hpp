@@ -14,7 +14,7 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
-#include "contact/surface_law.hpp"
+#include "contact/surface/surface_law.hpp"
 
 namespace microslip::test {
 

@@ -19,10 +19,10 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/contact_effects.hpp"
-#include "pipelines/contact_stage.hpp"
-#include "pipelines/response_stage.hpp"
-#include "pipelines/scene_file.hpp"
+#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
 #include "solver/time_integration.hpp"
 
 namespace microslip::pipelines {

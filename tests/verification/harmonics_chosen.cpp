@@ -17,11 +17,11 @@
 #include <gtest/gtest.h>
 
 #include "solver/continuation.hpp"
-#include "solver/harmonic_balance.hpp"
-#include "solver/newton.hpp"
-#include "solver/output_amplitude.hpp"
-#include "solver/stability.hpp"
-#include "solver/start_point.hpp"
+#include "solver/balance/harmonic_balance.hpp"
+#include "solver/balance/newton.hpp"
+#include "solver/balance/output_amplitude.hpp"
+#include "solver/stability/stability.hpp"
+#include "solver/branch/start_point.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

@@ -27,10 +27,10 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/law_patch_force.hpp"
-#include "contact/patch_force.hpp"
-#include "contact/planar_cycle.hpp"
-#include "contact/planar_transient.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/force/patch_force.hpp"
+#include "contact/plane/planar_cycle.hpp"
+#include "contact/transient/planar_transient.hpp"
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"

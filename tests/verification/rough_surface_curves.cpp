@@ -18,8 +18,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/rough_surface.hpp"
-#include "contact/surface_event_law.hpp"
+#include "contact/surface/rough_surface.hpp"
+#include "contact/line/surface_event_law.hpp"
 
 namespace microslip::contact {
 namespace {

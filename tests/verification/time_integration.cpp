@@ -18,8 +18,8 @@
 #include <sundials/sundials_context.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "contact/patch_force.hpp"
-#include "solver/time_stepper.hpp"
+#include "contact/force/patch_force.hpp"
+#include "solver/time/time_stepper.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

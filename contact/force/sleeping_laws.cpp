@@ -1,0 +1,166 @@
+#include "contact/force/sleeping_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "contact/patch/point_motions.hpp"
+
+namespace microslip::contact {
+namespace {
+
+// More sums than this cost more memory than they save time; smaller ones are added up as fast as
+// they are looked up.
+constexpr Eigen::Index largest_n_groups = 256;
+constexpr Eigen::Index smallest_group = 16;
+
+// Kept for the next call of the same thread.
+const PhaseTable& phase_table(int n_harmonics) {
+  thread_local PhaseTable table;
+  if (table.n_harmonics != n_harmonics) table = PhaseTable(n_harmonics);
+  return table;
+}
+
+Eigen::Index n_groups(Eigen::Index n, Eigen::Index group) { return (n + group - 1) / group; }
+
+}  // namespace
+
+void PatchMotion::set(const ModalShapes& shapes, const Harmonics& q) {
+  require_harmonics(q, shapes.u.cols());
+  u.noalias() = shapes.u * q.rows().transpose();
+  v.noalias() = shapes.v * q.rows().transpose();
+  if (shapes.w.size() > 0) w.noalias() = shapes.w * q.rows().transpose();
+}
+
+PointRows PatchMotion::of(Eigen::Index point) const {
+  const Eigen::Index at = point * u.cols();
+  return {u.data() + at, v.data() + at, w.size() > 0 ? w.data() + at : nullptr};
+}
+
+void PatchMotion::copy(Eigen::Index point, Harmonics& result) const {
+  if (result.rows().rows() != u.cols() || result.n_signals() != n_point_signals) {
+    result = Harmonics(static_cast<int>(u.cols() / 2), n_point_signals);
+  }
+  result.rows().col(0) = u.row(point).transpose();
+  result.rows().col(1) = v.row(point).transpose();
+  if (w.size() > 0) result.rows().col(2) = w.row(point).transpose();
+}
+
+SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights,
+                           const std::vector<std::shared_ptr<const PointLaw>>& laws,
+                           const ModalShapes& shapes)
+    : weights_(weights), load_at_rest_(weights.size()) {
+  const Eigen::Index n = weights.size();
+  range_.reserve(laws.size());
+  for (const auto& law : laws) {
+    load_at_rest_[static_cast<Eigen::Index>(range_.size())] = law->load_at_rest();
+    range_.push_back(law->linear_range());
+  }
+  group_ = std::max(smallest_group, (n + largest_n_groups - 1) / largest_n_groups);
+  state_.assign(laws.size(), SleepState::awake);
+  awake_.resize(laws.size());
+  std::iota(awake_.begin(), awake_.end(), Eigen::Index{0});
+  part_.resize(static_cast<std::size_t>(n_groups(n, group_)));
+  rows_.resize(n_point_signals * group_, shapes.u.cols());
+}
+
+void SleepingLaws::decide(const PatchMotion& motion, double frequency,
+                          std::vector<SleepState>& states) const {
+  const PhaseTable& table = phase_table(static_cast<int>(motion.u.cols() / 2));
+  states.resize(range_.size());
+  for (std::size_t i = 0; i < range_.size(); ++i) {
+    states[i] =
+        range_[i].has_value()
+            ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)), table, frequency)
+            : SleepState::awake;
+  }
+}
+
+std::vector<SleepState> SleepingLaws::states(const PatchMotion& motion, double frequency) const {
+  std::vector<SleepState> states;
+  decide(motion, frequency, states);
+  return states;
+}
+
+void SleepingLaws::look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes) {
+  decide(motion, frequency, next_);
+  if (next_ == state_) return;
+  const auto n = static_cast<Eigen::Index>(next_.size());
+  std::swap(state_, next_);  // next_ is what was
+  sum_.stiffness.setZero(shapes.u.cols(), shapes.u.cols());
+  sum_.mean.setZero(shapes.u.cols());
+  for (Eigen::Index g = 0; g < n_groups(n, group_); ++g) {
+    const Eigen::Index begin = g * group_;
+    const Eigen::Index end = std::min(n, begin + group_);
+    if (!std::equal(state_.begin() + begin, state_.begin() + end, next_.begin() + begin))
+      add_up(g, shapes);
+    const SleepingPart& part = part_[static_cast<std::size_t>(g)];
+    if (part.mean.size() == 0) continue;
+    sum_.stiffness += part.stiffness;
+    sum_.mean += part.mean;
+  }
+  awake_.clear();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (state_[static_cast<std::size_t>(i)] == SleepState::awake) awake_.push_back(i);
+  }
+}
+
+void SleepingLaws::add_up(Eigen::Index group, const ModalShapes& shapes) {
+  const Eigen::Index begin = group * group_;
+  const Eigen::Index end = std::min(static_cast<Eigen::Index>(state_.size()), begin + group_);
+  SleepingPart& part = part_[static_cast<std::size_t>(group)];
+  part.stiffness.setZero(shapes.u.cols(), shapes.u.cols());
+  part.mean.setZero(shapes.u.cols());
+  n_rows_ = 0;
+  for (Eigen::Index i = begin; i < end; ++i) add_point(i, shapes, part);
+  if (n_rows_ == 0) return;
+  part.stiffness.selfadjointView<Eigen::Lower>().rankUpdate(rows_.topRows(n_rows_).transpose());
+  part.stiffness.triangularView<Eigen::StrictlyUpper>() = part.stiffness.transpose();
+}
+
+void SleepingLaws::add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part) {
+  const auto i = static_cast<std::size_t>(point);
+  const double weight = weights_[point];
+  if (state_[i] == SleepState::awake || weight == 0.0) return;
+  const double load = state_[i] == SleepState::stuck ? range_[i]->gap_load : 0.0;
+  part.mean += weight * (load - load_at_rest_[point]) * shapes.v.row(point).transpose();
+  if (state_[i] == SleepState::open) return;
+  const Eigen::Vector3d& k = range_[i]->stiffness;
+  const auto add = [&](double stiffness, const Eigen::MatrixXd& phi) {
+    if (stiffness == 0.0 || phi.size() == 0) return;
+    rows_.row(n_rows_++) = std::sqrt(weight * stiffness) * phi.row(point);
+  };
+  add(k[0], shapes.u);
+  add(k[1], shapes.v);
+  add(k[2], shapes.w);
+}
+
+const SleepingPart* SleepingLaws::part() const {
+  return awake_.size() < state_.size() ? &sum_ : nullptr;
+}
+
+LinearState SleepingLaws::linear_state(const ModalShapes& shapes, const Harmonics& centre,
+                                       double radius) const {
+  PatchMotion motion;
+  motion.set(shapes, centre);
+  const PhaseTable& table = phase_table(centre.n_harmonics());
+  bool stuck = true;
+  bool open = true;
+  for (Eigen::Index i = 0; i < weights_.size() && (stuck || open); ++i) {
+    const std::optional<LinearRange>& range = this->range(i);
+    if (weights_[i] == 0.0) continue;
+    if (!range.has_value()) return LinearState::unknown;
+    if (range->sticks_linearly && !range->rubs() && range->stiffness[1] == 0.0) continue;
+    const Eigen::Vector3d sizes(shapes.u.row(i).norm(), shapes.v.row(i).norm(),
+                                shapes.w.size() > 0 ? shapes.w.row(i).norm() : 0.0);
+    const LinearReserve reserve = reserve_of_ball(*range, sizes, centre.n_harmonics(), radius);
+    const SleepState state = sleep_state(*range, motion.of(i), table, 0.0, reserve);
+    const bool any_speed = !range->friction.is_rate_dependent();
+    stuck = stuck && any_speed && state == SleepState::stuck && range->gap_load >= 0.0;
+    open = open && state == SleepState::open && load_at_rest_[i] == 0.0;
+  }
+  if (stuck) return LinearState::stuck;
+  return open ? LinearState::free : LinearState::unknown;
+}
+
+}  // namespace microslip::contact

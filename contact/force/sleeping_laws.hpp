@@ -1,0 +1,89 @@
+/// @file
+/// Points of a patch of any laws that are proved stuck, or open, for the whole cycle (linear_range.hpp):
+/// one matrix stands for all of them, only the others are evaluated one by one.
+///
+///   G^(k)_sleeping = K q^(k) + δ_k0 g,   K = Σ_stuck w (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ + φ_w k_w φ_wᵀ)
+///   g = Σ_stuck w φ_v (n₀' − n_ref) − Σ_open w φ_v n_ref                                      (1)
+///
+/// Who sleeps depends on the motion asked for and on nothing else. K is kept in sums over groups of points;
+/// a group is added up anew when one of its points has changed its state, so that equal sets give equal
+/// bits, whatever was asked before. A decision costs some 10 ns per point and harmonic.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_patch.hpp"
+#include "contact/surface/linear_range.hpp"
+#include "contact/modal_force.hpp"
+#include "contact/point/point_law.hpp"
+#include "contact/force/sleeping_points.hpp"
+
+namespace microslip::contact {
+
+/// Motion of all points, harmonics row by row as they lie in `Harmonics`: n_points × (2H+1) each [m].
+struct PatchMotion {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows u;
+  Rows v;
+  Rows w;  ///< empty: no motion along r
+
+  /// Storage of the right size is used again.
+  /// @throws std::invalid_argument  H = 0, or another number of modes than the shapes.
+  void set(const ModalShapes& shapes, const Harmonics& q);
+  [[nodiscard]] PointRows of(Eigen::Index point) const;
+  /// The three signals of a point. @param result  written whole.
+  void copy(Eigen::Index point, Harmonics& result) const;
+};
+
+class SleepingLaws {
+ public:
+  SleepingLaws() = default;
+  /// All of the same size n; see LawPatchForce.
+  SleepingLaws(const Eigen::VectorXd& weights,
+               const std::vector<std::shared_ptr<const PointLaw>>& laws, const ModalShapes& shapes);
+
+  /// What every point is proved to do.
+  [[nodiscard]] std::vector<SleepState> states(const PatchMotion& motion, double frequency) const;
+
+  /// Decides for this motion. @param shapes  those of the constructor, here and below.
+  void look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes);
+  /// After look_at(): points to be evaluated, ascending.
+  [[nodiscard]] const std::vector<Eigen::Index>& awake() const { return awake_; }
+  /// After look_at().
+  [[nodiscard]] SleepState state(Eigen::Index point) const {
+    return state_[static_cast<std::size_t>(point)];
+  }
+  /// After look_at(): (1); nullptr: none sleeps.
+  [[nodiscard]] const SleepingPart* part() const;
+
+  /// What is proved of a ball of motions, see linear_proof.hpp.
+  [[nodiscard]] LinearState linear_state(const ModalShapes& shapes, const Harmonics& centre,
+                                         double radius) const;
+  /// Constants of a point, none: its law is always evaluated.
+  [[nodiscard]] const std::optional<LinearRange>& range(Eigen::Index point) const {
+    return range_[static_cast<std::size_t>(point)];
+  }
+
+ private:
+  void decide(const PatchMotion& motion, double frequency, std::vector<SleepState>& states) const;
+  void add_up(Eigen::Index group, const ModalShapes& shapes);
+  void add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part);
+
+  Eigen::VectorXd weights_;
+  Eigen::VectorXd load_at_rest_;
+  std::vector<std::optional<LinearRange>> range_;
+  Eigen::Index group_ = 0;  // points of a group
+  std::vector<SleepState> state_;
+  std::vector<SleepState> next_;
+  std::vector<Eigen::Index> awake_;
+  std::vector<SleepingPart> part_;  // of each group
+  SleepingPart sum_;
+  Eigen::MatrixXd rows_;     // √(w k) φ of one group
+  Eigen::Index n_rows_ = 0;  // of them in use
+};
+
+}  // namespace microslip::contact

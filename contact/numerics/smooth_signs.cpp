@@ -1,0 +1,202 @@
+#include "contact/numerics/smooth_signs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <Eigen/Core>
+
+#include "contact/numerics/bracketed_root.hpp"
+
+namespace microslip::contact {
+namespace {
+
+constexpr int n = 12;
+using Series = Eigen::Matrix<double, n, 1>;
+using Square = Eigen::Matrix<double, n, n>;
+
+/// What does not depend on the functions.
+struct Tables {
+  Series node;          // zeros of T_n
+  Square coefficients;  // values → c
+  Square left;          // c → those on [−1, 0], scaled to [−1, 1]
+  Square right;
+};
+
+double value(const Series& c, double x) {
+  double next = 0.0;
+  double after = 0.0;
+  for (int k = n - 1; k > 0; --k) {
+    const double now = 2.0 * x * next - after + c[k];
+    after = next;
+    next = now;
+  }
+  return x * next - after + c[0];
+}
+
+Tables make_tables() {
+  Tables t;
+  Square half_values[2];
+  for (int i = 0; i < n; ++i) {
+    t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n);
+    for (int k = 0; k < n; ++k) {
+      const double T = std::cos(k * std::acos(t.node[i]));
+      t.coefficients(k, i) = (k == 0 ? 1.0 : 2.0) / n * T;
+      half_values[0](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] - 1.0)));
+      half_values[1](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] + 1.0)));
+    }
+  }
+  t.left = t.coefficients * half_values[0];
+  t.right = t.coefficients * half_values[1];
+  return t;
+}
+
+const Tables& tables() {
+  static const Tables t = make_tables();
+  return t;
+}
+
+/// Σ_{k>0} |c_k|.
+double variation(const Series& c) { return c.tail<n - 1>().cwiseAbs().sum(); }
+
+Series derivative(const Series& c) {
+  Series d = Series::Zero();
+  for (int k = n - 1; k > 0; --k) d[k - 1] = (k + 1 < n ? d[k + 1] : 0.0) + 2.0 * k * c[k];
+  d[0] *= 0.5;
+  return d;
+}
+
+/// Walks from cell to cell with the sign of both functions so far.
+class Search {
+ public:
+  Search(const SmoothPair& functions, double size, std::vector<SmoothSign>& found)
+      : functions_(functions), size_(size), found_(found) {}
+
+  /// @param before  tails of the cell twice as long.
+  void cover(double begin, double end, int depth, double before = INFINITY) {
+    const double half = 0.5 * (end - begin);
+    Eigen::Matrix<double, n, 2> values;
+    for (int i = 0; i < n; ++i) {
+      const std::array<double, 2> f = functions_(begin + half * (1.0 + tables().node[i]));
+      values(i, 0) = f[0];
+      values(i, 1) = f[1];
+    }
+    const Eigen::Matrix<double, n, 2> c = tables().coefficients.lazyProduct(values);
+    std::array<bool, 2> resolved{};
+    bool settled = true;
+    double top = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const double tail = c.col(column).tail<2>().cwiseAbs().sum();
+      resolved[i] =
+          is_resolved(tail, values.col(column).cwiseAbs().maxCoeff(), end - begin, before);
+      settled = settled && (resolved[i] || is_clear(c.col(column), tail));
+      top = std::max(top, tail);
+    }
+    if (!settled && depth > 0) {
+      cover(begin, begin + half, depth - 1, top);
+      cover(begin + half, end, depth - 1, top);
+      return;
+    }
+    constexpr double narrowest = 1e-7;  // what w turns back by inside is its cube
+    for (std::size_t i = 0; i < 2; ++i) {
+      accurate_ = resolved[i];
+      isolate(c.col(static_cast<Eigen::Index>(i)), begin, end,
+              narrowest * std::min(1.0, end - begin), static_cast<int>(i));
+    }
+  }
+
+ private:
+  /// @param before  tails of the cell twice as long.
+  [[nodiscard]] bool is_resolved(double tail, double largest, double length, double before) const {
+    // Integrals of f between its sign changes, which is what a slider moves by, err by its power
+    // 3/2.
+    constexpr double tolerance = 1e-10;
+    if (tail <= std::max(tolerance * size_, 0.1 * tolerance * largest)) return true;
+    // Half the length divides a tail by 2¹⁰, unless it is the rounding of a steep function.
+    const bool small = tail <= 1e-9 * largest || tail * length <= 1e-16 * size_;
+    return tail > 0.25 * before && small;
+  }
+
+  /// Whether f keeps its sign, or has one change at most and none near the ends, whatever the next terms are.
+  static bool is_clear(const Series& c, double tail) {
+    constexpr double margin = 30.0;  // of terms that fall off slowly
+    if (std::abs(c[0]) > variation(c) + margin * tail) return true;
+    const Series d = derivative(c);
+    const double ends = std::min(std::abs(value(c, -1.0)), std::abs(value(c, 1.0)));
+    return ends > margin * tail && std::abs(d[0]) > variation(d) + margin * n * n * tail;
+  }
+
+  void isolate(const Series& c, double begin, double end, double narrowest, int function) {
+    const double spread = variation(c);
+    constexpr double rounding = 1e-15;
+    if (std::abs(c[0]) + spread <= rounding * size_) return;
+    if (std::abs(c[0]) > spread) {
+      pass(begin, c[0] > 0.0, function);
+      return;
+    }
+    const Series d = derivative(c);
+    if (std::abs(d[0]) > variation(d) || end - begin <= narrowest) {
+      cross(c, begin, end, function);
+      return;
+    }
+    const double middle = 0.5 * (begin + end);
+    isolate(tables().left.lazyProduct(c), begin, middle, narrowest, function);
+    isolate(tables().right.lazyProduct(c), middle, end, narrowest, function);
+  }
+
+  /// One change at most.
+  void cross(const Series& c, double begin, double end, int function) {
+    const double at_begin = value(c, -1.0);
+    const double at_end = value(c, 1.0);
+    pass(begin, at_begin > 0.0, function);
+    if ((at_begin > 0.0) == (at_end > 0.0)) return;
+    const auto f = [&](double x) { return value(c, x); };
+    double x = bracketed_root(f, -1.0, 1.0, at_begin, at_end);
+    if (!accurate_) x = polished(c, begin, 0.5 * (end - begin), x, function);
+    pass(begin + 0.5 * (end - begin) * (1.0 + x), at_end > 0.0, function);
+  }
+
+  /// Newton's method with the slope of the series, which is as good as a thirtieth at least.
+  double polished(const Series& c, double begin, double half, double x, int function) {
+    const double slope = value(derivative(c), x);
+    for (int i = 0; i < 8; ++i) {
+      const double f = functions_(begin + half * (1.0 + x))[static_cast<std::size_t>(function)];
+      const double step = f / slope;
+      x = std::clamp(x - step, -1.0, 1.0);
+      if (std::abs(step) <= 1e-7) break;  // the next one would be 1e-9
+    }
+    return x;
+  }
+
+  void pass(double phase, bool positive, int function) {
+    int& before = sign_[static_cast<std::size_t>(function)];
+    const int now = positive ? 1 : -1;
+    if (before == -now) found_.push_back({phase, function});
+    before = now;
+  }
+
+  const SmoothPair& functions_;
+  double size_;
+  std::vector<SmoothSign>& found_;
+  std::array<int, 2> sign_{0, 0};
+  bool accurate_ = true;  // whether the series of the cell is the function
+};
+
+}  // namespace
+
+void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
+                      double size, std::vector<SmoothSign>& found) {
+  const double length = end - begin;
+  if (!(length > 0.0)) return;
+  constexpr int deepest =
+      30;  // halvings; what changes within 1e-9 of a cell is not told from a jump
+  Search search(functions, size, found);
+  const int n_cells = static_cast<int>(std::ceil(length / cell));
+  for (int i = 0; i < n_cells; ++i) {
+    search.cover(begin + length * i / n_cells, begin + length * (i + 1) / n_cells, deepest);
+  }
+}
+
+}  // namespace microslip::contact

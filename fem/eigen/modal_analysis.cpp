@@ -1,0 +1,273 @@
+#include "fem/modal_analysis.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "fem/petsc/columns.hpp"
+#include "fem/eigen/mode_search.hpp"
+#include "fem/elements/number_text.hpp"
+#include "fem/petsc_error.hpp"
+#include "fem/eigen/rigid_modes.hpp"
+#include "fem/elements/surface_load.hpp"
+#include "fem/assembly/surface_springs.hpp"
+
+namespace microslip::fem {
+namespace {
+
+// ω² this far below the next one is no elastic mode: frequencies of one body do not differ by 1000.
+constexpr double zero_ratio = 1e-6;
+
+Eigen::Index count_zero(const Eigen::VectorXd& values) {
+  Eigen::Index n = 0;
+  for (Eigen::Index i = 0; i + 1 < values.size(); ++i) {
+    if (values[i] < zero_ratio * values[i + 1]) n = i + 1;
+  }
+  return n;
+}
+
+// A mode has no sign of its own: the first of its largest components is made positive.
+void fix_signs(Eigen::MatrixXd& shapes) {
+  constexpr double tie = 1.0 - 1e-6;  // components equal by symmetry differ by rounding
+  for (auto shape : shapes.colwise()) {
+    const double largest = shape.cwiseAbs().maxCoeff();
+    for (const double value : shape) {
+      if (std::abs(value) < tie * largest) continue;
+      if (value < 0.0) shape = -shape;
+      break;
+    }
+  }
+}
+
+double infinity_norm(Mat matrix) {
+  PetscReal norm = 0.0;
+  check(MatNorm(matrix, NORM_INFINITY, &norm));
+  return norm;
+}
+
+void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
+  if (forces.rows() == 3 * n_nodes) return;
+  throw std::invalid_argument("forces have " + std::to_string(forces.rows()) + " rows, 3 per mesh node are " +
+                              std::to_string(3 * n_nodes));
+}
+
+}  // namespace
+
+struct Structure::Implementation {
+  Eigen::MatrixX3d nodes;
+  FeSystem system;
+  Eigen::MatrixXd rigid;                 // M-orthonormal, rows of this rank
+  double shift = 0.0;                    // of `factor`
+  std::optional<Factorisation> factor;   // of K − shift M
+  ModalTimings timings;
+
+  void factorise();
+  void factorise_shifted();
+  [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
+  [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& kept) const;
+  void drop_held_rigid_modes();
+  [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
+  void check_residuals(const ModalBasis& basis, double tolerance) const;
+};
+
+void Structure::Implementation::factorise() {
+  if (factor) return;
+  if (rigid.cols() > 0) return factorise_shifted();
+  shift = 0.0;
+  factor.emplace(system.stiffness.get(), FactorKind::positive_definite);
+  timings.ordering = factor->ordering_seconds();
+  timings.factorisation = factor->factor_seconds();
+}
+
+// Below zero by a tenth of the first elastic eigenvalue: far enough for an accurate factorisation,
+// near enough to tell the elastic modes apart.
+void Structure::Implementation::factorise_shifted() {
+  shift = -0.1 * elastic_scale(nodes, system, rigid.cols());
+  factor.emplace(shifted_stiffness(system, shift).get(), FactorKind::positive_definite);
+  timings.ordering = factor->ordering_seconds();
+  timings.factorisation = factor->factor_seconds();
+}
+
+CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
+  CountedPairs found = find_elastic_modes(system, *factor, shift, n_elastic, rigid);
+  timings.eigensolve += found.search_seconds;
+  timings.inertia += found.inertia_seconds;
+  return found;
+}
+
+ModalBasis Structure::Implementation::basis_from(const CountedPairs& found, Eigen::Index n_modes) const {
+  const Eigen::Index n_rigid = std::min(rigid.cols(), n_modes);
+  const Eigen::Index n_elastic = n_modes - n_rigid;
+  const EigenPairs elastic{found.pairs.values.head(n_elastic), found.pairs.vectors.leftCols(n_elastic)};
+  Eigen::MatrixXd local(system.dofs.n_local_dofs(), n_modes);
+  local << rigid.leftCols(n_rigid), elastic.vectors;
+  ModalBasis basis;
+  basis.frequency = Eigen::VectorXd::Zero(n_modes);
+  basis.frequency.tail(n_elastic) = elastic.values.cwiseSqrt();
+  basis.residual = Eigen::VectorXd::Zero(n_modes);
+  if (n_rigid > 0) {
+    const Eigen::MatrixXd R = rigid.leftCols(n_rigid);
+    basis.residual.head(n_rigid) = column_norms(multiply(system.stiffness.get(), R))
+                                       .cwiseQuotient(infinity_norm(system.stiffness.get()) * column_norms(R));
+  }
+  if (n_elastic > 0) basis.residual.tail(n_elastic) = relative_residuals(system, elastic);
+  basis.shapes = system.dofs.to_mesh(local);
+  fix_signs(basis.shapes);
+  basis.n_rigid_body = n_rigid;
+  basis.inertia_count = found.n_counted;
+  return basis;
+}
+
+// Rounding of φ alone leaves ε‖K‖‖φ‖ in Kφ; on fine meshes that is more than the tolerance asks.
+void Structure::Implementation::check_residuals(const ModalBasis& basis, double tolerance) const {
+  const double stiffness_norm = infinity_norm(system.stiffness.get());
+  for (Eigen::Index k = 0; k < basis.frequency.size(); ++k) {
+    const double omega = basis.frequency[k];
+    double allowed = tolerance;
+    if (omega > 0.0) {
+      // ‖Kφ‖ ≥ ω² / ‖φ‖, since φᵀKφ = ω².
+      allowed += std::numeric_limits<double>::epsilon() * stiffness_norm * basis.shapes.col(k).squaredNorm() /
+                 (omega * omega);
+    }
+    if (!(basis.residual[k] <= allowed)) {
+      throw EigenError("eigen-inaccurate: mode " + std::to_string(k + 1) + " has residual " +
+                       number_text(basis.residual[k]) + ", allowed is " + number_text(allowed));
+    }
+  }
+}
+
+// u with Ku = f − MRRᵀf, u ⟂ M [R kept], for loads f. For a held body simply K⁻¹f without what the kept
+// modes carry. With rigid-body modes the factor is that of K − shift M, and the residual correction
+// contracts by |shift|/(λ + |shift|) per step, λ the first eigenvalue that is not kept.
+Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& loads,
+                                                         const Eigen::MatrixXd& kept) const {
+  constexpr int max_steps = 500;
+  constexpr double tolerance = 1e-13;  // of the load: what a direct solution reaches
+  const Mat K = system.stiffness.get();
+  const Mat M = system.mass_matrix.get();
+  Eigen::MatrixXd known(kept.rows(), kept.cols() + rigid.cols());
+  known << kept, rigid;
+  const Eigen::MatrixXd M_known = multiply(M, known);
+  const auto without_known = [&](const Eigen::MatrixXd& u) -> Eigen::MatrixXd {
+    return u - known * inner_products(M_known, u);
+  };
+  const auto load_without_known = [&](const Eigen::MatrixXd& f) -> Eigen::MatrixXd {
+    return f - M_known * inner_products(known, f);
+  };
+  const Eigen::MatrixXd target = load_without_known(loads);
+  Eigen::MatrixXd u = without_known(factor->solve(target));
+  if (shift == 0.0) return u;
+  const double scale = column_norms(loads).maxCoeff();
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < max_steps; ++step) {
+    const Eigen::MatrixXd rest = target - load_without_known(multiply(K, u));
+    const double size = column_norms(rest).maxCoeff();
+    if (size <= tolerance * scale || size > 0.9 * before) break;  // at the floor rounding sets
+    before = size;
+    u += without_known(factor->solve(rest));
+  }
+  return u;
+}
+
+// Springs to ground hold rigid-body modes that were free: keep those they do not strain.
+void Structure::Implementation::drop_held_rigid_modes() {
+  if (rigid.cols() == 0) return;
+  const Eigen::MatrixXd energy = inner_products(rigid, multiply(system.stiffness.get(), rigid));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energy + energy.transpose()));
+  const double scale = elastic_scale(nodes, system, rigid.cols());
+  const auto n_free = static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-9 * scale).count());
+  rigid = (rigid * eigen.eigenvectors().leftCols(n_free)).eval();
+}
+
+Structure::Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
+                     Tet10Rule rule) {
+  const auto start = std::chrono::steady_clock::now();
+  FeSystem system = assemble(mesh, material, clamped, rule);
+  Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
+  self_ = std::make_unique<Implementation>(
+      Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
+  self_->timings.assembly = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Structure::~Structure() = default;
+Structure::Structure(Structure&&) noexcept = default;
+Structure& Structure::operator=(Structure&&) noexcept = default;
+
+Eigen::Index Structure::n_dofs() const { return 3 * self_->system.dofs.n_free_nodes(); }
+double Structure::mass() const { return self_->system.mass; }
+const ModalTimings& Structure::timings() const { return self_->timings; }
+
+ModalBasis Structure::solve_modes(const ModalOptions& options) {
+  Implementation& self = *self_;
+  if (options.n_modes < 1 || options.n_modes > n_dofs()) {
+    throw std::invalid_argument("n_modes = " + std::to_string(options.n_modes) + " is not between 1 and the " +
+                                std::to_string(n_dofs()) + " degrees of freedom");
+  }
+  const Eigen::Index n_rigid = self.rigid.cols();
+  if (n_rigid > 6) {
+    throw EigenError("mechanism: " + std::to_string(n_rigid) +
+                     " zero modes, a free body has six: the mesh has loose parts");
+  }
+  self.factorise();
+  CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
+  if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
+    throw EigenError("mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
+                     " of them inside the body (parts that share only an edge, a corner or too few supports)");
+  }
+  ModalBasis basis = self.basis_from(found, options.n_modes);
+  self.check_residuals(basis, options.residual_tolerance);
+  return basis;
+}
+
+Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {
+  Implementation& self = *self_;
+  check_rows(forces, self.nodes.rows());
+  if (self.rigid.cols() > 0) {
+    throw EigenError("rigid-body: " + std::to_string(self.rigid.cols()) +
+                     " rigid-body modes are free, the stiffness matrix is singular: no static solution");
+  }
+  self.factorise();
+  return self.system.dofs.to_mesh(self.factor->solve(self.system.dofs.to_local(forces)));
+}
+
+ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, const mesh::Surface& surface,
+                                                    const Eigen::Matrix3d& frame) {
+  Implementation& self = *self_;
+  self.factorise();
+  const Eigen::Index n_elastic = basis.frequency.size() - basis.n_rigid_body;
+  const Eigen::MatrixXd kept = self.system.dofs.to_local(basis.shapes.rightCols(n_elastic));
+  const Eigen::MatrixXd loads = self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
+  const Eigen::MatrixXd u = self.system.dofs.to_mesh(self.solve_elastic(loads, kept));
+  ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(surface.nodes), 3)};
+  for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
+    const Eigen::Index node = surface.nodes[static_cast<std::size_t>(i)];
+    result.row_sums.row(i) = frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
+  }
+  return result;
+}
+
+void Structure::add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+                                    const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
+                                    const Eigen::MatrixX3d& stiffness) {
+  add_springs(self_->system, surface, to_points, weights, frame, stiffness);
+  self_->factor.reset();
+  self_->drop_held_rigid_modes();
+}
+
+Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const {
+  check_rows(forces, self_->nodes.rows());
+  const FeSystem& system = self_->system;
+  const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(), FactorKind::indefinite);
+  if (dynamic.inertia().zero > 0) {
+    throw EigenError("resonance: omega = " + number_text(frequency) + " rad/s is a natural frequency");
+  }
+  return system.dofs.to_mesh(dynamic.solve(system.dofs.to_local(forces)));
+}
+
+}  // namespace microslip::fem

@@ -1,0 +1,47 @@
+#include "fem/elements/surface_load.hpp"
+
+#include <Eigen/Geometry>
+
+#include "fem/elements/quadrature.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace microslip::fem {
+namespace {
+
+// Exact on flat faces (N_i times det J: degree 4 at most per direction); on curved ones the root in
+// dA is smooth and leaves about 1e-10.
+constexpr int face_degree = 8;
+
+void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block, Eigen::VectorXd& areas) {
+  const QuadratureRule rule = face_rule(block.type, face_degree);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const Eigen::Vector2d xi = rule.points.row(q).head<2>().transpose();
+    const auto [N, dN] = mesh::shapes(block.type, xi);
+    for (Eigen::Index face = 0; face < block.connectivity.rows(); ++face) {
+      Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+      for (Eigen::Index i = 0; i < N.size(); ++i) {
+        tangents += nodes.row(block.connectivity(face, i)).transpose() * dN.row(i);
+      }
+      const double dA = rule.weights[q] * tangents.col(0).cross(tangents.col(1)).norm();
+      for (Eigen::Index i = 0; i < N.size(); ++i) areas[block.connectivity(face, i)] += dA * N[i];
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(nodes.rows());
+  for (const mesh::FaceBlock& block : surface.faces) add_face_areas(nodes, block, areas);
+  return areas;
+}
+
+Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                   const Eigen::Matrix3d& frame) {
+  const Eigen::VectorXd areas = nodal_areas(nodes, surface);
+  Eigen::MatrixX3d loads(3 * nodes.rows(), 3);
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) loads.middleRows<3>(3 * i) = areas[i] * frame.transpose();
+  return loads;
+}
+
+}  // namespace microslip::fem

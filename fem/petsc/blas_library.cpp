@@ -1,0 +1,78 @@
+#include "fem/petsc/blas_library.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <dlfcn.h>
+#include <sched.h>
+
+#include "fem/slepc_session.hpp"
+
+namespace microslip::fem {
+namespace {
+
+template <typename Function>
+Function* symbol(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+bool user_chose_threads() {
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && std::atoi(value) > 0) return true;
+  }
+  return false;
+}
+
+int usable_threads() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) == 0) return CPU_COUNT(&allowed);
+  return static_cast<int>(std::thread::hardware_concurrency());
+}
+
+// File of the library that answers for dgemm, links resolved: the alternatives system hides the name.
+std::string library_of_dgemm() {
+  void* address = dlsym(RTLD_DEFAULT, "dgemm_");
+  Dl_info info{};
+  if (address == nullptr || dladdr(address, &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
+  return error ? std::string(info.dli_fname) : file.string();
+}
+
+std::string second_word(const std::string& text) {
+  const std::size_t start = text.find(' ');
+  if (start == std::string::npos) return {};
+  return text.substr(start + 1, text.find(' ', start + 1) - start - 1);
+}
+
+}  // namespace
+
+void set_blas_threads(int n_ranks_here) {
+  auto* set_threads = symbol<void(int)>("openblas_set_num_threads");
+  if (set_threads == nullptr || user_chose_threads()) return;
+  const auto hardware = static_cast<int>(std::thread::hardware_concurrency());
+  // mpirun may already have bound each rank to its share of the cores.
+  set_threads(std::max(1, std::min(usable_threads(), hardware / std::max(1, n_ranks_here))));
+}
+
+std::string blas_description() {
+  if (auto* config = symbol<char*()>("openblas_get_config")) {
+    auto* threads = symbol<int()>("openblas_get_num_threads");
+    const int n = threads == nullptr ? 1 : threads();
+    return "OpenBLAS " + second_word(config()) + ", " + std::to_string(n) +
+           (n == 1 ? " thread" : " threads");
+  }
+  const std::string file = library_of_dgemm();
+  if (file.find("mkl") != std::string::npos) return "MKL";
+  if (file.find("blis") != std::string::npos) return "BLIS";
+  if (file.find("atlas") != std::string::npos) return "ATLAS";
+  return "reference BLAS (slow: install libopenblas0-pthread)";
+}
+
+}  // namespace microslip::fem

@@ -1,0 +1,111 @@
+#include "fem/slepc_session.hpp"
+
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+
+#include <petscpkg_version.h>
+#include <slepcsys.h>
+
+#include "fem/petsc/blas_library.hpp"
+#include "fem/petsc_error.hpp"
+
+namespace microslip::fem {
+
+static_assert(std::is_same_v<PetscScalar, double>, "PETSc must be built with real double scalars");
+
+namespace {
+
+// PETSc reads PETSC_OPTIONS and ~/.petscrc while it starts; a stray option there must not change
+// results, so both are kept from it.
+class QuietOptions {
+ public:
+  QuietOptions() {
+    if (const char* value = std::getenv(name)) before_ = value;
+    setenv(name, "-skip_petscrc -no_signal_handler", 1);
+  }
+  ~QuietOptions() {
+    if (before_) {
+      setenv(name, before_->c_str(), 1);
+    } else {
+      unsetenv(name);
+    }
+  }
+  QuietOptions(const QuietOptions&) = delete;
+  QuietOptions& operator=(const QuietOptions&) = delete;
+  QuietOptions(QuietOptions&&) = delete;
+  QuietOptions& operator=(QuietOptions&&) = delete;
+
+ private:
+  static constexpr const char* name = "PETSC_OPTIONS";
+  std::optional<std::string> before_;
+};
+
+int ranks_on_this_machine() {
+  MPI_Comm here = MPI_COMM_NULL;
+  int n = 1;
+  check(MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
+  check(MPI_Comm_size(here, &n));
+  check(MPI_Comm_free(&here));
+  return n;
+}
+
+}  // namespace
+
+SlepcSession::SlepcSession() {
+  int over = 0;
+  check(MPI_Finalized(&over));
+  PetscBool alive = PETSC_FALSE;
+  check(SlepcInitialized(&alive));
+  if (over != 0 || alive == PETSC_TRUE) {
+    throw std::logic_error("SlepcSession: one per process, and there was one already");
+  }
+  {
+    const QuietOptions quiet;
+    check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
+  }
+  install_error_handler();
+  set_blas_threads(ranks_on_this_machine());
+}
+
+SlepcSession::~SlepcSession() {
+  PetscPopErrorHandler();
+  SlepcFinalize();
+}
+
+int SlepcSession::rank() const {
+  int value = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &value));
+  return value;
+}
+
+int SlepcSession::n_ranks() const {
+  int value = 0;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &value));
+  return value;
+}
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  const auto dotted = [](int a, int b, int c) {
+    return std::to_string(a) + '.' + std::to_string(b) + '.' + std::to_string(c);
+  };
+  const auto of = [&](PetscErrorCode (*get)(PetscInt*, PetscInt*, PetscInt*, PetscInt*)) {
+    PetscInt major = 0;
+    PetscInt minor = 0;
+    PetscInt patch = 0;
+    check(get(&major, &minor, &patch, nullptr));
+    return dotted(major, minor, patch);
+  };
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  check(MPI_Get_library_version(mpi, &length));
+  const std::string name(mpi, static_cast<std::size_t>(length));
+  return {{"PETSc", of(&PetscGetVersionNumber)},
+          {"SLEPc", of(&SlepcGetVersionNumber)},
+          {"MUMPS", dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                           PETSC_PKG_MUMPS_VERSION_SUBMINOR)},
+          {"MPI", name.substr(0, name.find(','))}};
+}
+
+}  // namespace microslip::fem

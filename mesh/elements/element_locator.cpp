@@ -1,0 +1,169 @@
+#include "mesh/elements/element_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "mesh/shape_functions.hpp"
+
+namespace microslip::mesh {
+namespace {
+
+constexpr double margin =
+    1e-6;  // of an element, far above rounding: a point on a face is in neither
+
+bool is_tetrahedron(ElementType type) { return n_corners(type) == 4; }
+bool is_quadratic(ElementType type) { return n_nodes(type) > n_corners(type); }
+
+/// Places of the nodes of a straight element between its corners, n_nodes × n_corners.
+Eigen::MatrixXd straight_places(ElementType type) {
+  const Eigen::MatrixX3d xi = reference_nodes(type);
+  Eigen::MatrixXd places(n_nodes(type), n_corners(type));
+  for (Eigen::Index a = 0; a < places.rows(); ++a) {
+    const ElementType linear = is_tetrahedron(type) ? ElementType::tet4 : ElementType::hex8;
+    places.row(a) = shapes(linear, xi.row(a).transpose()).values.transpose();
+  }
+  return places;
+}
+
+/// Σ|N_a| over the nodes on edges at most: each moves the element off its straight shape by that share.
+double reach_of_edge_nodes(ElementType type) { return is_tetrahedron(type) ? 1.5 : 3.0; }
+
+/// How deep ξ is inside the reference element, in shares of it; negative outside.
+double depth(ElementType type, const Eigen::Vector3d& xi) {
+  if (is_tetrahedron(type)) return std::min(xi.minCoeff(), 1.0 - xi.sum());
+  return 0.5 * (1.0 - xi.cwiseAbs().maxCoeff());
+}
+
+/// Sound: ξ inside and x(ξ) = x prove it, whatever path Newton took. A point it loses is called outside.
+bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vector3d& x) {
+  constexpr int max_steps = 20;
+  constexpr double converged = 1e-9;  // of the element, far below the margin
+  constexpr double lost = -2.0;       // that far outside, no step of a valid element comes back
+  Eigen::Vector3d xi =
+      is_tetrahedron(type) ? Eigen::Vector3d::Constant(0.25) : Eigen::Vector3d::Zero();
+  for (int step = 0; step < max_steps; ++step) {
+    const ElementShapes s = shapes(type, xi);
+    const Eigen::Vector3d rest = x - nodes.transpose() * s.values;
+    const Eigen::Matrix3d J = nodes.transpose() * s.gradients;
+    if (!(J.determinant() > 0.0)) return false;
+    const Eigen::Vector3d move = J.inverse() * rest;
+    xi += move;
+    if (depth(type, xi) < lost) return false;
+    if (move.cwiseAbs().maxCoeff() < converged) return depth(type, xi) > margin;
+    if (!is_quadratic(type) && is_tetrahedron(type)) return depth(type, xi) > margin;
+  }
+  return false;
+}
+
+}  // namespace
+
+ElementLocator::ElementLocator(const Eigen::MatrixX3d& nodes,
+                               const std::vector<ElementBlock>& elements)
+    : nodes_(nodes), elements_(elements) {
+  for (std::size_t b = 0; b < elements.size(); ++b) {
+    for (Eigen::Index e = 0; e < elements[b].connectivity.rows(); ++e) list_.push_back({b, e});
+  }
+  boxes_.reserve(list_.size());
+  for (const ElementReference& element : list_) boxes_.push_back(box_of(element));
+  choose_grid();
+  fill();
+}
+
+/// Holds the element with its bulges: corners, and the edge nodes' distance from straight edges.
+ElementLocator::Box ElementLocator::box_of(const ElementReference& element) const {
+  static const std::array<Eigen::MatrixXd, 4> places{
+      straight_places(ElementType::tet4), straight_places(ElementType::tet10),
+      straight_places(ElementType::hex8), straight_places(ElementType::hex20)};
+  const ElementBlock& block = elements_[element.block];
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 20, 3> own(block.connectivity.cols(), 3);
+  for (Eigen::Index a = 0; a < own.rows(); ++a)
+    own.row(a) = nodes_.row(block.connectivity(element.element, a));
+  const auto corners = own.topRows(n_corners(block.type));
+  Box box{corners.colwise().minCoeff().transpose(), corners.colwise().maxCoeff().transpose()};
+  if (is_quadratic(block.type)) {
+    const Eigen::MatrixX3d off = own - places[static_cast<std::size_t>(block.type)] * corners;
+    const Eigen::Vector3d pad =
+        reach_of_edge_nodes(block.type) * off.cwiseAbs().colwise().maxCoeff().transpose();
+    box.lower -= pad;
+    box.upper += pad;
+  }
+  return box;
+}
+
+/// About as many cells as elements, cubes as nearly as they fit.
+void ElementLocator::choose_grid() {
+  lower_ = nodes_.colwise().minCoeff().transpose();
+  const Eigen::Vector3d extent = nodes_.colwise().maxCoeff().transpose() - lower_;
+  const double edge = std::cbrt(extent.prod() / static_cast<double>(list_.size()));
+  constexpr double most = 200.0;  // per direction
+  for (int d = 0; d < 3; ++d) {
+    const auto n = static_cast<Eigen::Index>(std::clamp(std::floor(extent[d] / edge), 1.0, most));
+    n_cells_[static_cast<std::size_t>(d)] = n;
+    cell_[d] = extent[d] / static_cast<double>(n);
+  }
+}
+
+std::size_t ElementLocator::number(Eigen::Index i, Eigen::Index j, Eigen::Index k) const {
+  return static_cast<std::size_t>((k * n_cells_[1] + j) * n_cells_[0] + i);
+}
+
+ElementLocator::Cells ElementLocator::cells_of(const Box& box) const {
+  Cells cells{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto at = static_cast<Eigen::Index>(d);
+    const auto place = [&](double x) {
+      const double cell = std::floor((x - lower_[at]) / cell_[at]);
+      return static_cast<Eigen::Index>(std::clamp(cell, 0.0, static_cast<double>(n_cells_[d] - 1)));
+    };
+    cells.first[d] = place(box.lower[at]);
+    cells.last[d] = place(box.upper[at]);
+  }
+  return cells;
+}
+
+/// Counts, then fills: members of all cells in one array.
+void ElementLocator::fill() {
+  first_.assign(number(0, 0, n_cells_[2]) + 1, 0);
+  const auto for_each_cell = [&](const Box& box, const auto& act) {
+    const Cells c = cells_of(box);
+    for (Eigen::Index k = c.first[2]; k <= c.last[2]; ++k) {
+      for (Eigen::Index j = c.first[1]; j <= c.last[1]; ++j) {
+        for (Eigen::Index i = c.first[0]; i <= c.last[0]; ++i) act(number(i, j, k));
+      }
+    }
+  };
+  for (const Box& box : boxes_) for_each_cell(box, [&](std::size_t cell) { ++first_[cell + 1]; });
+  for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
+  members_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t e = 0; e < boxes_.size(); ++e) {
+    for_each_cell(boxes_[e], [&](std::size_t cell) {
+      members_[next[cell]++] = static_cast<std::uint32_t>(e);
+    });
+  }
+}
+
+bool ElementLocator::holds(const ElementReference& element, const Eigen::Vector3d& x) const {
+  const ElementBlock& block = elements_[element.block];
+  Eigen::MatrixX3d own(block.connectivity.cols(), 3);
+  for (Eigen::Index a = 0; a < own.rows(); ++a)
+    own.row(a) = nodes_.row(block.connectivity(element.element, a));
+  return is_inside(block.type, own, x);
+}
+
+std::optional<ElementReference> ElementLocator::holder(const Eigen::Vector3d& x,
+                                                       const ElementReference& own) const {
+  const Cells at = cells_of({x, x});
+  const std::size_t cell = number(at.first[0], at.first[1], at.first[2]);
+  for (std::size_t m = first_[cell]; m < first_[cell + 1]; ++m) {
+    const Box& box = boxes_[members_[m]];
+    if ((x.array() < box.lower.array()).any() || (x.array() > box.upper.array()).any()) continue;
+    const ElementReference& element = list_[members_[m]];
+    if (!(element == own) && holds(element, x)) return element;
+  }
+  return std::nullopt;
+}
+
+}  // namespace microslip::mesh

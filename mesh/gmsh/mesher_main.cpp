@@ -1,0 +1,102 @@
+/// @file
+/// The program microslip-mesher: reads "key value" lines from standard input, meshes, writes one file.
+///   microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters
+/// It limits its own memory, and when its parent dies or it is asked to end, it goes and takes what it has
+/// written along: gmsh can crash, hang or eat memory on bad geometry.
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "mesh/gmsh/gmsh_mesher.hpp"
+
+namespace {
+
+using microslip::mesh::BladeGeometry;
+
+std::map<std::string, double*> names_of(BladeGeometry& g) {
+  return {{"root_width", &g.root_width},
+          {"root_height", &g.root_height},
+          {"root_length", &g.root_length},
+          {"platform_width", &g.platform_width},
+          {"platform_height", &g.platform_height},
+          {"platform_length", &g.platform_length},
+          {"span", &g.span},
+          {"root_chord", &g.root_chord},
+          {"tip_chord", &g.tip_chord},
+          {"root_thickness", &g.root_thickness},
+          {"tip_thickness", &g.tip_thickness},
+          {"root_stagger", &g.root_stagger},
+          {"tip_stagger", &g.tip_stagger},
+          {"camber", &g.camber},
+          {"lean", &g.lean}};
+}
+
+void limit_memory(double megabytes) {
+  const auto bytes = static_cast<rlim_t>(megabytes * 1e6);
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+const char* output = nullptr;
+
+extern "C" void leave_nothing(int /*signal*/) {
+  ::unlink(output);
+  ::_exit(1);
+}
+
+void end_with(pid_t parent) {
+  struct sigaction action = {};
+  action.sa_handler = leave_nothing;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaction(signal, &action, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::cerr << "usage: microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters\n";
+    return 1;
+  }
+  output = argv[1];
+  end_with(std::atoi(argv[3]));
+  const double memory = std::atof(argv[2]);
+  if (!(memory > 0.0)) {
+    std::cerr << "the memory limit must be a number above 0\n";
+    return 1;
+  }
+  limit_memory(memory);
+  try {
+    BladeGeometry geometry;
+    double element_size = 0.0;
+    auto names = names_of(geometry);
+    names["element_size"] = &element_size;
+    for (std::string key; std::cin >> key;) {
+      const auto found = names.find(key);
+      if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
+      if (!(std::cin >> *found->second)) throw std::invalid_argument(key + ": expected a number");
+    }
+    microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, argv[1]);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return 4;
+  } catch (const std::exception& error) {
+    const std::string text = error.what();
+    std::cerr << text << '\n';
+    return text.find("out of memory") != std::string::npos ? 4 : 1;
+  } catch (const std::string& error) {  // some versions of gmsh throw their message bare
+    std::cerr << error << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,149 @@
+#include "mesh/import/gmsh_source.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "mesh/mesh_error.hpp"
+
+namespace microslip::mesh {
+namespace {
+
+std::string content_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw MeshError(file.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(file, error)) throw MeshError(file.string() + ": not a file");
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream && std::filesystem::file_size(file, error) > 0) {
+    throw MeshError(file.string() + ": cannot be read");
+  }
+  return std::move(text).str();
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+}  // namespace
+
+GmshSource::GmshSource(const std::filesystem::path& file)
+    : GmshSource(content_of(file), file.string()) {}
+
+GmshSource::GmshSource(std::string text, std::string name)
+    : text_(std::move(text)), name_(std::move(name)) {}
+
+void GmshSource::fail(const std::string& message) const {
+  const std::size_t end = std::min(at_, text_.size());
+  std::ostringstream text;
+  if (binary_) {
+    text << name_ << ": byte " << end << ": " << message;
+  } else {
+    text << name_ << ":" << 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(end), '\n')
+         << ": " << message;
+  }
+  throw MeshError(text.str());
+}
+
+std::string GmshSource::next_section() {
+  while (at_ < text_.size()) {
+    const std::size_t found = text_.find('$', at_);
+    if (found == std::string::npos) break;
+    at_ = found + 1;
+    if (found > 0 && text_[found - 1] != '\n') continue;
+    std::size_t end = at_;
+    while (end < text_.size() && !is_space(text_[end])) ++end;
+    const std::string name = text_.substr(at_, std::min<std::size_t>(end - at_, 64));
+    at_ = end;
+    if (name.starts_with("End")) continue;
+    end_line();
+    return name;
+  }
+  at_ = text_.size();
+  return {};
+}
+
+void GmshSource::expect_end(const std::string& name) {
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  const std::string wanted = "$End" + name;
+  if (text_.compare(at_, wanted.size(), wanted) != 0) {
+    fail("expected " + wanted + ": the section holds more or less than it says");
+  }
+}
+
+void GmshSource::end_line() {
+  const std::size_t end = text_.find('\n', at_);
+  at_ = end == std::string::npos ? text_.size() : end + 1;
+}
+
+std::string_view GmshSource::line() {
+  const std::size_t begin = at_;
+  end_line();
+  std::string_view whole = std::string_view(text_).substr(begin, at_ - begin);
+  while (!whole.empty() && is_space(whole.front())) whole.remove_prefix(1);
+  while (!whole.empty() && is_space(whole.back())) whole.remove_suffix(1);
+  return whole;
+}
+
+std::string_view GmshSource::token() {
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+  if (begin == at_) fail("the file ends in the middle of a section");
+  return std::string_view(text_).substr(begin, at_ - begin);
+}
+
+template <typename Type>
+Type GmshSource::raw() {
+  if (text_.size() - at_ < sizeof(Type)) fail("the file ends in the middle of a section");
+  Type value;
+  std::memcpy(&value, text_.data() + at_, sizeof(Type));
+  at_ += sizeof(Type);
+  return value;
+}
+
+std::int64_t GmshSource::integer() {
+  if (binary_) return raw<std::int32_t>();
+  const std::string_view word = token();
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    fail("expected a whole number, found \"" + std::string(word.substr(0, 40)) + "\"");
+  }
+  return value;
+}
+
+std::int64_t GmshSource::size(bool wide) {
+  if (binary_ && wide) return static_cast<std::int64_t>(raw<std::uint64_t>());
+  return integer();
+}
+
+double GmshSource::real() {
+  double value = 0.0;
+  if (binary_) {
+    value = raw<double>();
+  } else {
+    const std::string_view word = token();
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) {
+      fail("expected a number, found \"" + std::string(word.substr(0, 40)) + "\"");
+    }
+  }
+  if (!std::isfinite(value)) fail("a coordinate is not a finite number");
+  return value;
+}
+
+std::int64_t GmshSource::count(bool wide, std::int64_t least_bytes) {
+  const std::int64_t value = size(wide);
+  const auto left = static_cast<std::int64_t>(text_.size() - std::min(at_, text_.size()));
+  if (value < 0 || value > left / std::max<std::int64_t>(least_bytes, 1) + 1) {
+    fail("the count " + std::to_string(value) + " does not fit into the file");
+  }
+  return value;
+}
+
+}  // namespace microslip::mesh

@@ -1,0 +1,110 @@
+#include "pipelines/command_line/command_options.hpp"
+
+#include <string>
+#include <utility>
+
+#include "pipelines/cycle/cycle_columns.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+CLI::App* add_command(CLI::App& app, Arguments& a, Action& chosen, const char* name,
+                      const char* what, Action action) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->fallthrough();
+  command->footer([&app] {  // the help of a command is complete
+    const auto* format = dynamic_cast<const CLI::Formatter*>(app.get_formatter().get());
+    return format == nullptr
+               ? std::string("More options: microslip --help")
+               : "Of every command:\n" + format->make_groups(&app, CLI::AppFormatMode::Normal);
+  });
+  command->callback([&a, &chosen, name, action = std::move(action)] {
+    a.command = name;
+    chosen = action;
+  });
+  return command;
+}
+
+}  // namespace
+
+void add_global_options(CLI::App& app, Arguments& a) {
+  app.add_option("--set", a.overrides,
+                 "key.path=value: overrides any key of the scene; may be repeated")
+      ->take_all()
+      ->expected(1);
+  app.add_option("-j,--jobs", a.jobs,
+                 "curves traced at the same time; the numbers do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_flag("--resume", a.resume, "continue an interrupted run (not available in this version)");
+  app.add_option("--tolerance", a.tolerance,
+                 "accuracy asked for, e.g. 1% (not available in this version)");
+  app.add_option("--budget", a.budget, "time allowed, e.g. 60s (not available in this version)");
+  app.add_flag("--dry-run", a.dry_run, "check the scene and stop, as `check` does");
+  auto* quiet = app.add_flag("-q,--quiet", a.quiet, "warnings and errors only");
+  app.add_flag("-v,--verbose", a.verbose, "one line per solution point")->excludes(quiet);
+  app.add_flag("--json", a.json, "last line on standard output is one JSON object");
+}
+
+void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
+  const auto with_scene = [&](CLI::App* command) {
+    command->add_option("scene", a.input, "scene file (TOML)")->required();
+    return command;
+  };
+  const auto with_output = [&](CLI::App* command, const char* what) {
+    command->add_option("-o,--output", a.output, what)
+        ->check([](const std::string& name) { return name.empty() ? std::string("expected a name") : std::string(); });
+    return command;
+  };
+  auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
+                                   [&] { return init(a); });
+  init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
+      ->default_str("blade");
+  with_output(init_command, "file to write; it must not exist");
+  with_scene(
+      add_command(app, a, chosen, "check",
+                  "parse, check units and names, show mesh, effects and forecast; solve nothing",
+                  [&] { return check(a); }));
+  auto* mesh_command =
+      with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
+  with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();
+  auto* modes_command =
+      with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
+                             [&] { return run_scene(a, modes_study); }));
+  with_output(modes_command, "run folder; default runs/SCENE");
+  auto* run_command =
+      with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
+                             [&] { return run_scene(a, run_study); }));
+  with_output(run_command, "run folder; default runs/SCENE");
+  auto* cycle_command =
+      add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
+                  [&] { return cycle(a); });
+  cycle_command
+      ->add_option("table", a.input,
+                   "CSV file, SI units, one point per row; columns tangential_stiffness, "
+                   "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
+                   "v_mean, v_sin, v_cos, optional id, u_mean and harmonics u_sin2, "
+                   "u_cos2, v_sin2, ..., second direction w_sin, w_cos, ... "
+                   "and tangential_stiffness_r, in any order")
+      ->required();
+  with_output(cycle_command, "JSON file to write; default standard output");
+  cycle_command
+      ->add_option("--harmonics", a.harmonics,
+                   "highest harmonic of the forces put out; default the highest of the table")
+      ->check(CLI::Range(1, largest_harmonic));
+  cycle_command->add_option("--plot", a.plot_folder,
+                            "folder for loops of every row: sampled CSV, SVG and PNG by its id");
+  with_scene(add_command(app, a, chosen, "converge",
+                         "what accuracy costs (not available in this version)", []() -> int {
+                           throw SceneError(
+                               "converge is not available in this version; "
+                               "share/scripts/mesh_convergence.py varies the mesh");
+                         }));
+  auto* report_command =
+      add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
+                  [&] { return report_study(a.input); });
+  report_command->add_option("folder", a.input, "run folder")->required();
+}
+
+}  // namespace microslip::pipelines

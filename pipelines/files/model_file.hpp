@@ -1,0 +1,30 @@
+/// @file
+/// model.h5: all the response stage needs of a structure and its contact, for this program and for
+/// any other that reads HDF5. Every dataset carries an attribute `unit`.
+///
+///   /frequency_Hz  /angular_frequency  /damping_ratio  /force_sine  /force_cosine  /force_static
+///   /output                                                                    N modes each
+///   /contact/points (n × 3)  weights  frame (rows p, q, r)  phi_u  phi_v  phi_w (n × N)
+///   /contact/tangential_stiffness  normal_stiffness  friction_coefficient  preload         n
+///   /contact/fit_degree (1)  fit_error (N, or none)
+///   /contact/vertices (m × 3)  cells (n × 3 or 4)  vertex_phi_u  vertex_phi_v  vertex_phi_w
+///   /contact/vertex_tangential_stiffness  vertex_normal_stiffness  vertex_friction_coefficient
+///   /contact/vertex_preload                                                              m
+///
+/// An array the model does not have is a dataset without elements.
+#pragma once
+
+#include <filesystem>
+
+#include "pipelines/model/reduced_model.hpp"
+
+namespace microslip::pipelines {
+
+/// @throws ExhaustedError  cannot be written; nothing half-written is left.
+void write_model(const std::filesystem::path& file, const ReducedModel& model);
+
+/// What write_model wrote, bit for bit.
+/// @throws SceneError  file missing or truncated, a dataset missing or of another size; named.
+[[nodiscard]] ReducedModel read_model(const std::filesystem::path& file);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,255 @@
+#include "pipelines/files/write_report.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "pipelines/text/csv_table.hpp"
+#include "pipelines/text/json_entry.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/files/plot_script.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// Twenty curves with maps take about 15 s on one slow core.
+constexpr std::chrono::seconds plot_limit{180};
+
+std::string make_plots(const std::filesystem::path& folder) {
+  return run_plot_script("plot_run.py", {folder.string()}, plot_limit);
+}
+
+std::string read_summary(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "summary.json";
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw SceneError(fmt::format("{}: {}", folder.string(),
+                                 std::filesystem::exists(folder, error) ? "not a folder; expected the folder of a run"
+                                                                        : "no such folder"));
+  }
+  if (!std::filesystem::exists(file, error)) {
+    throw SceneError(file.string() + ": missing; is this the folder of a run, and has the run ended?");
+  }
+  constexpr std::uintmax_t largest = 1'000'000'000;  // bytes
+  return read_text(file, largest);
+}
+
+std::vector<std::string> plot_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code code;  // no folder: no plots
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "plots", code)) {
+    if (entry.path().extension() == ".svg") names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string preload_text(const JsonEntry& curve) {
+  if (!curve.has("preload_N")) return "–";  // beyond double precision
+  const JsonEntry preload = curve.at("preload_N");
+  return preload.is_text() ? preload.as_text() : fmt::format("{:g}", preload.as_number());
+}
+
+std::string structure_text(const JsonEntry& run) {
+  std::string text;
+  if (run.has("mesh")) {
+    const JsonEntry mesh = run.at("mesh");
+    text +=
+        fmt::format("Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
+                    mesh.integer("nodes"), mesh.integer("elements"), mesh.integer("degrees_of_freedom"),
+                    mesh.number("volume_m3"), mesh.number("mass_kg"));
+  }
+  text += "| mode | frequency [Hz] | damping ratio |\n|---:|---:|---:|\n";
+  int number = 0;
+  for (const JsonEntry& mode : run.list("modes")) {
+    text += fmt::format("| {} | {:.4f} | {:.4g} |\n", ++number, mode.number("frequency_Hz"),
+                        mode.number("damping_ratio"));
+  }
+  return text;
+}
+
+std::string curve_row(const JsonEntry& curve) {
+  std::string peak_text = "– | –";
+  if (curve.has("peak")) {
+    const JsonEntry peak = curve.at("peak");
+    peak_text = fmt::format("{:.4f} | {:.5g}", peak.number("frequency_Hz"), peak.number("amplitude_m"));
+  }
+  std::string folds;
+  for (const JsonEntry& fold : curve.list("folds_Hz")) {
+    folds += fmt::format("{}{:.4f}", folds.empty() ? "" : ", ", fold.as_number());
+  }
+  const std::string name = curve.text("name");
+  for (const JsonEntry& map : curve.list("maps")) static_cast<void>(map.as_text());  // the plots read them
+  if (curve.has("preload_scale")) static_cast<void>(curve.number("preload_scale"));
+  const std::string state =
+      curve.truth("complete") ? "complete" : fmt::format("**incomplete**: {}", curve.text("diagnosis"));
+  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n", preload_text(curve),
+                     peak_text, folds.empty() ? "–" : folds, state, name, name, curve.integer("points"));
+}
+
+/// A sentence where the contact is open on a part of it; empty elsewhere and for limits.
+std::string gap_text(const JsonEntry& curve) {
+  if (!curve.has("preload_carried_N") || !curve.has("preload_integral_N")) return {};
+  const double pressed = curve.number("preload_carried_N");
+  const double gaps = pressed - curve.number("preload_integral_N");
+  if (!(pressed > 0.0 && gaps > 1e-12 * pressed)) return {};  // sums round to 1e-14
+  return fmt::format(
+      "\nPreload {}: the contact carries {:.6g} N and is open on a part of it; the integral with the gaps counted "
+      "as pull is {:.6g} N.\n",
+      preload_text(curve), pressed, pressed - gaps);
+}
+
+/// A sentence where the search found other solutions.
+std::string detached_text(const JsonEntry& curve) {
+  const long n = curve.has("detached_branches") ? curve.integer("detached_branches") : 0;
+  if (n <= 0) return {};
+  const std::string name = curve.text("name");
+  std::string files;
+  for (long i = 1; i <= n; ++i) {
+    files += fmt::format("{}[{}_detached_{}](curves/{}_detached_{}.csv)", i > 1 ? ", " : "", name, i, name, i);
+  }
+  return fmt::format("\nPreload {}: the search found {} beside this curve: {}.\n", preload_text(curve),
+                     n == 1 ? "another branch or solution" : fmt::format("{} other branches or solutions", n),
+                     files);
+}
+
+/// The best value of a search; the first versions searched the preload alone.
+double value_of(const JsonEntry& optimum) { return optimum.number(optimum.has("value") ? "value" : "preload_N"); }
+
+/// Where a best amplitude is; a peak in runs that do not say.
+std::string place_of(const JsonEntry& optimum) { return optimum.has("at") ? optimum.text("at") : "peak"; }
+
+bool is_found(const JsonEntry& optimum) { return !optimum.has("found") || optimum.truth("found"); }
+
+std::string text_or_none(const JsonEntry& entry, const char* key) {
+  return entry.has(key) ? entry.text(key) : std::string();
+}
+
+/// Value, amplitude and frequency of a best peak as cells of a table.
+std::string optimum_cells(const JsonEntry& peak) {
+  if (!peak.has("amplitude_m")) return "– | – | – |\n";
+  const std::vector<JsonEntry> flat = peak.list("flat");
+  const std::string value = flat.size() == 2
+                                ? fmt::format("{:.6g} … {:.6g}", flat[0].as_number(), flat[1].as_number())
+                                : fmt::format("{:.6g}", value_of(peak));
+  return fmt::format("{} | {:.5g} | {:.4f}{} |\n", value, peak.number("amplitude_m"), peak.number("frequency_Hz"),
+                     place_of(peak) == "range_end" ? " (end of the range)" : "");
+}
+
+/// Where the range of a bracket's entry is wider than that of the scene.
+std::string range_text(const JsonEntry& entry) {
+  if (!entry.has("range_widened") || !entry.truth("range_widened")) return {};
+  const std::vector<JsonEntry> range = entry.list("range");
+  return range.size() != 2 ? std::string()
+                           : fmt::format(" (searched wider: {:.6g} … {:.6g})", range[0].as_number(), range[1].as_number());
+}
+
+std::string parameter_of(const JsonEntry& optimum) {
+  return optimum.has("parameter") ? optimum.text("parameter") : "preload";
+}
+
+std::string optimum_sentence(const JsonEntry& optimum) {
+  const std::string key = parameter_of(optimum);
+  const std::string message = text_or_none(optimum, "message");
+  if (!is_found(optimum)) return fmt::format("Best {} not found: {}.", key, message);
+  return fmt::format("Best {}: {:.6g}{}, {} {:.5g} m at {:.4f} Hz{}{}.", key, value_of(optimum),
+                     key == "preload" ? " N" : " (SI)", place_of(optimum) == "peak" ? "peak" : "largest amplitude",
+                     optimum.number("amplitude_m"), optimum.number("frequency_Hz"), message.empty() ? "" : "; ",
+                     message);
+}
+
+std::string optimum_text(const JsonEntry& optimum) {
+  std::string text = fmt::format("\n{}\n\n", optimum_sentence(optimum));
+  text += fmt::format("| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given{} | ",
+                      parameter_of(optimum), is_found(optimum) ? "" : " (lowest, not found)");
+  text += optimum_cells(optimum);
+  for (const JsonEntry& entry : optimum.list("bracket")) {
+    const std::string objection = is_found(entry) ? "" : text_or_none(entry, "objection");
+    text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"), range_text(entry),
+                        is_found(entry)     ? ""
+                        : objection.empty() ? " (lowest, not found)"
+                                            : fmt::format(" (lowest: {})", objection)) +
+            optimum_cells(entry);
+  }
+  for (const JsonEntry& reason : optimum.list("bracket_left_out")) {
+    text += fmt::format("\nNot varied: {}.\n", reason.as_text());
+  }
+  return text;
+}
+
+std::string curves_text(const JsonEntry& run) {
+  const std::vector<JsonEntry> curves = run.list("curves");
+  std::string text =
+      "| preload [N] | peak [Hz] | peak [m] | folds [Hz] | state | curve |\n"
+      "|---:|---:|---:|---|---|---|\n";
+  for (const JsonEntry& curve : curves) text += curve_row(curve);
+  for (const JsonEntry& curve : curves) text += gap_text(curve) + detached_text(curve);
+  if (run.has("optimum")) text += optimum_text(run.at("optimum"));
+  return text;
+}
+
+std::string cost_text(const JsonEntry& run) {
+  std::string text = "| stage | seconds | memory [MB] |\n|---|---:|---:|\n";
+  for (const JsonEntry& stage : run.list("stages")) {
+    if (stage.text("name") == "report") continue;  // this text is part of it
+    text += fmt::format("| {} | {:.2f} | {:.0f} |\n", stage.text("name"), stage.number("seconds"),
+                        stage.number("peak_memory_MB"));
+  }
+  if (!run.has("machine")) return text;
+  const JsonEntry machine = run.at("machine");
+  return text + fmt::format("\n{}, {} cores; {}.\n", machine.text("processor"), machine.integer("cores"),
+                            machine.text("blas"));
+}
+
+std::string plots_text(const std::vector<std::string>& plots) {
+  std::string text;
+  for (const std::string& plot : plots) {
+    const std::string stem = std::filesystem::path(plot).stem().string();
+    text += fmt::format("![{}](plots/{})\n\n", stem, plot);
+  }
+  return text.empty() ? "None.\n" : text;
+}
+
+}  // namespace
+
+std::string report_text(const std::string& summary_json, const std::vector<std::string>& plots,
+                        const std::string& name) {
+  const nlohmann::ordered_json document = parse_json(summary_json, name);
+  const JsonEntry run(document, name);
+  static_cast<void>(run.at("curves"));  // there even without any: else it is another file
+  const std::string title = text_or_none(run, "title");
+  std::string text = fmt::format("# {}\n\n", title.empty() ? "microslip run" : title);
+  if (const long code = run.has("exit_code") ? run.integer("exit_code") : 0; code != 0) {
+    text += fmt::format("**Exit code {}.** {}\n\n", code, text_or_none(run, "message"));
+  }
+  for (const JsonEntry& warning : run.list("warnings")) {
+    text += fmt::format("- warning: {}\n", warning.as_text());
+  }
+  text += "\n## Structure\n\n" + structure_text(run);
+  if (!run.list("curves").empty()) text += "\n## Response\n\n" + curves_text(run);
+  return text.append("\n## Plots\n\n")
+      .append(plots_text(plots))
+      .append("\n## Cost\n\n")
+      .append(cost_text(run));
+}
+
+std::vector<std::string> write_report(const std::filesystem::path& folder) {
+  const std::string summary = read_summary(folder);
+  const std::string name = (folder / "summary.json").string();
+  static_cast<void>(report_text(summary, {}, name));  // a damaged summary is told before plots are made of it
+  std::vector<std::string> warnings;
+  if (const std::string failure = make_plots(folder); !failure.empty()) warnings.push_back(failure);
+  write_whole(folder / "report.md", report_text(summary, plot_names(folder), name));
+  return warnings;
+}
+
+void rebuild_report(const std::filesystem::path& folder) {
+  const std::vector<std::string> warnings = write_report(folder);
+  if (!warnings.empty()) throw SceneError(folder.string() + ": " + warnings.front());
+}
+
+}  // namespace microslip::pipelines

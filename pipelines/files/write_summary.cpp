@@ -1,0 +1,206 @@
+#include "pipelines/files/write_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/files/write_csv.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double hertz(double angular) { return angular / (2.0 * std::numbers::pi); }
+
+template <typename Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const std::variant<double, LimitName>& preload) {
+  if (const double* newton = std::get_if<double>(&preload)) return *newton;
+  return std::get<LimitName>(preload) == LimitName::free ? "free" : "stuck";
+}
+
+Json to_json(const PeakSummary& peak) {
+  return {{"frequency_Hz", hertz(peak.frequency)}, {"amplitude_m", peak.amplitude}};
+}
+
+Json to_json(const Machine& machine) {
+  return {{"processor", machine.processor},
+          {"cores", machine.cores},
+          {"memory_MB", machine.memory_mb},
+          {"blas", machine.blas},
+          {"blas_threads", machine.blas_threads}};
+}
+
+Json to_json(const StageRecord& stage) {
+  return {
+      {"name", stage.name}, {"seconds", stage.seconds}, {"peak_memory_MB", stage.peak_memory_mb}};
+}
+
+Json to_json(const MeshSummary& mesh) {
+  return {{"nodes", mesh.nodes},
+          {"elements", mesh.elements},
+          {"degrees_of_freedom", mesh.degrees_of_freedom},
+          {"volume_m3", mesh.volume},
+          {"mass_kg", mesh.mass}};
+}
+
+Json to_json(const ModeSummary& mode) {
+  Json json{{"frequency_Hz", hertz(mode.frequency)},
+            {"damping_ratio", mode.damping_ratio},
+            {"residual", or_null(mode.residual)}};
+  if (mode.fit_error) json["fit_error"] = *mode.fit_error;
+  return json;
+}
+
+Json to_json(const CurveSummary& curve);
+Json to_json(const EffectRecord& effect);
+Json to_json(const solver::SolverEvent& event) {
+  return {{"frequency_Hz", hertz(event.frequency)}, {"remedy", event.remedy}};
+}
+Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary) {
+  const double load = summary.request.of_preload() ? peak.parameter : summary.request.load;
+  return {{"preload_N", load * summary.newtons_per_load},
+          {"value", peak.parameter},
+          {"amplitude_m", peak.amplitude},
+          {"frequency_Hz", hertz(peak.frequency)},
+          {"at", to_string(peak.place)},
+          {"detached", peak.detached}};
+}
+
+/// The lowest value of a search and why it is not the best; nulls where nothing was solved.
+Json to_json(const solver::Optimum& optimum, const OptimumSummary& summary) {
+  Json json = to_json(optimum.best, summary);
+  if (optimum.trace.empty()) {
+    for (const char* key : {"preload_N", "value", "amplitude_m", "frequency_Hz", "at"}) {
+      json[key] = nullptr;
+    }
+  }
+  json["found"] = optimum.found;
+  json["objection"] = optimum.objection;
+  json["flat"] = optimum.flat ? Json(*optimum.flat) : Json(nullptr);
+  return json;
+}
+
+template <typename Item>
+Json to_array(const std::vector<Item>& items) {
+  Json array = Json::array();
+  for (const Item& item : items) array.push_back(to_json(item));
+  return array;
+}
+
+Json to_json(const CurveSummary& curve) {
+  Json folds = Json::array();
+  for (const double fold : curve.folds) folds.push_back(hertz(fold));
+  return {{"name", curve.name},
+          {"preload_N", to_json(curve.preload)},
+          {"preload_scale", curve.preload_scale ? Json(*curve.preload_scale) : Json(nullptr)},
+          {"preload_carried_N", or_null(curve.preload_carried)},
+          {"preload_integral_N", or_null(curve.preload_integral)},
+          {"complete", curve.complete},
+          {"diagnosis", curve.diagnosis},
+          {"message", curve.message},
+          {"peak", curve.peak ? to_json(*curve.peak) : Json(nullptr)},
+          {"peaks", to_array(curve.peaks)},
+          {"folds_Hz", folds},
+          {"points", curve.points},
+          {"iterations", curve.iterations},
+          {"contact_evaluations", curve.contact_evaluations},
+          {"state_readings", curve.state_readings},
+          {"state_cuts", curve.state_cuts},
+          {"seconds", curve.seconds},
+          {"largest_residual", curve.largest_residual},
+          {"largest_energy_imbalance", curve.largest_energy_imbalance},
+          {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
+          {"stable_unproved", curve.stable_unproved},
+          {"largest_three_states_share", curve.largest_three_states_share},
+          {"largest_quadrature_change", curve.largest_quadrature_change},
+          {"harmonics",
+           {{"most", curve.most_harmonics},
+            {"orders", curve.harmonic_orders},
+            {"largest_left_out", curve.largest_left_out}}},
+          {"maps", curve.maps},
+          {"certificate", curve.certificate},
+          {"remedies", to_array(curve.remedies)},
+          {"detached_branches", curve.detached_branches},
+          {"search_starts", curve.search_starts}};
+}
+
+Json to_json(const EffectRecord& effect) {
+  return {{"name", effect.name},
+          {"setting", effect.setting},
+          {"simulated", effect.simulated},
+          {"reason", effect.reason}};
+}
+
+Json to_json(const OptimumSummary& summary) {
+  const solver::Optimum& optimum = summary.optimum;
+  Json trace = Json::array();
+  for (const solver::PeakOfParameter& peak : optimum.trace) {
+    trace.push_back(to_json(peak, summary));
+  }
+  Json bracket = Json::array();
+  for (const OptimumOfFactor& entry : summary.bracket.entries) {
+    Json row = to_json(entry.optimum, summary);
+    row["parameter"] = entry.parameter;
+    row["factor"] = entry.factor;
+    row["range"] = entry.range;
+    row["range_widened"] = entry.widened;
+    bracket.push_back(std::move(row));
+  }
+  Json json = to_json(optimum, summary);
+  json["method"] = "harmonic_balance";
+  json["parameter"] = summary.request.key;
+  json["message"] = optimum.message;
+  json["iterations"] = optimum.iterations;
+  json["contact_evaluations"] = optimum.contact_evaluations;
+  json["notes"] = optimum.notes;
+  json["warnings"] = optimum.warnings;
+  json["whole_curves"] = optimum.n_curves;
+  json["seconds"] = optimum.seconds;
+  json["bracket"] = std::move(bracket);
+  json["bracket_left_out"] = summary.bracket.left_out;
+  json["trace"] = std::move(trace);
+  return json;
+}
+
+Json libraries_json(const std::vector<std::pair<std::string, std::string>>& libraries) {
+  Json json = Json::object();
+  for (const auto& [name, version] : libraries) json[name] = version;
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const RunSummary& summary, int indent) {
+  const Json json{{"program", "microslip"},
+                  {"version", summary.version},
+                  {"machine", to_json(summary.machine)},
+                  {"libraries", libraries_json(summary.libraries)},
+                  {"scene", summary.scene},
+                  {"title", summary.title},
+                  {"exit_code", static_cast<int>(summary.exit_code)},
+                  {"message", summary.message},
+                  {"warnings", summary.warnings},
+                  {"stages", to_array(summary.stages)},
+                  {"mesh", summary.mesh ? to_json(*summary.mesh) : Json(nullptr)},
+                  {"modes", to_array(summary.modes)},
+                  {"curves", to_array(summary.curves)},
+                  {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
+                  {"effects", to_array(summary.effects)},
+                  {"error_budget", Json::array()}};
+  constexpr char space = ' ';
+  // A name that is not UTF-8 is written with replacement characters rather than lost with the run.
+  return json.dump(indent, space, false, Json::error_handler_t::replace);
+}
+
+void write_summary(const std::filesystem::path& file, const RunSummary& summary) {
+  write_whole(file, summary_json(summary) + "\n");
+}
+
+}  // namespace microslip::pipelines

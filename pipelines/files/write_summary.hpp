@@ -1,0 +1,18 @@
+/// @file
+/// summary.json: what a run found and what it cost, for scripts (interfaces.md section 3.1).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipelines/response/run_summary.hpp"
+
+namespace microslip::pipelines {
+
+/// The text of summary.json; on one line when `indent` is −1.
+[[nodiscard]] std::string summary_json(const RunSummary& summary, int indent = 2);
+
+/// @throws ExhaustedError  cannot be written.
+void write_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,329 @@
+#include "pipelines/model/contact_stage.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "contact/patch/modal_contact_field.hpp"
+#include "pipelines/model/preload_shape.hpp"
+#include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double flatness_limit = 0.01;          // of the diameter: beyond, a planar patch misleads
+constexpr double flatness_told = 1e-3;  // of the diameter: gaps between real faces are micrometres
+constexpr double angle_limit_rad = 5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
+
+/// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
+Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::Index>& nodes,
+                      const Eigen::Vector3d& direction) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(nodes.size()), shapes.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    values.row(i) =
+        direction.transpose() * shapes.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
+  }
+  return values;
+}
+
+/// Mean over the nodes of a named point or set: the motion a force spread evenly over them works on.
+Eigen::VectorXd mean_motion(const mesh::Mesh& mesh, const Eigen::MatrixXd& shapes,
+                            const std::string& at, const Eigen::Vector3d& direction) {
+  return along(shapes, mesh.node_set(at), direction).colwise().mean().transpose();
+}
+
+void set_excitation(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
+                    const Eigen::MatrixXd& shapes) {
+  const Eigen::Index n_modes = shapes.cols();
+  model.force_sine = Eigen::VectorXd::Zero(n_modes);
+  model.force_cosine = Eigen::VectorXd::Zero(n_modes);
+  model.force_static = Eigen::VectorXd::Zero(n_modes);
+  for (const ForceDescription& force : scene.forces) {
+    // F sin(θ + φ) = F cos φ sin θ + F sin φ cos θ
+    const double phase = force.phase_deg * std::numbers::pi / 180.0;
+    const Eigen::VectorXd motion = mean_motion(mesh, shapes, force.at, force.direction);
+    model.force_sine += force.amplitude * std::cos(phase) * motion;
+    if (force.phase_deg != 0.0) model.force_cosine += force.amplitude * std::sin(phase) * motion;
+  }
+}
+
+/// Values at nodes → at cell centres and vertices, by the finite elements or by the fitted field.
+struct ShapesOnPatch {
+  contact::ModalShapes centres;
+  contact::ModalShapes vertices;
+};
+
+contact::ModalShapes interpolate(const Eigen::SparseMatrix<double>& to,
+                                 const contact::ModalShapes& nodal) {
+  return {to * nodal.u, to * nodal.v, to * nodal.w};
+}
+
+/// The plane of a patch: where p = r = 0, and rows p, q, r.
+struct PatchPlane {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d frame;
+};
+
+struct PlaneCoordinates {
+  Eigen::VectorXd p;
+  Eigen::VectorXd r;
+};
+
+PlaneCoordinates in_plane(const Eigen::MatrixX3d& points, const Eigen::Vector3d& origin,
+                          const Eigen::Matrix3d& frame) {
+  const Eigen::MatrixX3d local = points.rowwise() - origin.transpose();
+  return {local * frame.row(0).transpose(), local * frame.row(2).transpose()};
+}
+
+Eigen::MatrixX3d node_positions(const mesh::Mesh& mesh, const mesh::Surface& surface) {
+  Eigen::MatrixX3d positions(static_cast<Eigen::Index>(surface.nodes.size()), 3);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    positions.row(i) = mesh.nodes().row(surface.nodes[static_cast<std::size_t>(i)]);
+  }
+  return positions;
+}
+
+/// Places all over the patch, the same whatever number of contact points it has.
+Eigen::MatrixX2d places_between_nodes(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                                      const PatchPlane& plane) {
+  constexpr int enough = 1000;  // some ten between nodes where the patch is coarse
+  const mesh::SurfaceSampling dense = mesh::sample_surface(mesh.nodes(), surface, enough);
+  const auto places = in_plane(dense.centres, plane.origin, plane.frame);
+  Eigen::MatrixX2d result(places.p.size(), 2);
+  result << places.p, places.r;
+  return result;
+}
+
+contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                                        const mesh::SurfaceSampling& sampling,
+                                        const ContactDescription& contact,
+                                        const contact::ModalShapes& nodal,
+                                        const PatchPlane& plane) {
+  const auto nodes = in_plane(node_positions(mesh, surface), plane.origin, plane.frame);
+  // A positive share of the area for each node; interpolation weights themselves may be negative.
+  const Eigen::VectorXd weights = sampling.to_centres.cwiseAbs().transpose() * sampling.weights;
+  const auto degree = contact.fit == ContactDescription::Fit::degree
+                          ? std::optional<int>(contact.fit_degree)
+                          : std::nullopt;
+  return {nodes.p, nodes.r, weights, nodal, degree, places_between_nodes(mesh, surface, plane)};
+}
+
+ShapesOnPatch shapes_of(const contact::ModalContactField& field,
+                        const mesh::SurfaceSampling& sampling, const PatchPlane& plane) {
+  const auto centres = in_plane(sampling.centres, plane.origin, plane.frame);
+  const auto vertices = in_plane(sampling.vertices, plane.origin, plane.frame);
+  return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
+}
+
+void set_stiffness(ReducedModel& model, const ContactDescription& contact,
+                   const mesh::SurfaceSampling& sampling,
+                   const fem::ResidualFlexibility* residual) {
+  if (residual == nullptr && (!contact.normal_stiffness || !contact.tangential_stiffness)) {
+    throw RefusedError(
+        "contact: \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
+        "none; give a local stiffness in N/m^3");
+  }
+  const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
+  const Eigen::MatrixX3d& nodal = residual != nullptr ? residual->row_sums : none;
+  const auto stiffness = [&](const Eigen::SparseMatrix<double>& to, int axis) {
+    const auto& local = axis == 1 ? contact.normal_stiffness : contact.tangential_stiffness;
+    return series_stiffness(local, to * nodal.col(axis), axis == 1 ? "normal" : "tangential",
+                            axis != 2);
+  };
+  model.tangential_stiffness = stiffness(sampling.to_centres, 0);
+  model.normal_stiffness = stiffness(sampling.to_centres, 1);
+  model.second_stiffness = stiffness(sampling.to_centres, 2);
+  model.vertex_tangential_stiffness = stiffness(sampling.to_vertices, 0);
+  model.vertex_normal_stiffness = stiffness(sampling.to_vertices, 1);
+  model.vertex_second_stiffness = stiffness(sampling.to_vertices, 2);
+  if (residual != nullptr) {
+    model.compliance = sampling.to_centres * nodal;
+    model.vertex_compliance = sampling.to_vertices * nodal;
+  }
+}
+
+/// Friction coefficient and preload of 1 N over the patch, in p and r from its centroid.
+void set_fields(ReducedModel& model, const ContactDescription& contact) {
+  const Eigen::Vector3d origin = patch_centroid(model);
+  const auto centres = in_plane(model.points, origin, model.frame);
+  const auto vertices = in_plane(model.vertices, origin, model.frame);
+  const Field friction(contact.friction);
+  model.friction_coefficient = friction.at(centres.p, centres.r);
+  model.vertex_friction_coefficient = friction.at(vertices.p, vertices.r);
+  if (contact.preload_moment != std::array{0.0, 0.0}) {
+    model.tilted_areas.push_back(
+        {"contact.preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
+  }
+  model.preload = unit_preload(contact, centres.p, centres.r, model.weights);
+  if (!contact.preload_field) {
+    model.vertex_preload =
+        Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / model.weights.sum());
+    return;
+  }
+  const Field field(*contact.preload_field);
+  const Eigen::VectorXd shape = field.at(centres.p, centres.r);
+  Eigen::Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  model.vertex_preload =
+      field.at(vertices.p, vertices.r) * (model.preload[largest] / shape[largest]);
+}
+
+void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescription& contact,
+                 const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
+  const mesh::Surface& surface = mesh.surface(contact.surface);
+  const mesh::SurfaceSampling sampling =
+      mesh::sample_surface(mesh.nodes(), surface, contact.n_points);
+  model.frame = contact_frame(mesh, contact);
+  model.points = sampling.centres;
+  model.weights = sampling.weights;
+  model.vertices = sampling.vertices;
+  model.cells = sampling.cells;
+  const contact::ModalShapes nodal{along(basis.shapes, surface.nodes, model.frame.row(0)),
+                                   along(basis.shapes, surface.nodes, model.frame.row(1)),
+                                   along(basis.shapes, surface.nodes, model.frame.row(2))};
+  ShapesOnPatch shapes;
+  if (contact.fit == ContactDescription::Fit::none) {
+    shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
+  } else {
+    const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, model.frame};
+    const contact::ModalContactField field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
+    model.fit_degree = field.degree();
+    model.fit_error = field.fit_error();
+    shapes = shapes_of(field, sampling, plane);
+  }
+  model.shapes = std::move(shapes.centres);
+  model.vertex_shapes = std::move(shapes.vertices);
+  set_stiffness(model, contact, sampling, residual);
+  set_fields(model, contact);
+}
+
+void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
+                     const ContactDescription& contact, std::vector<std::string>& warnings) {
+  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+  if (plane.largest_angle > angle_limit_rad) {
+    warnings.push_back(fmt::format(
+        "contact surface \"{}\": facet normals turn by up to {:.1f} degrees; one plane is used",
+        contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
+  }
+  if (plane.flatness > flatness_told * plane.diameter) {
+    warnings.push_back(fmt::format(
+        "contact surface \"{}\": nodes are up to {:.3g} m off the mean plane ({:.2g} % of its size); the "
+        "patch is simulated as plane, with the preload as given",
+        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
+  }
+  if (model.fit_error.size() > 0 && model.fit_error.maxCoeff() > 0.05) {
+    Eigen::Index mode = 0;
+    const double worst = model.fit_error.maxCoeff(&mode);
+    warnings.push_back(fmt::format(
+        "fit-poor: the fitted field of mode {} errs by {:.1f} % on the patch (degree {}); "
+        "contact.fit = \"none\" interpolates instead",
+        mode + 1, 100.0 * worst, model.fit_degree));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
+                                 const char* direction, bool refuse) {
+  const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
+  if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
+  const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
+  const Eigen::Index n_bad = (flexibility <= 0.0).count();
+  if (n_bad > 0 && refuse) {
+    throw RefusedError(fmt::format(
+        "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
+        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
+        "modes.residual = \"none\"",
+        direction, n_bad, residual.size(), flexibility.minCoeff()));
+  }
+  return flexibility.inverse();
+}
+
+Eigen::Vector3d patch_centroid(const ReducedModel& model) {
+  return model.points.transpose() * model.weights / model.weights.sum();
+}
+
+Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& contact) {
+  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+  if (plane.flatness > flatness_limit * plane.diameter) {
+    throw SceneError(fmt::format(
+        "contact.surface: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
+        "size {:.3g} m (at most {:.0f} %); name a plane face",
+        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter, plane.diameter,
+        100.0 * flatness_limit));
+  }
+  const Eigen::Vector3d q = plane.normal;
+  const Eigen::Vector3d p = contact.slip_direction - q * q.dot(contact.slip_direction);
+  if (p.norm() < 1e-6 * contact.slip_direction.norm()) {
+    throw SceneError(fmt::format(
+        "contact.slip_direction: along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
+        "direction with a part in the plane",
+        q.x(), q.y(), q.z(), contact.surface));
+  }
+  Eigen::Matrix3d frame;
+  frame.row(0) = p.normalized();
+  frame.row(1) = q;
+  frame.row(2) = p.normalized().cross(q);
+  return frame;
+}
+
+ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,
+                               const fem::ModalBasis& basis,
+                               const fem::ResidualFlexibility* residual,
+                               std::vector<std::string>& warnings) {
+  ReducedModel model;
+  model.frequency = basis.frequency;
+  model.damping_ratio = damping_ratios(scene.modes, basis.frequency);
+  set_excitation(model, mesh, scene, basis.shapes);
+  model.output = Eigen::VectorXd::Zero(basis.frequency.size());
+  if (scene.response) {
+    const OutputDescription& output = scene.response->output;
+    model.output = mean_motion(mesh, basis.shapes, output.at, output.direction);
+  }
+  if (scene.contact) {
+    set_contact(model, mesh, *scene.contact, basis, residual);
+    warn_of_the_fit(model, mesh, *scene.contact, warnings);
+  }
+  return model;
+}
+
+ReducedModel reduced_model(const ModalModel& modal) {
+  ReducedModel model;
+  model.frequency = 2.0 * std::numbers::pi * modal.frequency_hz;
+  model.damping_ratio = modal.damping_ratio;
+  model.force_sine = modal.force_sine;
+  model.force_cosine = modal.force_cosine;
+  model.force_static = modal.force_static;
+  model.output = modal.output;
+  model.weights = modal.weights;
+  model.shapes = modal.shapes;
+  model.load_measure = modal.load_measure;
+  model.tilted_areas = modal.tilted_areas;
+  const auto n = static_cast<Eigen::Index>(modal.points.size());
+  model.points = Eigen::MatrixX3d::Zero(n, 3);
+  if (modal.positions.rows() == n) {
+    model.points.col(0) = modal.positions.col(0);  // frame is the identity: p, q, r are x, y, z
+    model.points.col(2) = modal.positions.col(1);
+  }
+  model.tangential_stiffness.resize(n);
+  model.normal_stiffness.resize(n);
+  model.friction_coefficient.resize(n);
+  model.preload.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const contact::PointParameters& point = modal.points[static_cast<std::size_t>(i)];
+    model.tangential_stiffness[i] = point.tangential_stiffness;
+    model.normal_stiffness[i] = point.normal_stiffness;
+    model.friction_coefficient[i] = point.friction_coefficient;
+    model.preload[i] = point.preload;
+  }
+  model.second_stiffness =
+      modal.second_stiffness.size() == n ? modal.second_stiffness : model.tangential_stiffness;
+  return model;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,130 @@
+#include "pipelines/model/motion_along_r.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr int n_trial_frequencies = 200;
+
+bool rubs(const ReducedModel& model, Eigen::Index point) {
+  return model.friction_coefficient[point] > 0.0 &&
+         (model.tangential_stiffness[point] > 0.0 || model.second_stiffness[point] > 0.0);
+}
+
+bool any_rubbing_motion_along_r(const ReducedModel& model) {
+  if (model.shapes.w.size() == 0) return false;
+  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
+    if (rubs(model, i) && (model.shapes.w.row(i).array() != 0.0).any()) return true;
+  }
+  return false;
+}
+
+Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
+  Eigen::VectorXd u = model.weights.cwiseProduct(model.tangential_stiffness);
+  Eigen::VectorXd w = model.weights.cwiseProduct(model.second_stiffness);
+  const Eigen::VectorXd v = model.weights.cwiseProduct(model.normal_stiffness);
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (model.friction_coefficient[i] == 0.0) u[i] = w[i] = 0.0;
+  }
+  const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
+    return shape.transpose() * k.asDiagonal() * shape;
+  };
+  return part(model.shapes.u, u) + part(model.shapes.v, v) + part(model.shapes.w, w);
+}
+
+/// Response of the modes with a stiffness added, q_s + i q_c.
+Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
+                                 double frequency) {
+  const Eigen::ArrayXd omega = model.frequency.array();
+  const Eigen::ArrayXcd diagonal =
+      (omega.square() - frequency * frequency).cast<std::complex<double>>() +
+      std::complex<double>(0.0, 2.0 * frequency) * (model.damping_ratio.array() * omega);
+  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
+  dynamic.diagonal() += diagonal.matrix();
+  Eigen::VectorXcd force(model.frequency.size());
+  force.real() = model.force_sine;
+  force.imag() = model.force_cosine;
+  return dynamic.partialPivLu().solve(force);
+}
+
+double rms(const Eigen::MatrixXd& shape, const Eigen::VectorXd& weights, const Eigen::VectorXcd& q) {
+  const Eigen::VectorXcd motion = shape.cast<std::complex<double>>() * q;
+  return std::sqrt(weights.dot(motion.cwiseAbs2()));
+}
+
+struct PatchMotion {
+  double along_p = 0.0;
+  double along_r = 0.0;
+
+  [[nodiscard]] double ratio() const {
+    if (along_r == 0.0) return 0.0;
+    return along_p > 0.0 ? along_r / along_p : std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Nothing where the response has no bound, at a resonance without damping.
+PatchMotion motion_at(const ReducedModel& model, const Eigen::MatrixXd& stiffness, double frequency) {
+  const Eigen::VectorXcd q = linear_response(model, stiffness, frequency);
+  if (!q.allFinite()) return {};
+  return {rms(model.shapes.u, model.weights, q), rms(model.shapes.w, model.weights, q)};
+}
+
+/// Of the modes with a stiffness added, inside a range [rad/s].
+std::vector<double> resonances(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
+                               double low, double high) {
+  Eigen::MatrixXd total = stiffness;
+  total.diagonal() += model.frequency.array().square().matrix();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(total, Eigen::EigenvaluesOnly);
+  std::vector<double> inside;
+  for (const double square : modes.eigenvalues()) {
+    const double resonance = std::sqrt(std::max(0.0, square));
+    if (resonance >= low && resonance <= high) inside.push_back(resonance);
+  }
+  return inside;
+}
+
+/// A peak that moves along r counts by itself, however small beside another one of the range.
+double largest_ratio(const ReducedModel& model, const Eigen::MatrixXd& stiffness, double low,
+                     double high) {
+  PatchMotion most_along_p;
+  PatchMotion most_along_r;
+  for (int i = 0; i < n_trial_frequencies; ++i) {
+    const double frequency = low + (high - low) * i / (n_trial_frequencies - 1);
+    const PatchMotion motion = motion_at(model, stiffness, frequency);
+    if (motion.along_p > most_along_p.along_p) most_along_p = motion;
+    if (motion.along_r > most_along_r.along_r) most_along_r = motion;
+  }
+  double ratio = std::max(most_along_p.ratio(), most_along_r.ratio());
+  for (const double resonance : resonances(model, stiffness, low, high)) {
+    ratio = std::max(ratio, motion_at(model, stiffness, resonance).ratio());
+  }
+  return ratio;
+}
+
+}  // namespace
+
+double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene) {
+  if (!scene.response || !any_rubbing_motion_along_r(model)) return 0.0;
+  const auto [low, high] =
+      std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
+  const double to_angular = 2.0 * std::numbers::pi;
+  const Eigen::Index n = model.frequency.size();
+  double ratio = 0.0;
+  for (const Eigen::MatrixXd& stiffness :
+       std::array<Eigen::MatrixXd, 2>{Eigen::MatrixXd::Zero(n, n), stuck_stiffness(model)}) {
+    ratio = std::max(ratio, largest_ratio(model, stiffness, to_angular * low, to_angular * high));
+  }
+  return ratio;
+}
+
+}  // namespace microslip::pipelines

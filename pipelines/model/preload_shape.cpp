@@ -1,0 +1,91 @@
+#include "pipelines/model/preload_shape.hpp"
+
+#include <stdexcept>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "contact/patch/preload_equilibrium.hpp"
+#include "contact/patch/preload_field.hpp"
+#include "mesh/surface.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/scene/field_description.hpp"
+#include "pipelines/scene/curve_request.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+struct FacePoints {
+  Eigen::VectorXd p, r;     // from the centroid [m]
+  Eigen::VectorXd weights;  // [m²]
+};
+
+FacePoints face_points(const mesh::Mesh& mesh, const ContactDescription& contact) {
+  const mesh::SurfaceSampling sampling =
+      mesh::sample_surface(mesh.nodes(), mesh.surface(contact.surface), contact.n_points);
+  const Eigen::Matrix3d frame = contact_frame(mesh, contact);
+  const Eigen::RowVector3d centroid =
+      sampling.weights.transpose() * sampling.centres / sampling.weights.sum();
+  const Eigen::MatrixX3d local = (sampling.centres.rowwise() - centroid) * frame.transpose();
+  return {local.col(0), local.col(2), sampling.weights};
+}
+
+/// Whether the resultant acts inside the face does not depend on the springs of its points.
+void require_balance(const FacePoints& face, const std::array<double, 2>& moment, double load) {
+  try {
+    static_cast<void>(contact::preload_equilibrium(
+        contact::ContactArea({face.r, face.p, face.weights}),
+        contact::one_sided_springs(Eigen::VectorXd::Ones(face.p.size())),
+        {.force = load, .moment_y = moment[1], .moment_z = moment[0]}));
+  } catch (const contact::PreloadError& error) {
+    throw RefusedError(fmt::format("preload-unbalanced: contact.preload_moment: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::VectorXd& p,
+                             const Eigen::VectorXd& r, const Eigen::VectorXd& weights) {
+  if (!contact.preload_field) return contact::uniform_preload(weights, 1.0);
+  const Eigen::VectorXd shape = Field(*contact.preload_field).at(p, r);
+  try {
+    Eigen::VectorXd preload = contact::scaled_preload(shape, weights, 1.0);
+    contact::require_total(preload, weights, 1.0, 1e-12);  // sums of thousands of points round to 1e-14
+    return preload;
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(contact.preload_field->place + ": " + error.what());
+  }
+}
+
+void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  if (!scene.contact) return;
+  const ContactDescription& contact = *scene.contact;
+  const bool turned = contact.preload_moment != std::array{0.0, 0.0};
+  if (!contact.preload_field && !turned) return;
+  const FacePoints face = face_points(mesh, contact);
+  if (!turned) {
+    static_cast<void>(unit_preload(contact, face.p, face.r, face.weights));
+    return;
+  }
+  if (!scene.response) return;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    const auto* load = std::get_if<double>(&request.preload);
+    if (load != nullptr) require_balance(face, contact.preload_moment, *load);
+  }
+}
+
+std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  if (!scene.contact || !scene.contact->preload_field) return {};
+  const FacePoints face = face_points(mesh, *scene.contact);
+  const Eigen::VectorXd preload = unit_preload(*scene.contact, face.p, face.r, face.weights);
+  const double integral = face.weights.dot(preload);
+  const double pressed = face.weights.dot((preload.array() > 0.0).cast<double>().matrix());
+  if (!(preload.minCoeff() < 0.0)) return {};
+  return fmt::format(
+      "preload field: presses on {:.1f} % of the patch, a gap on the rest; of a preload of 100 N the contact "
+      "carries 100 N, and the integral of the field, gaps counted as pull, is {:.6g} N",
+      100.0 * pressed / face.weights.sum(), 100.0 * integral);
+}
+
+}  // namespace microslip::pipelines

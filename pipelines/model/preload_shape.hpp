@@ -1,0 +1,29 @@
+/// @file
+/// The preload a meshed contact asks for, on its face alone: what can be said and refused before a mode is solved.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "mesh/mesh.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// contact.preload_field scaled so that the points carry 1 N (contact/preload_field.hpp); uniform without one.
+/// @param p, r  from the centroid of the patch [m], n.   @param weights  [m²], n.   @return [Pa], n.
+/// @throws SceneError  the field is not finite, or its integral is not above 0: names its place.
+[[nodiscard]] Eigen::VectorXd unit_preload(const ContactDescription& contact,
+                                           const Eigen::VectorXd& p, const Eigen::VectorXd& r,
+                                           const Eigen::VectorXd& weights);
+
+/// Every preload of the scene against the face it presses.
+/// @throws SceneError    as unit_preload().
+/// @throws RefusedError  contact.preload_moment that a preload of the list cannot balance on this face.
+void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+/// A sentence on a preload field that is partly a gap; empty where it presses everywhere.
+[[nodiscard]] std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,95 @@
+#include "pipelines/model/structure_stage.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mesh/mesh_error.hpp"
+#include "mesh/mesh_reader.hpp"
+#include "mesh/mesher_process.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/model/preload_shape.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
+template <typename LookUp>
+void require_name(const std::string& place, const LookUp& look_up) {
+  try {
+    static_cast<void>(look_up());
+  } catch (const mesh::MeshError& error) {
+    throw SceneError(place + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
+    mesh::MesherLimits limits;
+    limits.stop = interrupt_requested;
+    try {
+      mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file, limits);
+    } catch (const mesh::MeshError&) {
+      if (interrupt_requested()) throw InterruptedError("interrupted while meshing");
+      throw;
+    }
+    return mesh::read_gmsh(mesh_file);
+  }
+  const auto& given = std::get<MeshFileModel>(scene.model);
+  return mesh::read_gmsh(given.file, given.length_unit);
+}
+
+std::string describe_mesh(const mesh::Mesh& mesh, double density) {
+  const Eigen::Vector3d lower = mesh.lower();
+  const Eigen::Vector3d upper = mesh.upper();
+  std::string text = fmt::format(
+      "mesh: {} nodes, {} elements, volume {:.6g} m^3, mass {:.6g} kg\n"
+      "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
+      "surfaces: {}",
+      mesh.n_nodes(), mesh.n_elements(), mesh.volume(), density * mesh.volume(), lower.x(), upper.x(),
+      lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
+  const auto sets = mesh.node_set_names();
+  if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
+  if (mesh.n_loose_nodes() > 0) {
+    text += fmt::format("\n{} nodes belong to no volume element and are left out", mesh.n_loose_nodes());
+  }
+  return text;
+}
+
+void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  for (const std::string& name : scene.clamped) {
+    require_name(scene.clamped_place, [&] { return mesh.node_set(name); });
+  }
+  for (const ForceDescription& force : scene.forces) {
+    require_name(force.place, [&] { return mesh.node_set(force.at); });
+  }
+  if (scene.response) {
+    const OutputDescription& output = scene.response->output;
+    require_name(output.place, [&] { return mesh.node_set(output.at); });
+  }
+  if (!scene.contact) return;
+  require_name(scene.contact->place, [&] { return mesh.surface(scene.contact->surface); });
+  static_cast<void>(contact_frame(mesh, *scene.contact));
+  require_preload(mesh, scene);
+}
+
+StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  fem::Structure structure(mesh, scene.material, scene.clamped);
+  StructureModes result;
+  result.n_dofs = structure.n_dofs();
+  result.mass = structure.mass();
+  fem::ModalOptions options;
+  options.n_modes = scene.modes.count;
+  result.basis = structure.solve_modes(options);
+  if (scene.contact && scene.modes.residual == ResidualKind::stiffness) {
+    result.residual = structure.residual_flexibility(
+        result.basis, mesh.surface(scene.contact->surface), contact_frame(mesh, *scene.contact));
+  }
+  result.timings = structure.timings();
+  return result;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,40 @@
+/// @file
+/// Scene → mesh → modes and residual flexibility: the finite-element half of a run.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fem/modal_analysis.hpp"
+#include "mesh/mesh.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// The mesh of a scene: the parametric blade is meshed into `mesh_file`, a given file is read.
+/// @throws mesh::MeshError, std::invalid_argument  see mesh_blade and read_gmsh.
+[[nodiscard]] mesh::Mesh obtain_mesh(const SceneDescription& scene,
+                                     const std::filesystem::path& mesh_file);
+
+/// "12345 nodes, 6789 elements, volume … m³, mass … kg, bounding box …" and the names of the surfaces.
+[[nodiscard]] std::string describe_mesh(const mesh::Mesh& mesh, double density);
+
+struct StructureModes {
+  Eigen::Index n_dofs = 0;  ///< free degrees of freedom
+  double mass = 0.0;        ///< [kg]
+  fem::ModalBasis basis;
+  std::optional<fem::ResidualFlexibility> residual;  ///< of the contact surface
+  fem::ModalTimings timings;
+};
+
+/// Checks all names of the scene against the mesh before anything is solved.
+/// @throws mesh::MeshError, SceneError  a surface or point that is not there, a face that is not plane.
+void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+/// Assembles and solves. Collective over the MPI ranks. The residual flexibility of a structure that
+/// floats is that of inertia relief.
+[[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,133 @@
+#include "pipelines/response/optimum_stage.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipelines/model/contact_factors.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+solver::OptimumOptions options_of(const SceneDescription& scene) {
+  solver::OptimumOptions options;
+  if (scene.response->optimum->range) {
+    options.lower = (*scene.response->optimum->range)[0];
+    options.upper = (*scene.response->optimum->range)[1];
+  } else {
+    options.lower = std::numeric_limits<double>::infinity();
+    for (const CurveRequest& request : curve_requests(scene)) {
+      const auto* load = std::get_if<double>(&request.preload);
+      if (load == nullptr || *load <= 0.0) continue;
+      options.lower = std::min(options.lower, *load);
+      options.upper = std::max(options.upper, *load);
+    }
+  }
+  if (!(options.lower < options.upper)) {
+    throw SceneError(
+        "response.optimum: needs response.optimum_range = [low, high], or two positive preloads");
+  }
+  if (!(options.lower > 0.0)) options.scale = solver::ParameterScale::linear;
+  return options;
+}
+
+}  // namespace
+
+OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
+                             std::shared_ptr<const SolvedStructure> structure)
+    : model_(model),
+      scene_(scene),
+      request_(*scene.response->optimum),
+      family_(scene, request_.key, model, std::move(structure)),
+      options_(options_of(scene)) {}
+
+const ReducedModel& OptimumSearch::model_at(double value, double stiffness_factor) {
+  if (!request_.of_preload()) return family_.at(value, stiffness_factor);
+  return stiffness_factor == 1.0 ? model_ : family_.as_given(stiffness_factor);
+}
+
+solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
+  const bool by_keys = stiffness_place(scene_) == StiffnessPlace::keys;
+  const ReducedModel& given = model_at(value, 1.0);
+  double load = request_.of_preload() ? value : request_.load;
+  ReducedModel model = by_keys ? model_at(value, factors.stiffness)
+                               : with_point_stiffness(given, factors.stiffness, load);
+  load = with_same_gap(load, given, model);
+  if (factors.friction != 1.0) model = with_friction(std::move(model), factors.friction);
+  return solver_scene(model, load);
+}
+
+solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const {
+  solver::OptimumOptions options = options_;
+  if (request_.of_preload()) {
+    // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal load
+    // varies with the motion.
+    options.lower = std::min(options.lower, options.lower / factors.friction);
+    options.upper = std::max(options.upper, options.upper / factors.friction);
+  }
+  return options;
+}
+
+solver::Optimum OptimumSearch::search(const Factors& factors) {
+  return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
+                               continuation_options(*scene_.response), options_for(factors));
+}
+
+std::string OptimumSearch::warning() const {
+  const ResponseDescription& response = *scene_.response;
+  if (response.method != ResponseDescription::Method::time) return "";
+  const std::string harmonics =
+      response.harmonic_tolerance > 0.0 ? "chosen harmonics"
+      : response.harmonics == 1         ? "1 harmonic"
+                                        : fmt::format("harmonics up to {}", response.harmonics);
+  return fmt::format(
+      "response.optimum: searched by harmonic balance with {}, not by integration in time as the curves: "
+      "integrate a curve at the best value to compare",
+      harmonics);
+}
+
+solver::Optimum OptimumSearch::best() {
+  solver::Optimum optimum = search({});
+  if (const std::string text = warning(); !text.empty()) {
+    optimum.notes.insert(optimum.notes.begin(), text);
+  }
+  return optimum;
+}
+
+OptimumBracket OptimumSearch::bracket() {
+  OptimumBracket bracket;
+  const auto add = [&](const char* parameter, double factor, const Factors& factors) {
+    try {
+      const solver::OptimumOptions options = options_for(factors);
+      const bool widened = options.lower < options_.lower || options.upper > options_.upper;
+      bracket.entries.push_back({parameter, factor, search(factors), {options.lower, options.upper}, widened});
+    } catch (const RefusedError& error) {
+      bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
+    }
+  };
+  const auto varies = [&](const char* parameter, const char* searched, std::string obstacle) {
+    const std::string_view key = request_.key;
+    if (key.starts_with("contact") && key.find(searched) != key.npos) {
+      obstacle = fmt::format("{} is the number that is searched", key);
+    }
+    if (!obstacle.empty()) bracket.left_out.push_back(fmt::format("{}: {}", parameter, obstacle));
+    return obstacle.empty();
+  };
+  constexpr const char* friction = "friction_coefficient";
+  constexpr const char* stiffness = "contact_stiffness";
+  const bool friction_varies = varies(friction, "friction", no_friction_factor(model_));
+  const bool stiffness_varies =
+      varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
+  for (const double factor : {0.5, 2.0}) {
+    if (friction_varies) add(friction, factor, {factor, 1.0});
+    if (stiffness_varies) add(stiffness, factor, {1.0, factor});
+  }
+  return bracket;
+}
+
+}  // namespace microslip::pipelines

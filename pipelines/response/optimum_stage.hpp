@@ -1,0 +1,54 @@
+/// @file
+/// The best value of one number of a scene: preload, friction coefficient, a thickness of the blade, …;
+/// and what the contact data nobody knows well do to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/model/model_family.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/scene/scene_description.hpp"
+#include "solver/peak.hpp"
+
+namespace microslip::pipelines {
+
+class OptimumSearch {
+ public:
+  /// @param model      of the scene, borrowed.
+  /// @param scene      with response.optimum, borrowed.
+  /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+  /// @throws SceneError  no bounds can be told.
+  OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
+                std::shared_ptr<const SolvedStructure> structure);
+
+  /// What the search does otherwise than the curves, for the log; empty: nothing.
+  [[nodiscard]] std::string warning() const;
+  /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at a value.
+  [[nodiscard]] solver::Optimum best();
+  /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
+  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
+  /// moves the best preload: the range is widened by as much, and the entry says so.
+  [[nodiscard]] OptimumBracket bracket();
+
+ private:
+  struct Factors {
+    double friction = 1.0;
+    double stiffness = 1.0;
+  };
+  /// The bounds of the scene, or wider ones where the best value is known to move.
+  [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
+  [[nodiscard]] solver::Optimum search(const Factors& factors);
+  [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
+  [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
+
+  const ReducedModel& model_;
+  const SceneDescription& scene_;
+  const OptimumRequest& request_;
+  ModelFamily family_;
+  solver::OptimumOptions options_;
+};
+
+}  // namespace microslip::pipelines

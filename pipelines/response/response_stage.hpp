@@ -1,0 +1,55 @@
+/// @file
+/// Reduced model → solver scenes → curves, maps and the best preload.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/scene/curve_request.hpp"
+#include "solver/scene.hpp"
+
+namespace microslip::pipelines {
+
+/// A model under a load (point_parameters.hpp) as the solver takes it. Modes and excitation of the model are copied.
+[[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
+
+/// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in full
+/// contact.
+[[nodiscard]] solver::Scene limit_scene(ReducedModel model);
+
+/// Moments beside the preload can be balanced under all loads the scene asks for.
+/// @throws RefusedError  they cannot; the message names the force they need.
+void require_loads(const ReducedModel& model, const SceneDescription& scene);
+
+/// What can be told of the curves before the first is traced: moments beside every preload are balanced, fixed steps
+/// in time are enough.
+/// @throws RefusedError, SceneError  as require_loads() and require_steps().
+void require_curves(const ReducedModel& model, const SceneDescription& scene);
+
+[[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
+
+/// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
+/// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.
+void require_response(const SceneDescription& scene);
+
+/// @throws RefusedError  a rigid-body mode is held neither by supports nor by the contact.
+void require_held(const ReducedModel& model, const SceneDescription& scene);
+
+/// Traces one curve: a solution at one frequency when the range has no width.
+[[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
+                                      const CurveRequest& request,
+                                      const solver::PointObserver& observe);
+
+/// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions of
+/// the branch at given frequencies (numbered in branch order).
+[[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,
+                                               const SceneDescription& scene,
+                                               const CurveResult& result);
+
+/// The highest solved peak; without one the largest point. nullptr: no points.
+[[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,57 @@
+/// @file
+/// What a run has found, as the writers see it: plain values, no solver objects behind them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_map.hpp"
+#include "pipelines/scene/scene_description.hpp"
+#include "solver/peak.hpp"
+#include "solver/response_curve.hpp"
+
+namespace microslip::pipelines {
+
+struct NamedMap {
+  std::string name;           ///< e.g. "preload_1000_peak": stem of the files
+  double frequency_hz = 0.0;
+  double amplitude = 0.0;     ///< of the output, half peak-to-peak [m]
+  solver::Stability stability = solver::Stability::not_assessed;
+  contact::ContactMap points;    ///< at the contact points (cells)
+  contact::ContactMap vertices;  ///< at the vertices of the cells; empty without cells
+};
+
+struct CurveResult {
+  std::string name;  ///< stem of the CSV
+  std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
+  solver::ResponseCurve curve;
+  std::vector<NamedMap> maps;
+  bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
+};
+
+/// The best value when one uncertain number of the contact is multiplied.
+struct OptimumOfFactor {
+  std::string parameter;  ///< friction_coefficient | contact_stiffness
+  double factor = 1.0;
+  solver::Optimum optimum;
+  std::array<double, 2> range{};  ///< searched, in SI
+  bool widened = false;           ///< beyond what the scene asks for
+};
+
+struct OptimumBracket {
+  std::vector<OptimumOfFactor> entries;
+  std::vector<std::string> left_out;  ///< what is not varied and why
+};
+
+struct StageRecord {
+  std::string name;
+  double seconds = 0.0;
+  double peak_memory_mb = 0.0;
+};
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,106 @@
+/// @file
+/// A run in a few numbers, as summary.json and the report tell them (interfaces.md section 3.1).
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pipelines/system/machine.hpp"
+#include "pipelines/model/effect_record.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+
+struct MeshSummary {
+  Eigen::Index nodes = 0;
+  Eigen::Index elements = 0;
+  Eigen::Index degrees_of_freedom = 0;  ///< without the clamped ones
+  double volume = 0.0;                  ///< [m³]
+  double mass = 0.0;                    ///< [kg]
+};
+
+struct ModeSummary {
+  double frequency = 0.0;  ///< ω [rad/s]
+  double damping_ratio = 0.0;
+  std::optional<double> residual;   ///< none for modes that were given
+  std::optional<double> fit_error;  ///< none without a fit
+};
+
+struct PeakSummary {
+  double frequency = 0.0;  ///< ω [rad/s]
+  double amplitude = 0.0;  ///< [m]
+};
+
+/// A ResponseCurve in a few numbers.
+struct CurveSummary {
+  std::string name;
+  std::variant<double, LimitName> preload;  ///< total [N], or a limit
+  std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
+  /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
+  std::optional<double> preload_carried, preload_integral;
+  bool complete = false;
+  std::string diagnosis;
+  std::string message;
+  std::optional<PeakSummary> peak;  ///< the highest of `peaks`; none when no peak was in range
+  std::vector<PeakSummary> peaks;
+  std::vector<double> folds;  ///< ω [rad/s], in branch order
+  std::size_t points = 0;
+  long iterations = 0;
+  long contact_evaluations = 0;
+  long state_readings = 0;
+  long state_cuts = 0;
+  long stable_unproved = 0;  ///< points called stable by Hill's exponents alone
+  double seconds = 0.0;
+  double largest_residual = 0.0;
+  double largest_energy_imbalance = 0.0;
+  double largest_dissipation_mismatch = 0.0;
+  double largest_three_states_share = 0.0;
+  std::set<int> harmonic_orders;    ///< that were unknowns at some point, beside the mean
+  std::size_t most_harmonics = 0;   ///< at one point
+  double largest_left_out = 0.0;    ///< of the amplitude, where harmonics are chosen: by those left out
+  double largest_quadrature_change = 0.0;  ///< of the force by the last fit of the quadrature to a point
+  std::vector<std::string> maps;  ///< stems in maps/
+  std::string certificate;        ///< what was proved instead of solved; empty: solved
+  std::vector<solver::SolverEvent> remedies;
+  std::size_t detached_branches = 0;
+  int search_starts = 0;
+};
+
+struct OptimumSummary {
+  OptimumRequest request;
+  solver::Optimum optimum;
+  OptimumBracket bracket;
+  double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
+};
+
+struct RunSummary {
+  std::string version;
+  std::string scene;  ///< file name of the scene, without its folder
+  std::string title;
+  ExitCode exit_code = ExitCode::complete;
+  std::string message;  ///< of the error that ended the run; empty when there was none
+  Machine machine;
+  std::vector<std::pair<std::string, std::string>> libraries;
+  std::vector<StageRecord> stages;
+  std::optional<MeshSummary> mesh;
+  std::vector<ModeSummary> modes;
+  std::vector<CurveSummary> curves;
+  std::optional<OptimumSummary> optimum;
+  std::vector<EffectRecord> effects;
+  std::vector<std::string> warnings;
+};
+
+[[nodiscard]] CurveSummary summarise(const CurveResult& result);
+
+/// @param residual, fit_error  N, or of another size where they do not exist.
+[[nodiscard]] std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
+                                                       const Eigen::VectorXd& damping_ratio,
+                                                       const Eigen::VectorXd& residual,
+                                                       const Eigen::VectorXd& fit_error);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,191 @@
+#include "pipelines/run/check_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <Eigen/Eigenvalues>
+
+#include "mesh/element_shape.hpp"
+#include "mesh/mesh.hpp"
+#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/effects.hpp"
+#include "pipelines/model/preload_shape.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/system/temporary_folder.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+// Curves' worth of work: the search itself and the four of its bracket.
+constexpr double searches_of_an_optimum = 5 * 6.0;
+
+// One point in one iteration [s]: medians of the benchmarks, doubled for the rest of an iteration.
+constexpr double closed_form_cost = 1.4e-6;
+constexpr double event_cost = 1e-5;
+constexpr double planar_cost = 1.5e-4;
+constexpr double chosen_cost = 5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
+constexpr double iterations_per_curve = 350.0;
+constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
+
+/// Seconds a curve takes, by the law of its points.
+double curve_seconds(const SceneDescription& scene, bool second_direction) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  const double n_points = scene.contact   ? scene.contact->n_points
+                          : modal != nullptr ? static_cast<double>(modal->points.size())
+                                             : 0.0;
+  const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
+  const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
+  const bool chosen = scene.response->harmonic_tolerance > 0.0;
+  const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
+  return iterations_per_curve * n_points * cost;
+}
+
+std::string second_direction_of(const SceneDescription& scene) {
+  for (const auto& [effect, setting] : scene.effects) {
+    if (effect == "second_direction") return setting;
+  }
+  return "auto";
+}
+
+/// @param model  where effects are decided, else nullptr.
+void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
+  if (!scene.response) return;
+  const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
+  const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
+  const std::string along_r = second_direction_of(scene);
+  const bool is_on = model != nullptr ? model->effects.second_direction : along_r == "on";
+  forecast.curves_seconds = n_curves * curve_seconds(scene, is_on);
+  if (model == nullptr && along_r == "auto") {
+    forecast.curves_seconds_along_r = n_curves * curve_seconds(scene, true);
+  }
+}
+
+/// Anchored at 115 000 degrees of freedom: 4 s and 0.7 GB on two cores (factorisation of a sparse
+/// three-dimensional mesh: time as n^1.5, memory as n^1.3).
+Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  Forecast forecast;
+  forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
+  const double size = forecast.degrees_of_freedom / 115'000.0;
+  forecast.modes_seconds = 4.0 * std::pow(size, 1.5) * std::max(1.0, scene.modes.count / 10.0);
+  forecast.memory_gb = 0.2 + 0.7 * std::pow(size, 1.3);
+  add_curves(scene, nullptr, forecast);
+  return forecast;
+}
+
+void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
+  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB", forecast.degrees_of_freedom,
+             forecast.modes_seconds, forecast.memory_gb);
+  if (has_curves) fmt::print(out, "; curves {:.1f} s", forecast.curves_seconds);
+  if (forecast.curves_seconds_along_r) {
+    fmt::print(out, ", {:.0f} s if friction along r is called for", *forecast.curves_seconds_along_r);
+  }
+  out << '\n';
+}
+
+void describe(const std::vector<EffectRecord>& effects, std::ostream& out) {
+  out << "effects:\n";
+  for (const EffectRecord& effect : effects) {
+    fmt::print(out, "  {:<17}{:<4} {}\n", effect.name, effect.simulated ? "yes" : "no",
+               effect.reason);
+  }
+}
+
+/// Natural frequencies with every contact point stuck [Hz], ascending.
+Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
+  const solver::Scene scene = limit_scene(model);
+  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
+  if (scene.contact) K += scene.contact->stuck_stiffness();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, Eigen::EigenvaluesOnly);
+  return pairs.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+}
+
+void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {
+  Eigen::VectorXd free = modal.frequency_hz;
+  std::sort(free.begin(), free.end());
+  const Eigen::VectorXd stuck = stuck_frequencies(model);
+  constexpr Eigen::Index longest_list = 20;
+  fmt::print(out, "  natural frequencies [Hz]      free     all stuck\n");
+  for (Eigen::Index i = 0; i < std::min(free.size(), longest_list); ++i) {
+    fmt::print(out, "  {:<20}{:14.6g}{:14.6g}\n", i + 1, free[i], stuck[i]);
+  }
+  if (free.size() > longest_list) fmt::print(out, "  … {} in all\n", free.size());
+}
+
+void describe_points(const ModalModel& modal, std::ostream& out) {
+  double load = 0.0;
+  int n_gaps = 0;
+  for (std::size_t i = 0; i < modal.points.size(); ++i) {
+    const double preload = modal.points[i].preload;
+    load += std::max(preload, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
+    if (preload < 0.0) ++n_gaps;
+  }
+  if (modal.load_measure == LoadMeasure::force) {
+    fmt::print(out, "{} contact point{}\n", modal.points.size(), modal.points.size() == 1 ? "" : "s");
+    return;
+  }
+  fmt::print(out, "{} contact point{}: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
+             modal.points.size(), modal.points.size() == 1 ? "" : "s", modal.weights.sum(), load, n_gaps);
+}
+
+ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
+  fmt::print(out, "{} modes\n", modal.frequency_hz.size());
+  ReducedModel model = reduced_model(modal);
+  model.effects = contact_effects(model, scene);
+  require_held(model, scene);
+  describe_modes(modal, model, out);
+  describe_points(modal, out);
+  if (scene.response) {
+    require_curves(model, scene);
+    const ResponseDescription& response = *scene.response;
+    const std::size_t n_curves = curve_requests(scene).size();
+    fmt::print(out, "{} {} from {:.6g} to {:.6g} Hz\n", n_curves,
+               n_curves == 1 ? "curve" : "curves", response.frequency_begin_hz,
+               response.frequency_end_hz);
+  }
+  return model;
+}
+
+}  // namespace
+
+CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
+  if (scene.response) require_response(scene);
+  CheckResult result;
+  result.warnings = scene_warnings(scene);
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    const ReducedModel model = check_modal(*modal, scene, out);
+    result.effects = effects_of(scene, &model);
+    result.forecast.memory_gb = memory_without_a_mesh;
+    add_curves(scene, &model, result.forecast);
+  } else {
+    const TemporaryFolder folder;
+    const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+    if (interrupt_requested()) throw InterruptedError("interrupted");
+    check_names(mesh, scene);
+    out << describe_mesh(mesh, scene.material.density) << '\n';
+    for (std::string& warning : mesh::shape_warnings(mesh)) result.warnings.push_back(std::move(warning));
+    if (scene.clamped.empty() && scene.response) {
+      result.warnings.emplace_back(
+          "nothing is clamped: the structure has rigid-body modes, which only a contact that sticks holds");
+    }
+    if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
+    result.forecast = forecast_of(mesh, scene);
+    describe(result.forecast, scene.response.has_value(), out);
+    result.effects = effects_of(scene, nullptr);
+  }
+  for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
+  describe(result.effects, out);
+  out << (scene.response ? "the scene is complete and consistent\n"
+                         : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
+  return result;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,34 @@
+/// @file
+/// The command `check`: what would be simulated and what it would cost.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/model/effect_record.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// What a study is expected to cost, on two cores.
+struct Forecast {
+  double degrees_of_freedom = 0.0;  ///< 0: the scene gives its modes
+  double modes_seconds = 0.0;
+  double curves_seconds = 0.0;
+  std::optional<double> curves_seconds_along_r;  ///< where it is not known yet whether friction along r is called for
+  double memory_gb = 0.0;
+};
+
+/// What `check` found, for scripts.
+struct CheckResult {
+  Forecast forecast;
+  std::vector<EffectRecord> effects;
+  std::vector<std::string> warnings;
+};
+
+/// `check`: what would be simulated and what it would cost; solves nothing.
+CheckResult check_study(const SceneDescription& scene, std::ostream& out);
+
+}  // namespace microslip::pipelines

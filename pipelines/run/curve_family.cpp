@@ -1,0 +1,90 @@
+#include "pipelines/run/curve_family.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/response/response_stage.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// How far a point has come through the range, 0 … 1; a turn back lowers it.
+double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& point) {
+  const auto range = continuation_options(*scene.response);
+  const double width = range.frequency_end - range.frequency_begin;
+  return width == 0.0 ? 1.0 : (point.frequency - range.frequency_begin) / width;
+}
+
+/// Runs task(i) for i < n on `jobs` threads; the first exception is thrown on when all have ended.
+template <typename Task>
+void in_parallel(std::size_t n, int jobs, const Task& task) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < n; i = next++) {
+      try {
+        task(i);
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        next = n;
+      }
+    }
+  };
+  const auto n_threads = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(jobs, 1)), 1, n);
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 1; i < n_threads; ++i) workers.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDescription& scene,
+                                      int jobs, RunRecord& record) {
+  const std::vector<CurveRequest> requests = curve_requests(scene);
+  if (requests.empty()) return {};
+  std::vector<CurveResult> results(requests.size());
+  std::mutex order;
+  std::vector<bool> finished(requests.size(), false);
+  std::size_t kept = 0;
+  std::atomic<std::size_t> done{0};
+  in_parallel(requests.size(), jobs, [&](std::size_t i) {
+    results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
+      record.note_point(requests[i].name, requests[i].preload, point);
+      const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
+      record.progress().point(requests[i].name, point,
+                              (static_cast<double>(done) + share) /
+                                  static_cast<double>(requests.size()));
+      return !interrupt_requested();
+    });
+    ++done;
+    const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
+    finished[i] = true;
+    for (; kept < finished.size() && finished[kept]; ++kept) {
+      record.keep_curve(results[kept], model);
+    }
+  });
+  if (interrupt_requested()) throw InterruptedError("interrupted; finished points are kept");
+  return results;
+}
+
+void draw_maps(const ReducedModel& model, const SceneDescription& scene,
+               const std::vector<CurveResult>& curves, RunRecord& record) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (interrupt_requested()) throw InterruptedError("interrupted; finished curves are kept");
+    for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
+    if (const auto* peak = highest_peak(curves[i].curve)) {
+      record.keep_motion(curves[i].name + "_peak", *peak);
+    }
+  }
+}
+
+}  // namespace microslip::pipelines

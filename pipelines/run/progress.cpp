@@ -1,0 +1,250 @@
+#include "pipelines/run/progress.hpp"
+
+#include <fmt/core.h>
+#include <spdlog/logger.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <numbers>
+#include <ostream>
+#include <set>
+#include <system_error>
+
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+double hertz(double angular) { return angular / (2.0 * std::numbers::pi); }
+
+/// Columns of the terminal behind standard error.
+std::size_t terminal_width() {
+  winsize size{};
+  constexpr std::size_t usual = 80;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return usual;
+  return size.ws_col;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
+}
+
+/// What a line of history.csv begins with: curve, frequency, amplitude.
+std::string line_begin(const std::string& curve, const solver::ResponsePoint& point) {
+  return curve + ',' + format_number(hertz(point.frequency)) + ',' + format_number(point.amplitude);
+}
+
+std::string describe(const std::string& curve, const solver::ResponsePoint& point) {
+  constexpr double percent = 100.0;
+  std::string text =
+      fmt::format("{}  {:.4f} Hz  {:.4e} m", curve, hertz(point.frequency), point.amplitude);
+  const contact::CycleReport& share = point.report;
+  if (share.stick_share + share.slip_share + share.separated_share > 0.0) {
+    text += fmt::format("  stick {:.0f} % slip {:.0f} % open {:.0f} %", percent * share.stick_share,
+                        percent * share.slip_share, percent * share.separated_share);
+  }
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(std::ostream& out, bool terminal, Verbosity verbosity)
+    : out_(out), terminal_(terminal), verbosity_(verbosity) {}
+
+Progress::~Progress() { finish(); }
+
+void Progress::keep_in(const std::filesystem::path& folder) {
+  const std::lock_guard lock(mutex_);
+  const std::filesystem::path file = folder / "log.txt";
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
+    log_ = std::make_shared<spdlog::logger>("microslip", std::move(sink));
+  } catch (const spdlog::spdlog_ex& error) {
+    throw ExhaustedError(file.string() + ": cannot be written: " + error.what());
+  }
+  log_->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
+  log_->flush_on(spdlog::level::trace);  // a log that is complete when the process is killed
+  for (const auto& [level, sentence] : unlogged_) log(level, sentence);
+  unlogged_.clear();
+  history_file_ = folder / "history.csv";
+  history_.open(history_file_, std::ios::trunc);
+  history_ << "curve,frequency_Hz,amplitude_m,stable,stick_share,slip_share,separated_share,"
+              "iterations,mark,seconds\n"
+           << std::flush;
+  if (!history_) {
+    throw ExhaustedError((folder / "history.csv").string() +
+                         ": cannot be written: " + std::system_category().message(errno));
+  }
+}
+
+void Progress::stage(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  end_stage();
+  stage_ = name;
+  stage_begin_ = Clock::now();
+  gauge_.emplace();
+  log(Level::info, "stage " + name);
+  if (terminal_) draw_live(name + " ...");
+}
+
+void Progress::point(const std::string& curve, const solver::ResponsePoint& point,
+                     double fraction) {
+  const std::lock_guard lock(mutex_);
+  append_history(curve, point);
+  const std::string text = describe(curve, point);
+  if (verbosity_ == Verbosity::verbose) return print_line("  " + text);
+  constexpr std::chrono::milliseconds redraw_interval{100};  // for the eye
+  constexpr std::chrono::seconds plain_interval{10};         // enough to see that it lives
+  const Clock::time_point now = Clock::now();
+  if (now - last_drawn_ < (terminal_ ? redraw_interval : plain_interval)) return;
+  last_drawn_ = now;
+  const double elapsed = Seconds(now - stage_begin_).count();
+  std::string line = fmt::format("{}  {}", stage_, text);
+  constexpr double first_guess = 0.01;  // before this much is done a forecast is noise
+  if (fraction > first_guess) {
+    line += "  " + duration_text(elapsed * (1.0 - fraction) / fraction) + " left";
+  }
+  if (terminal_) {
+    draw_live(line);
+  } else {
+    print_line(line);
+  }
+}
+
+void Progress::settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points) {
+  const std::lock_guard lock(mutex_);
+  if (!history_.is_open() || history_lines_[curve] <= points.size()) return;
+  std::set<std::string> held;
+  for (const solver::ResponsePoint& point : points) held.insert(line_begin(curve, point));
+  history_.close();
+  std::ifstream all(history_file_);
+  if (!all) throw ExhaustedError(history_file_.string() + ": cannot be read any more");
+  std::string kept;
+  for (std::string line; std::getline(all, line);) {
+    const std::size_t end = line.find(',', line.find(',', curve.size() + 1) + 1);
+    if (line.starts_with(curve + ',') && !held.contains(line.substr(0, end))) continue;
+    kept.append(line).append("\n");
+  }
+  history_lines_[curve] = points.size();
+  write_whole(history_file_, kept);
+  history_.open(history_file_, std::ios::app);
+}
+
+void Progress::info(const std::string& sentence) { say(Level::info, sentence); }
+
+void Progress::warning(const std::string& sentence) {
+  {
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(sentence);
+  }
+  say(Level::warning, sentence);
+}
+
+void Progress::error(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  log(Level::error, sentence);
+}
+
+void Progress::finish() {
+  const std::lock_guard lock(mutex_);
+  end_stage();
+  clear_live();
+  out_.flush();
+}
+
+std::vector<StageRecord> Progress::stages() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<StageRecord> all = stages_;
+  if (!stage_.empty()) all.push_back(running_stage());
+  return all;
+}
+
+std::vector<std::string> Progress::warnings() const {
+  const std::lock_guard lock(mutex_);
+  return warnings_;
+}
+
+void Progress::say(Level level, const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  log(level, sentence);
+  if (level == Level::warning) {
+    clear_live();
+    out_ << "warning: " << sentence << '\n' << std::flush;
+  } else {
+    print_line("  " + sentence);
+  }
+}
+
+void Progress::log(Level level, const std::string& sentence) {
+  if (!log_) {
+    unlogged_.emplace_back(level, sentence);
+  } else if (level == Level::info) {
+    log_->info("{}", sentence);
+  } else if (level == Level::warning) {
+    log_->warn("{}", sentence);
+  } else {
+    log_->error("{}", sentence);
+  }
+}
+
+void Progress::print_line(const std::string& line) {
+  if (verbosity_ == Verbosity::quiet) return;
+  clear_live();
+  out_ << line << '\n' << std::flush;
+}
+
+void Progress::draw_live(const std::string& line) {
+  if (verbosity_ == Verbosity::quiet) return;
+  const std::size_t width = terminal_width() - 1;
+  out_ << "\r\033[K" << line.substr(0, width) << std::flush;
+  live_ = true;
+}
+
+void Progress::clear_live() {
+  if (live_) out_ << "\r\033[K" << std::flush;
+  live_ = false;
+}
+
+StageRecord Progress::running_stage() const {
+  return {stage_, Seconds(Clock::now() - stage_begin_).count(), gauge_ ? gauge_->peak_mb() : 0.0};
+}
+
+void Progress::end_stage() {
+  if (stage_.empty()) return;
+  const StageRecord record = running_stage();
+  stages_.push_back(record);
+  stage_.clear();
+  log(Level::info, fmt::format("stage {} took {:.3f} s, at most {:.0f} MB", record.name,
+                               record.seconds, record.peak_memory_mb));
+  print_line(fmt::format("{:<12} {:8.2f} s  {:6.0f} MB", record.name, record.seconds,
+                         record.peak_memory_mb));
+}
+
+void Progress::append_history(const std::string& curve, const solver::ResponsePoint& point) {
+  if (!history_.is_open()) return;
+  const char* mark = "";
+  if (point.mark == solver::PointMark::peak) mark = "peak";
+  if (point.mark == solver::PointMark::fold) mark = "fold";
+  ++history_lines_[curve];
+  history_ << line_begin(curve, point) << ',' << static_cast<int>(point.stability) << ','
+           << format_number(point.report.stick_share) << ','
+           << format_number(point.report.slip_share) << ','
+           << format_number(point.report.separated_share) << ',' << point.iterations << ',' << mark
+           << ',' << fmt::format("{:.3f}", Seconds(Clock::now() - begin_).count()) << '\n'
+           << std::flush;
+  if (history_) return;
+  history_.close();
+  const std::string sentence = "history.csv cannot be written any more; is the disk full?";
+  warnings_.push_back(sentence);
+  log(Level::warning, sentence);
+}
+
+}  // namespace microslip::pipelines

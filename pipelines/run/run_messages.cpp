@@ -1,0 +1,101 @@
+#include "pipelines/run/run_messages.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "fem/slepc_session.hpp"
+#include "pipelines/response/response_stage.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double to_hz = 0.5 / std::numbers::pi;
+
+}  // namespace
+
+std::vector<std::string> modes_text(const StructureModes& modes) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("BLAS: {}", fem::blas_description()));
+  lines.push_back(fmt::format(
+      "modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, factorisation {:.2f} s, "
+      "eigensolve {:.2f} s, inertia count {:.2f} s",
+      modes.n_dofs, modes.timings.assembly, modes.timings.ordering, modes.timings.factorisation,
+      modes.timings.eigensolve, modes.timings.inertia));
+  if (modes.basis.n_rigid_body > 0) {
+    lines.push_back(fmt::format("{} rigid-body modes: nothing holds the structure against them",
+                               modes.basis.n_rigid_body));
+  }
+  for (Eigen::Index i = 0; i < modes.basis.frequency.size(); ++i) {
+    lines.push_back(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
+                               to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
+  }
+  lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
+                             modes.basis.inertia_count, modes.basis.frequency.size()));
+  return lines;
+}
+
+std::string outcome_text(const CurveResult& result) {
+  const solver::ResponseCurve& curve = result.curve;
+  const auto* peak = highest_peak(curve);
+  const std::string outcome = curve.complete ? std::string("complete")
+                                             : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
+  return fmt::format("curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name, curve.points.size(),
+                     curve.iterations, curve.seconds, outcome,
+                     peak != nullptr
+                         ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude, to_hz * peak->frequency)
+                         : std::string());
+}
+
+std::vector<std::string> detached_text(const CurveResult& result) {
+  std::vector<std::string> lines;
+  for (const solver::DetachedBranch& branch : result.curve.detached) {
+    const auto highest = std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
+    if (highest == branch.points.end()) continue;
+    lines.push_back(fmt::format(
+        "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}", result.name,
+        branch.points.size() == 1 ? "another solution" : fmt::format("a branch of {} points", branch.points.size()),
+        highest->amplitude, to_hz * highest->frequency,
+        highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
+  }
+  return lines;
+}
+
+std::string precision_text(const CurveSummary& curve, const ReducedModel& model) {
+  constexpr double certified = 1e-10;
+  const double mismatch = model.effects.roughness ? 0.0 : curve.largest_dissipation_mismatch;
+  const bool all_are = curve.largest_residual <= certified &&
+                       curve.largest_energy_imbalance <= certified && mismatch <= certified;
+  if (all_are) return {};  // none is NaN either
+  return fmt::format(
+      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
+      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",
+      curve.name, curve.largest_residual, curve.largest_energy_imbalance, curve.largest_dissipation_mismatch);
+}
+
+std::string amplitude_text(const solver::PeakOfParameter& best) {
+  const double frequency_hz = to_hz * best.frequency;
+  switch (best.place) {
+    case solver::PeakPlace::peak:
+      return fmt::format("peak {:.6g} m at {:.6g} Hz", best.amplitude, frequency_hz);
+    case solver::PeakPlace::range_end:
+      return fmt::format("largest amplitude {:.6g} m at {:.6g} Hz, the end of the frequency range",
+                         best.amplitude, frequency_hz);
+    case solver::PeakPlace::unsolved: break;
+  }
+  return fmt::format("amplitude at least {:.6g} m, at {:.6g} Hz", best.amplitude, frequency_hz);
+}
+
+std::string lowest_text(const solver::Optimum& optimum) {
+  return optimum.trace.empty() ? "" : "; " + amplitude_text(optimum.best);
+}
+
+std::string range_text(const OptimumOfFactor& entry) {
+  return entry.widened ? fmt::format(" (searched from {:.6g} to {:.6g}, wider than the range as given: the best preload "
+                                     "moves with 1/friction)",
+                                     entry.range[0], entry.range[1])
+                       : "";
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,38 @@
+/// @file
+/// What the log says of a run's parts, in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/response/run_summary.hpp"
+#include "solver/peak.hpp"
+
+namespace microslip::pipelines {
+
+/// Sizes and times of the modal analysis, then a line for each mode.
+[[nodiscard]] std::vector<std::string> modes_text(const StructureModes& modes);
+
+/// How a curve ended, and its largest amplitude.
+[[nodiscard]] std::string outcome_text(const CurveResult& result);
+
+/// A line for each branch or solution that was found beside the curve.
+[[nodiscard]] std::vector<std::string> detached_text(const CurveResult& result);
+
+/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told. Empty:
+/// all are. On rough surfaces the two counts of dissipation differ by themselves (theory section 11).
+[[nodiscard]] std::string precision_text(const CurveSummary& curve, const ReducedModel& model);
+
+/// "peak … m at … Hz", or what stands in its place.
+[[nodiscard]] std::string amplitude_text(const solver::PeakOfParameter& best);
+
+/// The lowest value of a search that found no best one, as far as there is one.
+[[nodiscard]] std::string lowest_text(const solver::Optimum& optimum);
+
+/// Where a bracket looks farther than the scene asks for; empty: nowhere.
+[[nodiscard]] std::string range_text(const OptimumOfFactor& entry);
+
+}  // namespace microslip::pipelines

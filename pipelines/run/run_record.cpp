@@ -1,0 +1,336 @@
+#include "pipelines/run/run_record.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <numbers>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contact/patch/preload_field.hpp"
+#include "fem/slepc_session.hpp"
+#include "mesh/element_shape.hpp"
+#include "pipelines/model/effects.hpp"
+#include "pipelines/system/exit_code.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/response/harmonics_effect.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/files/write_summary.hpp"
+#include "pipelines/run/run_folder.hpp"
+#include "pipelines/run/run_messages.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/files/write_csv.hpp"
+#include "pipelines/files/model_file.hpp"
+#include "pipelines/model/point_parameters.hpp"
+#include "pipelines/files/write_map.hpp"
+#include "pipelines/files/write_vtk.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
+constexpr double to_hz = 0.5 / std::numbers::pi;
+
+}  // namespace
+
+RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
+    : folder_(options.output),
+      rank_(options.rank),
+      writes_(options.rank == 0),
+      progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
+                writes_ ? options.verbosity : Verbosity::quiet) {
+  summary_.version = MICROSLIP_VERSION;
+  summary_.scene = scene.file.filename().string();
+  summary_.title = scene.title;
+  summary_.machine = describe_machine();
+  summary_.libraries = library_versions();
+  summary_.effects = effects_of(scene, nullptr);
+  if (!writes_) return;
+  make_folder(folder_);
+  require_writable(folder_);
+  require_own(folder_);
+  lock_ = lock_folder(folder_);
+  scene_toml_ = scene.complete_toml;
+  // An earlier run's results stay until this scene has proved itself.
+  if (!std::filesystem::exists(folder_ / "summary.json")) begin();
+}
+
+void RunRecord::begin() {
+  if (begun_ || !writes_) return;
+  begun_ = true;
+  clear_results(folder_);
+  progress_.keep_in(folder_);
+  write_whole(folder_ / "scene.toml", scene_toml_);
+}
+
+std::filesystem::path RunRecord::mesh_file() const {
+  if (writes_) return folder_ / "mesh.msh";
+  return std::filesystem::temp_directory_path() /
+         fmt::format("microslip_rank{}_{}.msh", rank_, ::getpid());
+}
+
+RunRecord::~RunRecord() {
+  if (!writes_) {
+    std::error_code ignored;  // a file of our own in the temporary folder
+    std::filesystem::remove(mesh_file(), ignored);
+  }
+  if (lock_ < 0) return;
+  ::unlink((folder_ / ".lock").c_str());
+  ::close(lock_);
+}
+
+int RunRecord::run(const std::function<void()>& stages) {
+  std::jthread watch([this](const std::stop_token& stop) {
+    while (!interrupt_requested()) {
+      if (stop.stop_requested()) return;
+      std::this_thread::sleep_for(20ms);
+    }
+    for (auto waited = 0ms; waited < patience; waited += 20ms) {
+      if (stop.stop_requested()) return;
+      std::this_thread::sleep_for(20ms);
+    }
+    keep_unfinished();
+    fail(ExitCode::incomplete, "interrupted");  // a library or a long evaluation is in the way: end here
+    std::_Exit(static_cast<int>(ExitCode::incomplete));
+  });
+  try {
+    stages();
+  } catch (const std::exception& error) {
+    watch.request_stop();
+    watch.join();
+    fail(exit_code_of(error), error.what());
+    throw;
+  }
+  watch.request_stop();
+  watch.join();
+  progress_.finish();
+  keep_summary();
+  return static_cast<int>(verdict());
+}
+
+void RunRecord::stage(const std::string& name) {
+  if (interrupt_requested()) throw InterruptedError("interrupted before the stage " + name);
+  progress_.stage(name);
+}
+
+void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
+  begin();
+  progress_.info(describe_mesh(mesh, density));
+  for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
+  const std::lock_guard lock(mutex_);
+  summary_.mesh = MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(),
+                              density * mesh.volume()};
+}
+
+void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
+                           const Eigen::VectorXd& damping_ratio) {
+  for (const std::string& line : modes_text(modes)) progress_.info(line);
+  const std::lock_guard lock(mutex_);
+  summary_.mesh->degrees_of_freedom = modes.n_dofs;
+  summary_.mesh->mass = modes.mass;
+  summary_.modes = summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {});
+  if (!writes_) return;
+  write_modes_csv(folder_ / "modes.csv",
+                  {modes.basis.frequency, modes.basis.residual, damping_ratio, {}});
+  write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
+}
+
+void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
+  const std::lock_guard lock(mutex_);
+  summary_.effects = std::move(effects);
+}
+
+void RunRecord::keep_harmonics(const SceneDescription& scene) {
+  const std::lock_guard lock(mutex_);
+  tell_harmonics(scene, summary_.curves, summary_.effects);
+}
+
+void RunRecord::keep_model(const ReducedModel& model) {
+  begin();
+  const std::lock_guard lock(mutex_);
+  Eigen::VectorXd residual(0);
+  if (!summary_.modes.empty() && summary_.modes.front().residual) {
+    residual.resize(static_cast<Eigen::Index>(summary_.modes.size()));
+    for (Eigen::Index i = 0; i < residual.size(); ++i) {
+      residual[i] = *summary_.modes[static_cast<std::size_t>(i)].residual;
+    }
+  }
+  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, model.fit_error);
+  if (!writes_) return;
+  write_modes_csv(folder_ / "modes.csv",
+                  {model.frequency, residual, model.damping_ratio, model.fit_error});
+  write_model(folder_ / "model.h5", model);
+}
+
+void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
+  structure_.emplace(Structure{mesh, std::move(basis)});
+}
+
+/// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
+void RunRecord::warn_of_unsolved(const CurveResult& result) {
+  for (const solver::SolverEvent& event : result.curve.log) {
+    if (event.remedy != "peak-unsolved" && event.remedy != "fold-unsolved") continue;
+    progress_.warning(fmt::format("{}: curve {}: near {:.8g} Hz the nearest point found is marked",
+                                  event.remedy, result.name, to_hz * event.frequency));
+  }
+}
+
+/// What the contact carries at rest and, where a part of it is a gap, what the plain integral comes to.
+void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, double load) {
+  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
+  Eigen::VectorXd pressure(model.weights.size());
+  for (Eigen::Index i = 0; i < pressure.size(); ++i) {
+    pressure[i] = points[static_cast<std::size_t>(i)].preload;
+  }
+  summary.preload_carried = contact::carried_force(pressure, model.weights);
+  summary.preload_integral = model.weights.dot(pressure);
+  if (pressure.minCoeff() < 0.0 && pressure.maxCoeff() > 0.0) {
+    progress_.info(fmt::format(
+        "curve {}: the contact carries {:.6g} N and is open on a part of it; its preload integrates to {:.6g} N "
+        "with the gaps counted as pull",
+        summary.name, *summary.preload_carried, *summary.preload_integral));
+  }
+}
+
+void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
+  const auto& curve = result.curve;
+  progress_.info(outcome_text(result));
+  CurveSummary summary = summarise(result);
+  if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && model.weights.size() > 0) {
+    keep_preload(summary, model, *load);
+  }
+  if (!result.integrated) {
+    if (const std::string text = precision_text(summary, model); !text.empty()) progress_.warning(text);
+  }
+  warn_of_unsolved(result);
+  if (const auto* scale = std::get_if<double>(&result.preload);
+      scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
+    summary.preload_scale = *scale;
+    summary.preload = *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
+  }
+  if (curve.complete && !curve.message.empty()) {
+    progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
+  }
+  for (const std::string& line : detached_text(result)) progress_.info(line);
+  if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
+  progress_.settle(result.name, curve.points);
+  const std::lock_guard lock(mutex_);
+  unfinished_.erase(result.name);
+  summary_.curves.push_back(std::move(summary));
+  write_curve(folder_, result, model.frequency.size());
+}
+
+void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+                           const solver::ResponsePoint& point) {
+  const std::lock_guard lock(mutex_);
+  CurveResult& result = unfinished_[curve];
+  result.name = curve;
+  result.preload = preload;
+  result.curve.points.push_back(point);
+  result.curve.iterations += point.iterations;
+}
+
+void RunRecord::keep_unfinished() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [name, result] : unfinished_) {
+    solver::ResponseCurve& curve = result.curve;
+    curve.diagnosis = "interrupted";
+    curve.message = fmt::format("stopped at {:.8g} Hz", to_hz * curve.points.back().frequency);
+    progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
+                               curve.points.size(), curve.message));
+    summary_.curves.push_back(summarise(result));
+    write_curve(folder_, result, curve.points.back().q.rows().cols());
+  }
+  unfinished_.clear();
+}
+
+void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
+  const std::lock_guard lock(mutex_);
+  write_map(folder_ / "maps", model, map);
+  summary_.curves.at(curve).maps.push_back(map.name);
+}
+
+void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
+  if (!structure_) return;  // a modal scene has no body to draw
+  write_motion(folder_ / "motion", name, structure_->mesh, structure_->basis, point.q,
+               to_hz * point.frequency);
+}
+
+void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
+                             const solver::Optimum& optimum) {
+  const bool in_newtons = model.load_measure == LoadMeasure::force;
+  const std::string unit = !request.of_preload() ? "" : in_newtons ? " N" : " of the points' preload";
+  const std::string what =
+      request.of_preload() ? "best preload"
+                           : fmt::format("best {} under preload {:g}", request.key, request.load);
+  progress_.info(optimum.found ? fmt::format("{}: {:.6g}{}, {}", what, optimum.best.parameter, unit,
+                                             amplitude_text(optimum.best))
+                               : fmt::format("{}: not found: {}{}", what, optimum.message,
+                                             lowest_text(optimum)));
+  for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
+  const std::lock_guard lock(mutex_);
+  OptimumSummary& summary = summary_.optimum.emplace();
+  summary.request = request;
+  summary.optimum = optimum;
+  if (!in_newtons) summary.newtons_per_load = contact::carried_force(model.preload, model.weights);
+  write_optimum_csv(folder_, request, optimum);
+}
+
+void RunRecord::keep_bracket(OptimumBracket bracket) {
+  for (const OptimumOfFactor& entry : bracket.entries) {
+    const solver::Optimum& optimum = entry.optimum;
+    progress_.info(fmt::format(
+        "with {} x {:g}{}: {}", entry.parameter, entry.factor, range_text(entry),
+        optimum.found ? fmt::format("best {:.6g}, {}", optimum.best.parameter,
+                                    amplitude_text(optimum.best))
+                      : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));
+  }
+  for (const std::string& reason : bracket.left_out) {
+    progress_.info("not varied: " + reason);
+  }
+  const std::lock_guard lock(mutex_);
+  summary_.optimum->bracket = std::move(bracket);
+}
+
+void RunRecord::keep_summary() {
+  const std::lock_guard lock(mutex_);
+  summary_.exit_code = verdict();
+  write_summary_file();
+}
+
+void RunRecord::write_summary_file() {
+  summary_.stages = progress_.stages();
+  summary_.warnings = progress_.warnings();
+  if (writes_ && begun_) write_summary(folder_ / "summary.json", summary_);
+}
+
+void RunRecord::fail(ExitCode code, const std::string& message) {
+  progress_.error(message);
+  progress_.finish();
+  const std::lock_guard lock(mutex_);
+  summary_.exit_code = code;
+  summary_.message = message;
+  try {
+    write_summary_file();
+  } catch (const ExhaustedError& error) {
+    progress_.error(error.what());  // the first error is the one to report
+  }
+}
+
+ExitCode RunRecord::verdict() const {
+  const bool complete = std::all_of(summary_.curves.begin(), summary_.curves.end(),
+                                    [](const CurveSummary& curve) { return curve.complete; });
+  return complete ? ExitCode::complete : ExitCode::incomplete;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,103 @@
+/// @file
+/// What a run leaves behind, kept as it goes: every finished part is on disk before the next begins, so
+/// that an error, an interrupt or a full disk costs only the part it hit.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/run/progress.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/run/run_options.hpp"
+#include "pipelines/response/run_summary.hpp"
+
+namespace microslip::pipelines {
+
+class RunRecord {
+ public:
+  /// Creates the run folder, its lock and log, and writes scene.toml. Results of an earlier run in the
+  /// folder stay until mesh or model of this one are there: bad input does not cost them. On MPI ranks
+  /// above 0 nothing is written by any member.
+  /// @throws ExhaustedError  the folder cannot be written, or another run holds it.
+  RunRecord(const SceneDescription& scene, const RunOptions& options);
+  ~RunRecord();
+  RunRecord(const RunRecord&) = delete;
+  RunRecord& operator=(const RunRecord&) = delete;
+  RunRecord(RunRecord&&) = delete;
+  RunRecord& operator=(RunRecord&&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// Where the mesher writes: mesh.msh of the run folder; MPI ranks above 0 mesh for themselves.
+  [[nodiscard]] std::filesystem::path mesh_file() const;
+  [[nodiscard]] Progress& progress() { return progress_; }
+
+  /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
+  /// interrupt ends the process within a second, with summary.json written, even inside a library.
+  /// @return exit code: complete, or incomplete when a curve is.
+  int run(const std::function<void()>& stages);
+
+  void stage(const std::string& name);
+  void keep_mesh(const mesh::Mesh& mesh, double density);
+  /// modes.csv and modes.vtu, residuals and counts to the log.
+  void keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
+                  const Eigen::VectorXd& damping_ratio);
+  /// model.h5; a modal scene's modes.csv as well.
+  void keep_effects(std::vector<EffectRecord> effects);
+  void keep_model(const ReducedModel& model);
+  /// What the curves kept so far say about the harmonics chosen.
+  void keep_harmonics(const SceneDescription& scene);
+  /// Mesh and modes for pictures of the moving blade.
+  void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
+  /// A point of a curve that is being solved: kept, should the process have to end within it.
+  void note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+                  const solver::ResponsePoint& point);
+  /// Writes the curves that note_point() has points of and keep_curve() has not seen, as interrupted.
+  void keep_unfinished();
+  /// A modal scene's scale is told as the total force it means.
+  void keep_curve(const CurveResult& result, const ReducedModel& model);
+  void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
+  /// Motion of the whole blade at one solution.
+  void keep_motion(const std::string& name, const solver::ResponsePoint& point);
+  void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
+                    const solver::Optimum& optimum);
+  void keep_bracket(OptimumBracket bracket);
+  void keep_summary();
+
+ private:
+  struct Structure {
+    mesh::Mesh mesh;
+    fem::ModalBasis basis;
+  };
+
+  void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
+  void warn_of_unsolved(const CurveResult& result);
+  void write_summary_file();
+  void fail(ExitCode code, const std::string& message);
+  [[nodiscard]] ExitCode verdict() const;
+
+  /// Takes the folder over from an earlier run.
+  void begin();
+
+  std::filesystem::path folder_;
+  std::string scene_toml_;
+  bool begun_ = false;
+  int rank_;
+  bool writes_;  ///< false on MPI ranks above 0
+  Progress progress_;
+  std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
+  RunSummary summary_;
+  std::map<std::string, CurveResult> unfinished_;  ///< under mutex_
+  std::optional<Structure> structure_;
+  int lock_ = -1;
+};
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,27 @@
+/// @file
+/// The [contact] section: surface, stiffness, friction and the laws of the two surfaces.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/text/section_reader.hpp"
+
+namespace microslip::pipelines {
+
+/// Kinds with a mesh. @param folder  relative files start here.
+[[nodiscard]] ContactDescription read_contact(SectionReader section, const std::filesystem::path& folder,
+                                              ContactLaws& laws);
+
+/// Modal scenes: laws beside the constants that the points carry.
+/// @param wear_coefficient  [m²/N], written.
+[[nodiscard]] ContactLaws read_contact_laws(const SectionReader& section, double& wear_coefficient);
+
+/// `friction_coefficient` as a number or a law, which goes into `laws`. @return μ at rest.
+[[nodiscard]] double read_friction(const SectionReader& section, ContactLaws& laws);
+
+/// `roughness` of one surface, or of two: variances of independent heights add. None: smooth.
+[[nodiscard]] std::optional<contact::RoughSurface> read_roughness(const SectionReader& section);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,21 @@
+/// @file
+/// [effects]: which of them a scene switches, and settings that contradict the rest of it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/text/section_reader.hpp"
+
+namespace microslip::pipelines {
+
+/// name → auto | on | off, in the order of the keys.
+/// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
+/// @throws SceneError  a setting that another section contradicts.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
+                                                                            const SceneDescription& scene,
+                                                                            bool has_residual);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,124 @@
+#include "pipelines/scene/meshed_section.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "pipelines/scene/modes_section.hpp"
+#include "pipelines/text/units.hpp"
+
+namespace microslip::pipelines {
+
+BladeModel read_blade(const SectionReader& s) {
+  static_cast<void>(s.integer("order"));
+  BladeModel model;
+  model.element_size = s.number("element_size");
+  mesh::BladeGeometry& g = model.geometry;
+  g.root_width = s.number("root_width");
+  g.root_height = s.number("root_height");
+  g.root_length = s.number("root_length");
+  g.platform_width = s.number("platform_width");
+  g.platform_height = s.number("platform_height");
+  g.platform_length = s.number("platform_length");
+  g.span = s.number("span");
+  g.root_chord = s.number("root_chord");
+  g.tip_chord = s.number("tip_chord");
+  g.root_thickness = s.number("root_thickness");
+  g.tip_thickness = s.number("tip_thickness");
+  g.root_stagger = s.number("root_stagger");
+  g.tip_stagger = s.number("tip_stagger");
+  g.camber = s.number("camber");
+  g.lean = s.number("lean");
+  return model;
+}
+
+MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
+  static_cast<void>(s.integer("order"));
+  MeshFileModel model;
+  const std::filesystem::path file = s.text("file");
+  model.file = file.is_absolute() ? file : folder / file;
+  if (file.extension() != ".msh") {
+    s.fail("file",
+           fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version", file.string()),
+           s.node("file"));
+  }
+  s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
+  const toml::node& unit = *s.node("length_unit");
+  if (const auto name = unit.value<std::string>(); name && unit.is_string()) {
+    if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
+    try {
+      model.length_unit = to_si("1 " + *name, "m");
+    } catch (const UnitError& error) {
+      s.fail("length_unit", error.what(), &unit);
+    }
+  } else {
+    model.length_unit = s.number_in(unit, "length_unit");
+  }
+  if (!(model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", &unit);
+  return model;
+}
+
+fem::Material read_material(const SectionReader& s) {
+  return {s.number("youngs_modulus"), s.number("poissons_ratio"), s.number("density")};
+}
+
+std::vector<std::string> read_names(const SectionReader& s, std::string_view key) {
+  const toml::node& node = *s.node(key);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) s.fail(key, "expected a list of names", &node);
+  std::vector<std::string> names;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_string()) s.fail(key, "expected names in quotes", &entry);
+    names.push_back(*entry.value<std::string>());
+  }
+  return names;
+}
+
+ModesDescription read_modes(const SectionReader& s) {
+  ModesDescription modes;
+  modes.count = s.integer("count");
+  modes.damping = read_damping(s);
+  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
+  const toml::node* given = s.node("damping_ratio");
+  if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
+    s.fail(
+        "damping_ratio",
+        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
+        given);
+  }
+  constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
+  modes.residual =
+      s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::stiffness;
+  return modes;
+}
+
+std::vector<ForceDescription> read_forces(SectionReader& s) {
+  const toml::node& node = *s.node("forces");
+  const toml::array* list = node.as_array();
+  if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
+  std::vector<ForceDescription> forces;
+  toml::array completed;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
+    toml::table complete;
+    complete.is_inline(true);
+    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces",
+                              s.file(), complete);
+    ForceDescription description;
+    description.at = force.text("at");
+    description.place = force.place("at");
+    description.direction = force.direction("direction");
+    description.amplitude = force.number("amplitude");
+    description.phase_deg = force.number("phase");
+    forces.push_back(description);
+    completed.push_back(std::move(complete));
+  }
+  s.complete("forces", std::move(completed));
+  return forces;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,24 @@
+/// @file
+/// Sections that only scenes with a mesh have: the blade or the mesh file, material, supports, modes, forces.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/text/section_reader.hpp"
+
+namespace microslip::pipelines {
+
+/// All throw SceneError with file, line and key.
+[[nodiscard]] BladeModel read_blade(const SectionReader& s);
+/// @param folder  what relative paths are relative to.
+[[nodiscard]] MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder);
+[[nodiscard]] fem::Material read_material(const SectionReader& s);
+[[nodiscard]] std::vector<std::string> read_names(const SectionReader& s, std::string_view key);
+[[nodiscard]] ModesDescription read_modes(const SectionReader& s);
+[[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,196 @@
+#include "pipelines/scene/modal_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/scene_keys.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// One number per mode; a single number stands for all.
+/// @param n_modes  0: the list itself tells how many.
+Eigen::VectorXd per_mode(const SectionReader& section, std::string_view key, Eigen::Index n_modes) {
+  const toml::node& node = *section.node(key);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) {
+    return Eigen::VectorXd::Constant(std::max<Eigen::Index>(n_modes, 1),
+                                     section.number_in(node, key));
+  }
+  if (list->empty()) section.fail(key, "the list is empty", &node);
+  if (n_modes > 0 && static_cast<Eigen::Index>(list->size()) != n_modes) {
+    section.fail(key, fmt::format("{} values for {} modes", list->size(), n_modes), &node);
+  }
+  Eigen::VectorXd values(static_cast<Eigen::Index>(list->size()));
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = section.number_in(*list->get(i), key);
+  }
+  return values;
+}
+
+void require_not_negative(const SectionReader& section, std::string_view key,
+                          const Eigen::VectorXd& values) {
+  if ((values.array() < 0.0).any()) {
+    section.fail(key, fmt::format("{:g} is negative", values.minCoeff()), section.node(key));
+  }
+}
+
+Eigen::VectorXd natural_frequencies(const SectionReader& section) {
+  const bool hertz = section.given("frequency");
+  if (hertz == section.given("angular_frequency")) {
+    section.fail("frequency", hertz ? "give frequency or angular_frequency, not both"
+                                    : "is missing: natural frequencies [Hz], or angular_frequency "
+                                      "[rad/s]");
+  }
+  const std::string_view key = hertz ? "frequency" : "angular_frequency";
+  const Eigen::VectorXd values = per_mode(section, key, 0);
+  require_not_negative(section, key, values);
+  return hertz ? values : Eigen::VectorXd(values / (2.0 * std::numbers::pi));
+}
+
+bool may_be_absent(std::string_view column) {
+  return column.starts_with("phi_v_") || column.starts_with("phi_w_");
+}
+
+/// One number of an inline point; shapes along q and r are zero where they are not given.
+double inline_value(const SectionReader& section, const toml::node& entry,
+                    const std::string& column) {
+  const toml::node* value = entry.as_table()->get(column);
+  if (value == nullptr) {
+    if (may_be_absent(column)) return 0.0;
+    section.fail("points", fmt::format("this point has no {}", column), &entry);
+  }
+  if (!value->is_number() || !std::isfinite(*value->value<double>())) {
+    section.fail("points", fmt::format("{}: expected a finite number", column), value);
+  }
+  return *value->value<double>();
+}
+
+/// A list of inline tables as the table a CSV file would give.
+CsvTable inline_points(const SectionReader& section, const toml::array& list) {
+  std::set<std::string> names;
+  std::vector<std::string> places;
+  for (const toml::node& entry : list) {
+    const toml::table* point = entry.as_table();
+    if (point == nullptr) section.fail("points", "expected tables { weight = …, … }", &entry);
+    for (const auto& [key, value] : *point) names.insert(std::string(key.str()));
+    places.push_back(place_of(&entry, section.file()) + ": modal.points");
+  }
+  std::vector<std::string> columns(names.begin(), names.end());
+  std::vector<double> values;
+  for (const toml::node& entry : list) {
+    for (const std::string& column : columns)
+      values.push_back(inline_value(section, entry, column));
+  }
+  return CsvTable::from_rows(section.file() + ": modal.points", std::move(columns),
+                             std::move(values), std::move(places));
+}
+
+std::vector<std::string> known_columns(Eigen::Index n_modes) {
+  std::vector<std::string> names{
+      "id",      "weight", "tangential_stiffness", "tangential_stiffness_r", "normal_stiffness",
+      "friction_coefficient", "preload", "p", "r"};
+  for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
+    for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
+  }
+  return names;
+}
+
+void refuse_unknown_columns(const CsvTable& table, Eigen::Index n_modes) {
+  const std::vector<std::string> known = known_columns(n_modes);
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  for (const std::string& column : table.columns()) {
+    if (std::find(known.begin(), known.end(), column) != known.end()) continue;
+    throw SceneError(unknown_column(table, column, views) + fmt::format(" ({} modes)", n_modes));
+  }
+}
+
+double not_negative(const CsvTable& table, std::size_t row, std::size_t column) {
+  const double value = table.at(row, column);
+  if (value < 0.0) {
+    throw SceneError(table.place(row, column) + fmt::format("{:g} is negative", value));
+  }
+  return value;
+}
+
+Eigen::MatrixXd shape_columns(const CsvTable& table, const std::string& stem, Eigen::Index n_modes,
+                              bool required) {
+  const auto n = static_cast<Eigen::Index>(table.n_rows());
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(n, n_modes);
+  for (Eigen::Index mode = 0; mode < n_modes; ++mode) {
+    const std::string name = fmt::format("{}{}", stem, mode + 1);
+    const auto column = required ? std::optional(table.require(name)) : table.find(name);
+    if (!column) continue;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      shapes(i, mode) = table.at(static_cast<std::size_t>(i), *column);
+    }
+  }
+  return shapes;
+}
+
+}  // namespace
+
+void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) {
+  if (table.n_rows() == 0) throw SceneError(table.name() + ": no contact points under the header");
+  refuse_unknown_columns(table, n_modes);
+  const std::size_t weight = table.require("weight");
+  const std::size_t tangential = table.require("tangential_stiffness");
+  const std::size_t normal = table.require("normal_stiffness");
+  const std::size_t friction = table.require("friction_coefficient");
+  const std::size_t preload = table.require("preload");
+  model.weights.resize(static_cast<Eigen::Index>(table.n_rows()));
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    model.weights[static_cast<Eigen::Index>(i)] = not_negative(table, i, weight);
+    model.points.push_back({not_negative(table, i, tangential), not_negative(table, i, normal),
+                            not_negative(table, i, friction), table.at(i, preload)});
+  }
+  model.shapes = {shape_columns(table, "phi_u_", n_modes, true),
+                  shape_columns(table, "phi_v_", n_modes, false),
+                  shape_columns(table, "phi_w_", n_modes, false)};
+  if (const auto second = table.find("tangential_stiffness_r")) {
+    model.second_stiffness.resize(model.weights.size());
+    for (std::size_t i = 0; i < table.n_rows(); ++i) {
+      model.second_stiffness[static_cast<Eigen::Index>(i)] = not_negative(table, i, *second);
+    }
+  }
+  const auto p = table.find("p");
+  const auto r = table.find("r");
+  if (!p && !r) return;
+  model.positions = Eigen::MatrixX2d::Zero(model.weights.size(), 2);
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (p) model.positions(row, 0) = table.at(i, *p);
+    if (r) model.positions(row, 1) = table.at(i, *r);
+  }
+}
+
+ModalModel read_modal(SectionReader section, const std::filesystem::path& folder) {
+  ModalModel model;
+  model.frequency_hz = natural_frequencies(section);
+  const Eigen::Index n = model.frequency_hz.size();
+  model.damping_ratio = per_mode(section, "damping_ratio", n);
+  require_not_negative(section, "damping_ratio", model.damping_ratio);
+  model.force_sine = per_mode(section, "force_sine", n);
+  model.force_cosine = per_mode(section, "force_cosine", n);
+  model.force_static = per_mode(section, "force_static", n);
+  model.output = per_mode(section, "output", n);
+  const toml::node& points = *section.node("points");
+  if (const auto file = points.value<std::string>(); file && points.is_string()) {
+    const std::filesystem::path path =
+        std::filesystem::path(*file).is_absolute() ? std::filesystem::path(*file) : folder / *file;
+    set_points(model, CsvTable::read(path), n);
+    section.complete("points", path.string());  // scene.toml stands elsewhere than the scene
+  } else if (const toml::array* list = points.as_array()) {
+    if (!list->empty()) set_points(model, inline_points(section, *list), n);
+  } else {
+    section.fail("points", "expected the name of a CSV file, or a list of tables", &points);
+  }
+  return model;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,172 @@
+/// @file
+/// A scene as the user wrote it, every default filled in, in SI (frequencies in Hz as written).
+/// Made by scene_file, read by study and the writers; plain values.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "contact/contact_patch.hpp"
+#include "contact/surface/friction_law.hpp"
+#include "contact/surface/rough_surface.hpp"
+#include "fem/material.hpp"
+#include "mesh/blade_geometry.hpp"
+#include "pipelines/scene/field_description.hpp"
+
+namespace microslip::pipelines {
+
+struct BladeModel {
+  mesh::BladeGeometry geometry;
+  double element_size = 0.004;  ///< [m]
+};
+
+struct MeshFileModel {
+  std::filesystem::path file;  ///< absolute
+  double length_unit = 1.0;    ///< metres per unit of the file
+};
+
+enum class ResidualKind { none, stiffness };
+
+/// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
+enum class LoadMeasure { scale, force };
+
+/// Points of two plane stiff bodies that are pressed together by a force and moments and tilt against each
+/// other (theory section 12): some of them may lift off.
+struct TiltedArea {
+  std::string key;         ///< that gives the moments, for messages
+  Eigen::Index begin = 0;  ///< its first point; the others follow
+  Eigen::VectorXd p, r;    ///< of its points, from where the moments turn [m]
+  double share = 1.0;      ///< of the load of a curve [-]
+  std::array<double, 2> moment{0.0, 0.0};  ///< about p and r [N m], the same under every load
+};
+
+/// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
+/// `bar`, `chain` and `block`.
+struct ModalModel {
+  Eigen::VectorXd frequency_hz;
+  Eigen::VectorXd damping_ratio;
+  Eigen::VectorXd force_sine, force_cosine, force_static;  ///< [N/√kg]
+  Eigen::VectorXd output;
+  Eigen::VectorXd weights;
+  std::vector<contact::PointParameters> points;
+  contact::ModalShapes shapes;
+  Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
+  Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
+  LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
+  std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
+  ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
+  std::optional<double> local_stiffness;  ///< contact.tangential_stiffness where that is so [N/m²]
+};
+
+struct RayleighDamping {
+  double alpha = 0.0;  ///< [1/s]
+  double beta = 0.0;   ///< [s]
+};
+
+struct ModesDescription {
+  int count = 10;
+  std::variant<std::vector<double>, RayleighDamping> damping;  ///< ratios: one for all, or one per mode
+  ResidualKind residual = ResidualKind::stiffness;
+};
+
+struct ContactDescription {
+  std::string surface;
+  std::string place;  ///< "file:line: key" of `surface`, for messages
+  Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
+  FieldDescription friction;                       ///< μ over the patch, in p and r from its centroid
+  std::optional<FieldDescription> preload_field;   ///< shape of the preload; none: uniform
+  std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
+  std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
+  std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
+  enum class Fit { automatic, degree, none } fit = Fit::automatic;
+  int fit_degree = 0;
+  double wear_coefficient = 0.0;  ///< Archard [m²/N]
+  int n_points = 300;             ///< at least so many contact points
+};
+
+struct ForceDescription {
+  std::string at;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< normalised
+  double amplitude = 0.0;                                ///< [N], total over the nodes of `at`
+  double phase_deg = 0.0;
+  std::string place;  ///< "file:line: key" of `at`, for messages
+};
+
+struct OutputDescription {
+  std::string at;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  std::string place;  ///< "file:line: key" of `at`, for messages
+};
+
+enum class LimitName { free, stuck };
+using PreloadEntry = std::variant<double, LimitName>;  ///< [N], or a linear limit
+enum class MapName { peak, folds };
+using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
+
+/// A motion integrated in time has all harmonics; at least so many are kept of it.
+inline constexpr int least_harmonics_of_time = 15;
+
+/// Highest harmonic that "auto" may add.
+inline constexpr int most_automatic_harmonics = 31;
+
+/// The one number of a scene whose best value is searched.
+struct OptimumRequest {
+  std::string key;  ///< "preload", or the key of another number: "contact.friction_coefficient"
+  std::optional<std::array<double, 2>> range;  ///< in SI; none: between the positive preloads
+  double load = 0.0;  ///< under which another key is searched: preload [N] or scale
+
+  [[nodiscard]] bool of_preload() const { return key == "preload"; }
+};
+
+struct ResponseDescription {
+  OutputDescription output;         ///< kinds with a mesh
+  double frequency_begin_hz = 0.0;
+  double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
+  int harmonics = 1;                  ///< highest; with harmonic_tolerance the highest that may be added
+  std::vector<int> harmonic_orders;   ///< the only ones; empty: 1 … harmonics
+  double harmonic_tolerance = 0.0;    ///< above 0: chosen point by point, see solver::ContinuationOptions
+  enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
+  int search_starts = 0;   ///< of a search for detached branches; 0: none
+  int n_time_points = 40;  ///< frequencies of method = "time"
+  int steps_per_period = 0;  ///< of method = "time": fixed steps; 0: changes of contact are located
+  std::string steps_place;   ///< "file:line: key" of it, for messages
+  std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
+  std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
+  bool limits = true;                     ///< modal scenes: free and stuck curves as well
+  std::optional<OptimumRequest> optimum;
+  std::vector<MapEntry> maps;
+  int map_phases = 72;
+};
+
+/// What the constants of a point do not say about its contact.
+struct ContactLaws {
+  std::optional<contact::FrictionLaw> friction;      ///< in place of the coefficient of points that rub
+  std::optional<contact::RoughSurface> roughness;    ///< none: smooth
+};
+
+struct SceneDescription {
+  std::string title;
+  std::filesystem::path file;  ///< the scene file, "" for text
+  std::variant<BladeModel, MeshFileModel, ModalModel> model;
+  fem::Material material;
+  std::vector<std::string> clamped;
+  std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
+  ModesDescription modes;
+  std::optional<ContactDescription> contact;
+  ContactLaws laws;
+  double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
+  std::vector<ForceDescription> forces;
+  std::optional<ResponseDescription> response;
+  /// Why `run` refuses: [response] speaks of a contact the scene does not have. Empty: it does not.
+  std::string without_contact;
+  std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
+  std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
+};
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,226 @@
+#include "pipelines/scene/scene_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "pipelines/scene/bar_scene.hpp"
+#include "pipelines/scene/block_scene.hpp"
+#include "pipelines/scene/chain_scene.hpp"
+#include "pipelines/scene/contact_section.hpp"
+#include "pipelines/text/csv_table.hpp"
+#include "pipelines/scene/effects_section.hpp"
+#include "pipelines/scene/meshed_section.hpp"
+#include "pipelines/scene/modal_scene.hpp"
+#include "pipelines/text/nearest_name.hpp"
+#include "pipelines/scene/response_section.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/scene/scene_overrides.hpp"
+#include "pipelines/text/section_reader.hpp"
+#include "pipelines/text/toml_text.hpp"
+#include "pipelines/scene/write_scene.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
+constexpr std::array<std::string_view, 6> kinds{"blade", "mesh", "modal", "bar", "chain", "block"};
+
+/// The scene while it is read: what was given, and the completed scene that grows beside it.
+struct Reading {
+  toml::table given;
+  toml::table complete;
+  std::string file;
+  std::filesystem::path folder;
+
+  [[nodiscard]] const toml::table* table(std::string_view name) const {
+    const toml::node* node = given.get(name);
+    if (node == nullptr) return nullptr;
+    if (const toml::table* found = node->as_table()) return found;
+    throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
+                                 node->is_array() && name == "contact"
+                                     ? "several contact patches are not available in this version"
+                                     : fmt::format("expected a section [{}]{}", name,
+                                                   node->is_array() ? ", once; found a list, or [[…]]" : "")));
+  }
+
+  SectionReader section(std::string_view name, std::string_view spec) {
+    return section(name, section_spec(spec));
+  }
+
+  SectionReader section(std::string_view name, SectionSpec spec) {
+    const auto [position, added] = complete.insert_or_assign(name, toml::table{});
+    return {table(name), spec, std::string(name), file, *position->second.as_table()};
+  }
+};
+
+void check_sections(const Reading& reading, std::string_view kind) {
+  std::vector<std::string_view> known{"title"};
+  for (const std::string_view name : sections_of_kind(kind)) known.push_back(name);
+  for (const auto& [key, node] : reading.given) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    const std::string near = nearest_name(key.str(), known);
+    throw SceneError(fmt::format("{}: {}: unknown in a scene of kind \"{}\"; {}",
+                                 place_of(&node, reading.file), key.str(), kind,
+                                 near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                                              : fmt::format("did you mean \"{}\"?", near)));
+  }
+}
+
+std::string kind_of(const Reading& reading) {
+  const toml::table* model = reading.table("model");
+  const toml::node* kind = model != nullptr ? model->get("kind") : nullptr;
+  if (kind == nullptr) {
+    throw SceneError(fmt::format("{}: model.kind: is missing; expected one of: {}", reading.file,
+                                 fmt::join(kinds, ", ")));
+  }
+  const auto value = kind->value<std::string>();
+  if (!value || std::find(kinds.begin(), kinds.end(), *value) == kinds.end()) {
+    throw SceneError(fmt::format("{}: model.kind: {} is not available; expected one of: {}",
+                                 place_of(kind, reading.file),
+                                 value ? "\"" + *value + "\"" : "this", fmt::join(kinds, ", ")));
+  }
+  return *value;
+}
+
+/// Without contact there is no preload to set, and none to choose.
+std::string contact_keys_without_contact(const SectionReader& response) {
+  for (const char* key : {"preload", "optimum", "maps"}) {
+    if (response.given(key)) return response.place(key) + ": the scene has no [contact]";
+  }
+  return {};
+}
+
+void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  if (kind == "blade") {
+    scene.model = read_blade(reading.section("model", "model.blade"));
+  } else {
+    scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
+  }
+  scene.material = read_material(reading.section("material", "material"));
+  const SectionReader supports = reading.section("supports", "supports");
+  scene.clamped = read_names(supports, "clamped");
+  scene.clamped_place = supports.place("clamped");
+  scene.modes = read_modes(reading.section("modes", "modes"));
+  if (reading.given.contains("contact")) {
+    scene.contact = read_contact(reading.section("contact", "contact"), reading.folder, scene.laws);
+  }
+  SectionReader excitation = reading.section("excitation", "excitation");
+  scene.forces = read_forces(excitation);
+  if (reading.given.contains("response")) {
+    const SectionReader response = reading.section("response", "response");
+    scene.response = read_response(response, kind);
+    if (!scene.contact) scene.without_contact = contact_keys_without_contact(response);
+  }
+}
+
+void read_modal_scene(Reading& reading, SceneDescription& scene) {
+  static_cast<void>(reading.section("model", "model.modal"));
+  scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
+  scene.laws = read_contact_laws(reading.section("contact", "contact.modal"), scene.wear_coefficient);
+  if (reading.given.contains("response")) {
+    scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
+  }
+}
+
+/// The kinds that have formulas for their modes end in the same model as a modal scene.
+void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  const auto section = [&](std::string_view name) {
+    return reading.section(name, section_spec(name, kind));
+  };
+  const LeanSections sections{section("model"), section("modes"), section("contact"),
+                              section("excitation")};
+  std::string coordinate;
+  std::optional<BlockOutput> output;
+  if (reading.given.contains("response")) {
+    SectionReader response = section("response");
+    scene.response = kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
+    if (kind == "chain") coordinate = response.text("output");
+    if (kind == "block") output = read_block_output(response);
+  }
+  const ModalModel model =
+      kind == "bar"     ? read_bar(sections)
+      : kind == "chain" ? read_chain(sections, coordinate)
+                        : read_block(sections, output, scene.laws, scene.wear_coefficient);
+  if (model.points.empty() && reading.given.contains("response")) {
+    scene.without_contact = contact_keys_without_contact(section("response"));
+  }
+  scene.modes.residual = model.residual;
+  scene.model = model;
+}
+
+SceneDescription scene_of(toml::table given, const std::string& name,
+                          const std::filesystem::path& folder) {
+  Reading reading{std::move(given), {}, name, folder};
+  const std::string kind = kind_of(reading);
+  check_sections(reading, kind);
+  SceneDescription scene;
+  scene.file = name;
+  if (const toml::node* title = reading.given.get("title")) {
+    if (!title->is_string()) {
+      throw SceneError(place_of(title, name) + ": title: expected a text in quotes");
+    }
+    scene.title = *title->value<std::string>();
+  }
+  reading.complete.insert_or_assign("title", scene.title);
+  if (kind == "modal") {
+    read_modal_scene(reading, scene);
+  } else if (kind == "bar" || kind == "chain" || kind == "block") {
+    read_lean_scene(reading, kind, scene);
+  } else {
+    read_meshed(reading, kind, scene);
+  }
+  const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
+  scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
+  scene.complete_toml = scene_as_toml(reading.complete, kind);
+  return scene;
+}
+
+/// Both ends of a search must be scenes themselves.
+void check_optimum(const SceneDescription& scene) {
+  if (!scene.response || !scene.response->optimum || scene.response->optimum->of_preload()) return;
+  const OptimumRequest& optimum = *scene.response->optimum;
+  for (const double bound : *optimum.range) {
+    try {
+      static_cast<void>(with_value(scene, optimum.key, bound));
+    } catch (const SceneError& error) {
+      throw SceneError(fmt::format("response.optimum_range: {:g} is no value of {}: {}", bound,
+                                   optimum.key, error.what()));
+    }
+  }
+}
+
+}  // namespace
+
+SceneDescription parse_scene(const std::string& text, const std::string& name,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::string>& overrides) {
+  toml::table given = parse_toml(text, name);
+  for (const std::string& assignment : overrides) apply_override(given, assignment);
+  SceneDescription scene = scene_of(std::move(given), name, folder);
+  check_optimum(scene);
+  return scene;
+}
+
+SceneDescription with_value(const SceneDescription& scene, const std::string& key, double value) {
+  const std::string name = scene.file.string();
+  toml::table given = parse_toml(scene.complete_toml, name);
+  if (toml::table* response = given["response"].as_table()) {
+    for (const char* search : {"optimum", "optimum_range", "optimum_at"}) response->erase(search);
+  }
+  apply_override(given, fmt::format("{}={:.17g}", key, value));
+  return scene_of(std::move(given), name, std::filesystem::absolute(scene.file).parent_path());
+}
+
+SceneDescription read_scene(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides) {
+  const std::string text = read_text(file, largest_scene);
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  return parse_scene(text, file.string(), folder, overrides);
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,31 @@
+/// @file
+/// Scene file (TOML) → SceneDescription: SI, every default filled in, everything checked.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// @param file       scene file; relative paths inside are relative to it.
+/// @param overrides  "key.path=value" as given with --set, applied before anything is checked.
+/// @throws SceneError  "file:line: key: what was expected", with the nearest known name.
+[[nodiscard]] SceneDescription read_scene(const std::filesystem::path& file,
+                                          const std::vector<std::string>& overrides = {});
+
+/// The same from text. @param name    how messages call it.
+///                     @param folder  what relative paths are relative to.
+[[nodiscard]] SceneDescription parse_scene(const std::string& text, const std::string& name,
+                                           const std::filesystem::path& folder,
+                                           const std::vector<std::string>& overrides = {});
+
+/// The scene with one number changed, and without its search for an optimum.
+/// @param key  path as of --set.
+/// @throws SceneError  the value is none the key can have.
+[[nodiscard]] SceneDescription with_value(const SceneDescription& scene, const std::string& key,
+                                          double value);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,349 @@
+#include "pipelines/text/scene_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipelines/text/response_keys.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using enum KeyType;
+using namespace keys;
+
+constexpr KeySpec length_key(std::string_view name, std::string_view preset,
+                             std::string_view meaning) {
+  return {name, number, "m", preset, 0.0, 10.0, true, meaning};
+}
+
+constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal | bar | chain | block"};
+constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
+
+constexpr std::array blade_keys{
+    kind_key,
+    length_key("element_size", "\"4 mm\"", "target edge length of the mesh"),
+    order_key,
+    length_key("root_width", "\"6.6 mm\"", "root block along x (circumferential)"),
+    length_key("root_height", "\"25 mm\"", "root block along y (radial); its foot lies in y = 0"),
+    length_key("root_length", "\"50 mm\"", "root block along z (axial)"),
+    length_key("platform_width", "\"60 mm\"", "platform along x; its right side face is the contact"),
+    length_key("platform_height", "\"10 mm\"", "platform along y"),
+    length_key("platform_length", "\"60 mm\"", "platform along z"),
+    length_key("span", "\"114.1 mm\"", "aerofoil above the platform"),
+    length_key("root_chord", "\"44 mm\"", "chord at the platform"),
+    length_key("tip_chord", "\"34 mm\"", "chord at the tip"),
+    length_key("root_thickness", "\"5 mm\"", "largest thickness of the section at the platform"),
+    length_key("tip_thickness", "\"3 mm\"", "largest thickness of the section at the tip"),
+    KeySpec{"root_stagger", number, "rad", "0.1", -1.5, 1.5, false,
+            "angle of the chord to z about y at the platform"},
+    KeySpec{"tip_stagger", number, "rad", "0.6", -1.5, 1.5, false, "the same at the tip"},
+    KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false, "height of the camber line over the chord"},
+    KeySpec{"lean", number, "m", "\"-3 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
+};
+
+constexpr std::array mesh_keys{
+    kind_key,
+    KeySpec{"file", text, "", "", 0, 0, false, "gmsh mesh (.msh 2.2 or 4.1), relative to the scene"},
+    KeySpec{"length_unit", other, "m", "\"m\"", 0, 0, false, "unit of the file's coordinates: \"mm\", or metres per unit"},
+    order_key,
+};
+
+constexpr std::array modal_model_keys{kind_key};
+
+constexpr std::array bar_model_keys{
+    kind_key,
+    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"area", number, "m^2", "", 0.0, unbounded, true, "A, cross-section"},
+    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+    KeySpec{"length", number, "m", "", 0.0, unbounded, true, "L; the left end is x = 0, the right one is free"},
+    KeySpec{"end_stiffness", other, "N/m", "\"clamped\"", 0, 0, false,
+            "β, spring that holds the left end: a stiffness, \"clamped\", or 0 (free)"},
+};
+
+constexpr std::array chain_model_keys{
+    kind_key,
+    KeySpec{"coordinates", other, "", "", 0, 0, false,
+            "names of the coordinates; else m1, m2, … in order", true},
+    KeySpec{"masses", other, "kg", "", 0, 0, false,
+            "a chain: m1 … mn (with springs; the alternatives are matrices, or modes)", true},
+    KeySpec{"springs", other, "N/m", "", 0, 0, false,
+            "a chain: ground–m1, m1–m2, …, and, if one more is given, mn–ground; 0: none", true},
+    KeySpec{"mass_matrix", other, "kg", "", 0, 0, false, "any system: M, symmetric, a list of rows", true},
+    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false, "any system: K, symmetric, a list of rows", true},
+    KeySpec{"frequency", other, "Hz", "", 0, 0, false, "given modes: natural frequencies, one per mode", true},
+    KeySpec{"mode_shapes", other, "1/kg^0.5", "", 0, 0, false,
+            "given modes: one row per mode, mass-normalised, a number per coordinate", true},
+};
+
+constexpr std::array block_model_keys{
+    kind_key,
+    KeySpec{"mass", number, "kg", "", 0.0, unbounded, true, "of the block; vectors of this scene are told along p, q, r: q points out of the block into the ground"},
+    KeySpec{"moments_of_inertia", other, "kg*m^2", "", 0.0, unbounded, false, "about p, q, r through the centre of mass: the principal axes"},
+    KeySpec{"height", number, "m", "0", -unbounded, unbounded, false, "of the centre of mass above the contact plane"},
+    KeySpec{"stiffness", other, "N/m", "", 0.0, unbounded, false, "springs at the centre of mass along p, q, r", true},
+    KeySpec{"rotational_stiffness", other, "N*m", "", 0.0, unbounded, false, "springs that turn about p, q, r, per rad", true},
+    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false,
+            "6 x 6 instead, SI, of the displacements along p, q, r and the rotations about them, at the centre of mass", true},
+};
+
+constexpr std::array material_keys{
+    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"poissons_ratio", number, "1", "", -1.0, 0.4999, true, "ν"},
+    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+};
+
+constexpr std::array support_keys{
+    KeySpec{"clamped", other, "", "[]", 0, 0, false, "names of surfaces, or sets of edges or nodes, that are held"},
+};
+
+constexpr KeySpec damping_key{"damping_ratio", other, "1", "0.002", 0, 0, false,
+                              "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"};
+
+constexpr std::array mode_keys{
+    KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes"},
+    damping_key,
+    KeySpec{"residual", text, "", "\"stiffness\"", 0, 0, false,
+            "omitted modes on the contact: stiffness | none"},
+};
+
+constexpr std::array bar_mode_keys{
+    KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes, the lowest ones"},
+    KeySpec{"which", other, "", "", 0, 0, false,
+            "the modes by number, whatever the count: [2] keeps the second alone", true},
+    damping_key,
+    KeySpec{"residual", text, "", "\"none\"", 0, 0, false,
+            "omitted modes on the contact: stiffness | none"},
+};
+
+constexpr std::array chain_mode_keys{
+    KeySpec{"count", integer, "", "", 1, 1000, false, "number of modes, the lowest ones; else all", true},
+    damping_key,
+};
+
+constexpr KeySpec friction_key{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"};
+
+constexpr std::array bar_contact_keys{
+    KeySpec{"tangential_stiffness", number, "N/m^2", "", 0.0, unbounded, false, "per length of the bar"},
+    friction_key,
+    KeySpec{"load", other, "N/m", "", 0, 0, false,
+            "normal force per length, constant in time: a number, or an expression in x and L such as "
+            "\"2000*(0.2 + 0.8*(2*x/L - 1)^2)\""},
+    KeySpec{"points", integer, "", "200", 1, 10'000'000, false, "contact points along the bar"},
+};
+
+constexpr std::array bar_excitation_keys{
+    KeySpec{"force", number, "N", "", -unbounded, unbounded, false, "F in F sin θ along the bar, at its right end"},
+};
+
+constexpr std::array block_excitation_keys{
+    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic loads F sin(θ + phase)"},
+};
+
+constexpr std::array block_force_keys{
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] where the force acts, from the centre of mass"},
+    KeySpec{"force", other, "N", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes along p, q, r"},
+    KeySpec{"moment", other, "N*m", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes about p, q, r"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr std::array block_output_keys{
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] from the centre of mass"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "along p, q, r"},
+};
+
+constexpr std::array chain_contact_keys{
+    KeySpec{"points", other, "", "[]", 0, 0, false, "contacts, a list of tables"},
+};
+
+constexpr std::array chain_contact_point_keys{
+    KeySpec{"slip", other, "1", "", 0, 0, false,
+            "coordinate that rubs, or a relative motion { m1 = 1, m2 = -1 }"},
+    KeySpec{"approach", other, "1", "", 0, 0, false, "the same for the normal motion, positive when it closes", true},
+    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "k_u of the contact"},
+    KeySpec{"normal_stiffness", number, "N/m", "0", 0.0, unbounded, false, "k_v; 0: constant load"},
+    friction_key,
+    KeySpec{"share", number, "1", "1", 0.0, unbounded, false, "of the total preload, relative to the other contacts"},
+    KeySpec{"cells", other, "", "[1, 1]", 0, 0, false, "an area instead of a point: cells along p (slip) and r"},
+    KeySpec{"size", other, "m", "", 0.0, unbounded, true, "of the area along p and r", true},
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false, "about p and r, given to the cells beside the force"},
+};
+
+constexpr std::array chain_force_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "coordinate"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "F in F sin(θ + phase)"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr KeySpec roughness_key{"roughness", other, "m", "", 0.0, unbounded, false,
+                                "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two", true};
+constexpr KeySpec wear_key{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
+                           "Archard: depth per (pressure × slip distance)"};
+
+constexpr std::array block_contact_keys{
+    KeySpec{"cells", other, "", "[4, 4]", 0, 0, false, "along p and r"},
+    KeySpec{"size", other, "m", "", 0.0, unbounded, false, "of the contact rectangle along p and r"},
+    KeySpec{"centre", other, "m", "[0, 0]", -unbounded, unbounded, false, "of the rectangle along p and r, from below the centre of mass"},
+    KeySpec{"normal_stiffness", number, "N/m", "", 0.0, unbounded, false, "of all cells together, in full contact; 0: constant load"},
+    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "the same along p and along r"},
+    KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
+            "μ: a number, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "{ law = \"hyperbolic\", static = …, rate = … }"},
+    roughness_key,
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
+            "about p and r through the centre of the rectangle, beside each preload; cells may lift off"},
+    wear_key,
+};
+
+constexpr std::array modal_contact_keys{
+    KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
+            "of all points that rub, in place of their coefficient: { law = \"exponential\", static = …, "
+            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }", true},
+    roughness_key,
+    wear_key,
+};
+
+constexpr std::array contact_keys{
+    KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
+    KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
+    KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
+            "μ: a number, an expression in p and r [m] from the centroid of the patch, { file = \"mu.csv\" } with "
+            "columns p, r, value, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "{ law = \"hyperbolic\", static = …, rate = … }"},
+    roughness_key,
+    KeySpec{"preload_field", other, "Pa", "\"uniform\"", -unbounded, unbounded, false,
+            "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or { file = … }; "
+            "negative: a gap; a total is what the pressed part carries"},
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
+            "about p and r through the centroid, beside each preload; cells may lift off"},
+    KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
+            "local stiffness per area, or \"rigid\": the residual stiffness alone"},
+    KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
+    KeySpec{"fit", other, "", "\"auto\"", 0, 0, false,
+            "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
+    wear_key,
+    KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
+};
+
+constexpr std::array excitation_keys{
+    KeySpec{"forces", other, "", "[]", 0, 0, false, "list of harmonic forces F sin(θ + phase)"},
+};
+
+constexpr std::array force_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "in all, spread evenly over the nodes"},
+    KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
+};
+
+constexpr std::array output_keys{
+    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface (mean over its nodes)"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
+};
+
+constexpr std::array modal_keys{
+    KeySpec{"frequency", other, "Hz", "", 0, 0, false, "natural frequencies, one per mode", true},
+    KeySpec{"angular_frequency", other, "rad/s", "", 0, 0, false, "the same in rad/s, instead", true},
+    KeySpec{"damping_ratio", other, "1", "", 0, 0, false, "one per mode, or one number"},
+    KeySpec{"force_sine", other, "N/kg^0.5", "", 0, 0, false, "modal force amplitudes of sin θ"},
+    KeySpec{"force_cosine", other, "N/kg^0.5", "0", 0, 0, false, "of cos θ"},
+    KeySpec{"force_static", other, "N/kg^0.5", "0", 0, 0, false, "static modal force"},
+    KeySpec{"output", other, "1/kg^0.5", "", 0, 0, false, "y = Σ output_m q_m"},
+    KeySpec{"points", other, "", "[]", 0, 0, false, "contact points: a CSV file, or a list of tables"},
+};
+
+constexpr std::array effect_keys{
+    KeySpec{"normal_motion", text, "", "\"auto\"", 0, 0, false, "load variation by normal motion"},
+    KeySpec{"separation", text, "", "\"auto\"", 0, 0, false, "one-sided contact"},
+    KeySpec{"mean_coupling", text, "", "\"auto\"", 0, 0, false, "mean motion changes the load"},
+    KeySpec{"second_direction", text, "", "\"auto\"", 0, 0, false, "friction along r as well"},
+    KeySpec{"higher_harmonics", text, "", "\"auto\"", 0, 0, false, "harmonics above the first"},
+    KeySpec{"roughness", text, "", "\"auto\"", 0, 0, false, "rough surfaces"},
+    KeySpec{"rate_dependence", text, "", "\"auto\"", 0, 0, false, "friction coefficient by slip speed"},
+    KeySpec{"residual", text, "", "\"auto\"", 0, 0, false, "residual flexibility of omitted modes"},
+    KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
+};
+
+constexpr std::array<SectionSpec, 34> sections{{
+    {"model.blade", blade_keys},
+    {"model.mesh", mesh_keys},
+    {"model.modal", modal_model_keys},
+    {"material", material_keys},
+    {"supports", support_keys},
+    {"modes", mode_keys},
+    {"contact", contact_keys},
+    {"contact.modal", modal_contact_keys},
+    {"excitation", excitation_keys},
+    {"force", force_keys},
+    {"output", output_keys},
+    {"response", response_keys},
+    {"response.modal", modal_response_keys},
+    {"modal", modal_keys},
+    {"effects", effect_keys},
+    {"model.bar", bar_model_keys},
+    {"modes.bar", bar_mode_keys},
+    {"contact.bar", bar_contact_keys},
+    {"excitation.bar", bar_excitation_keys},
+    {"response.bar", modal_response_keys},
+    {"model.chain", chain_model_keys},
+    {"modes.chain", chain_mode_keys},
+    {"contact.chain", chain_contact_keys},
+    {"contact.chain.point", chain_contact_point_keys},
+    {"response.chain", chain_response_keys},
+    {"force.chain", chain_force_keys},
+    {"excitation.chain", excitation_keys},
+    {"model.block", block_model_keys},
+    {"modes.block", chain_mode_keys},
+    {"contact.block", block_contact_keys},
+    {"excitation.block", block_excitation_keys},
+    {"force.block", block_force_keys},
+    {"output.block", block_output_keys},
+    {"response.block", block_response_keys},
+}};
+
+constexpr std::array<std::string_view, 8> mesh_sections{
+    "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
+constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
+                                                         "effects"};
+constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain, block
+    "model", "modes", "contact", "excitation", "response", "effects"};
+
+}  // namespace
+
+SectionSpec section_spec(std::string_view name) {
+  for (const SectionSpec& section : sections) {
+    if (section.name == name) return section;
+  }
+  throw std::logic_error("no scene section " + std::string(name));
+}
+
+SectionSpec section_spec(std::string_view section, std::string_view kind) {
+  const std::string own = fmt::format("{}.{}", section, kind);
+  const bool has_own = std::any_of(sections.begin(), sections.end(),
+                                   [&](const SectionSpec& spec) { return spec.name == own; });
+  return section_spec(has_own ? std::string_view(own) : section);
+}
+
+std::span<const std::string_view> sections_of_kind(std::string_view kind) {
+  if (kind == "modal") return modal_sections;
+  if (kind == "bar" || kind == "chain" || kind == "block") return lean_sections;
+  return mesh_sections;
+}
+
+std::string range_text(const KeySpec& key) {
+  const bool from = key.low > -unbounded;
+  const bool to = key.high < unbounded;
+  if (from && to && key.low == key.high) return fmt::format("{:g}", key.low);
+  if (from && to) {
+    return key.above_low ? fmt::format("above {:g}, at most {:g}", key.low, key.high)
+                         : fmt::format("{:g} to {:g}", key.low, key.high);
+  }
+  if (from) return fmt::format("{} {:g}", key.above_low ? "above" : "at least", key.low);
+  if (to) return fmt::format("at most {:g}", key.high);
+  return "any number";
+}
+
+}  // namespace microslip::pipelines

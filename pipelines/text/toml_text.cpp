@@ -1,0 +1,84 @@
+#include "pipelines/text/toml_text.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::size_t longest_line = 1000;  // of those searched for keys: scenes are written by hand
+
+/// The part of a line that may hold a key or the name of a section.
+std::string searched(std::string_view line) { return std::string(line.substr(0, longest_line)); }
+
+/// section.key that the text breaks off in, as far as its lines tell; empty in front of the first key. A guess for a
+/// message: what cannot be parsed has no keys to ask for.
+std::string key_at_end_of(std::string_view text) {
+  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_][\w.\- ]*?)\s*\]\]?\s*(#.*)?\r?$)");
+  static const std::regex assignment(R"(^\s*([\w.\-]+)\s*=)");
+  static const std::regex nested(R"([{,]\s*([\w.\-]+)\s*=[^={}]*$)");
+  std::string section;
+  std::string key;
+  std::smatch found;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = searched(text.substr(begin, end - begin));
+    if (std::regex_search(line, found, header)) {
+      section = found[1].str() + ".";
+      key.clear();
+    } else if (std::regex_search(line, found, assignment)) {
+      key = found[1].str();
+    }
+    if (end == text.size() && std::regex_search(line, found, nested)) key += "." + found[1].str();
+    begin = end + 1;
+  }
+  return key.empty() ? std::string() : section + key;
+}
+
+/// Offset of a place in a text; columns count code points.
+std::size_t offset_of(const toml::source_position& place, std::string_view text) {
+  std::size_t at = 0;
+  for (std::size_t line = 1; line < place.line && at < text.size(); ++line) {
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  }
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
+  for (std::size_t column = 1; column < place.column && at < text.size() && text[at] != '\n'; ++column) {
+    do ++at;
+    while (at < text.size() && continues(at));
+  }
+  return at;
+}
+
+}  // namespace
+
+std::string description_of(const toml::parse_error& error) {
+  const std::string text(error.description());
+  std::smatch found;
+  if (std::regex_search(text, found, std::regex("'([^']*)' could not be interpreted as a value"))) {
+    return fmt::format("{} is out of range: expected a number of at most 1.797e308 in size", found[1].str());
+  }
+  if (std::regex_search(text, found, std::regex("'([^']*)' is not representable in 64 bits"))) {
+    return fmt::format("{} is out of range: whole numbers end at 9.2e18; write 1e20 with a point or an e",
+                       found[1].str());
+  }
+  constexpr std::string_view preface = "Error while parsing ";
+  return text.starts_with(preface) ? "cannot be read as TOML: " + text.substr(preface.size()) : text;
+}
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position place = error.source().begin;
+    const std::string key = key_at_end_of(text.substr(0, offset_of(place, text)));
+    throw SceneError(fmt::format("{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
+                                 description_of(error)));
+  }
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,217 @@
+#include "solver/balance/harmonic_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace microslip::solver {
+namespace {
+
+void require(bool condition, const std::string& message) {
+  if (!condition) throw std::invalid_argument("scene: " + message);
+}
+
+void check(const Scene& scene) {
+  const Eigen::Index n = scene.n_modes();
+  require(n >= 1, "no modes");
+  require(scene.damping_ratio.size() == n && scene.output.size() == n &&
+              scene.excitation.n_signals() == n,
+          "damping ratios, output and excitation must have one entry per mode (" +
+              std::to_string(n) + ")");
+  require(scene.contact == nullptr || scene.contact->n_modes() == n,
+          "the contact has another number of modes");
+  require(scene.natural_frequency.allFinite() && (scene.natural_frequency.array() >= 0.0).all(),
+          "natural frequencies must be finite and at least 0");
+  require(scene.damping_ratio.allFinite() && scene.output.allFinite() &&
+              scene.excitation.rows().allFinite(),
+          "damping ratios, output and excitation must be finite");
+}
+
+std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
+  std::vector<Eigen::Index> rows{0};
+  for (const int k : set.orders()) {
+    rows.push_back(2 * k - 1);
+    rows.push_back(2 * k);
+  }
+  return rows;
+}
+
+}  // namespace
+
+HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
+    : scene_(scene), set_(std::move(set)), rows_(rows_of(set_)) {
+  check(scene);
+  const Eigen::Index n = scene.n_modes();
+  excitation_ = unknowns(scene.excitation);
+  stiffness_ = scene.natural_frequency.array().square();
+  damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+  stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
+}
+
+Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
+  const Eigen::Index n = scene_.n_modes();
+  if (set_.complete()) return {set_.highest(), n, x};
+  Harmonics q(set_.highest(), n);
+  Eigen::Index at = 0;
+  for (const Eigen::Index row : rows_) {
+    q.rows().row(row) = x.segment(at, n).transpose();
+    at += n;
+  }
+  return q;
+}
+
+Eigen::VectorXd HarmonicBalance::unknowns(const Harmonics& q) const {
+  const Eigen::Index n = scene_.n_modes();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()) * n);
+  Eigen::Index at = 0;
+  for (const Eigen::Index row : rows_) {
+    if (row < q.rows().rows()) x.segment(at, n) = q.rows().row(row).transpose();
+    at += n;
+  }
+  return x;
+}
+
+Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
+  if (set_.complete()) return full;
+  return unknowns(Harmonics(set_.highest(), scene_.n_modes(), full));
+}
+
+/// Force and derivatives in the unknowns alone; all rows of the force.
+contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
+                                                      double frequency) const {
+  if (set_.complete()) return scene_.contact->evaluate(harmonics(x), frequency);
+  return scene_.contact->evaluate_rows(harmonics(x), frequency, rows_);
+}
+
+void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
+                                      BalanceEvaluation& result) const {
+  const Eigen::Index n = scene_.n_modes();
+  auto& J = result.jacobian;
+  result.residual.head(n) += stiffness_.cwiseProduct(x.head(n));
+  J.diagonal().head(n) += stiffness_;
+  Eigen::Index s = n;
+  for (const int k : set_.orders()) {
+    const Eigen::Index c = s + n;
+    const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
+    const Eigen::ArrayXd viscous = k * frequency * damping_.array();
+    const auto sine = x.segment(s, n).array();
+    const auto cosine = x.segment(c, n).array();
+    result.residual.segment(s, n).array() += dynamic * sine - viscous * cosine;
+    result.residual.segment(c, n).array() += dynamic * cosine + viscous * sine;
+    result.parameter_derivative.segment(s, n).array() +=
+        -2.0 * k * k * frequency * sine - k * damping_.array() * cosine;
+    result.parameter_derivative.segment(c, n).array() +=
+        -2.0 * k * k * frequency * cosine + k * damping_.array() * sine;
+    J.diagonal().segment(s, 2 * n) += dynamic.matrix().replicate(2, 1);
+    J.block(s, c, n, n).diagonal() -= viscous.matrix();
+    J.block(c, s, n, n).diagonal() += viscous.matrix();
+    s += 2 * n;
+  }
+}
+
+void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
+                                    Eigen::MatrixXd& matrix) const {
+  const Eigen::Index n = scene_.n_modes();
+  for (Eigen::Index i = 0; i < size(); i += n) matrix.block(i, i, n, n) += factor * stiffness;
+}
+
+BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) const {
+  BalanceEvaluation result;
+  if (scene_.contact) {
+    contact::ForceAndJacobian contact = contact_at(x, frequency);
+    result.contact_force = unknowns(contact.force);
+    result.residual = result.contact_force - excitation_;
+    result.jacobian = std::move(contact.jacobian);
+    result.parameter_derivative = std::move(contact.frequency_derivative);
+    result.defect = contact.defect;
+  } else {
+    result.contact_force = Eigen::VectorXd::Zero(size());
+    result.residual = -excitation_;
+    result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+    result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  }
+  add_linear_part(x, frequency, result);
+  return result;
+}
+
+BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, double frequency,
+                                                     double share,
+                                                     const Eigen::MatrixXd& stiffness) const {
+  BalanceEvaluation result;
+  const contact::ForceAndJacobian contact = contact_at(x, frequency);
+  result.contact_force = unknowns(contact.force);
+  result.defect = share * contact.defect;
+  Eigen::MatrixXd linear = Eigen::MatrixXd::Zero(size(), size());
+  add_stiffness(stiffness, 1.0, linear);
+  const Eigen::VectorXd linear_force = linear * x;
+  result.residual = share * result.contact_force + (1.0 - share) * linear_force - excitation_;
+  result.jacobian = share * contact.jacobian + (1.0 - share) * linear;
+  result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  add_linear_part(x, frequency, result);
+  result.parameter_derivative = result.contact_force - linear_force;
+  return result;
+}
+
+Eigen::MatrixXd HarmonicBalance::linear_operator(double frequency) const {
+  BalanceEvaluation result;
+  result.residual = Eigen::VectorXd::Zero(size());
+  result.parameter_derivative = Eigen::VectorXd::Zero(size());
+  result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+  add_linear_part(Eigen::VectorXd::Zero(size()), frequency, result);
+  return result.jacobian;
+}
+
+Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
+                                                 const Eigen::MatrixXd& stiffness) const {
+  // No linear force couples harmonics: one at a time.
+  const Eigen::Index n = scene_.n_modes();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size());
+  const auto solve = [&](int k, Eigen::Index first, Eigen::Index count) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index i = 0; i < count; i += n) {
+      matrix.block(i, i, n, n) = stiffness;
+      matrix.block(i, i, n, n).diagonal().array() +=
+          stiffness_.array() - (k * frequency) * (k * frequency);
+    }
+    if (k > 0) {
+      matrix.topRightCorner(n, n).diagonal() -= k * frequency * damping_;
+      matrix.bottomLeftCorner(n, n).diagonal() += k * frequency * damping_;
+    }
+    x.segment(first, count) = matrix.partialPivLu().solve(excitation_.segment(first, count));
+  };
+  solve(0, 0, n);
+  Eigen::Index first = n;
+  for (const int k : set_.orders()) {
+    // What is not driven rests, at a resonance without damping as well.
+    if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);
+    first += 2 * n;
+  }
+  return x;
+}
+
+double HarmonicBalance::force_scale(double frequency) const {
+  const double load = excitation_.norm();
+  if (load == 0.0 || !scene_.contact) return load;
+  const Eigen::VectorXd stuck = linear_response(frequency, stuck_stiffness_);
+  if (!stuck.allFinite()) return load;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
+  add_stiffness(stuck_stiffness_, 1.0, stiffness);
+  return std::max(load, (stiffness * stuck).norm());
+}
+
+double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency) const {
+  const Harmonics q = harmonics(x);
+  // A stiff contact holds its points still: motions of the modes cancel there, their rounding does not.
+  double sum = (q.rows() * stiffness_.asDiagonal()).norm() +
+               (q.rows().cwiseAbs() * stuck_stiffness_.cwiseAbs()).norm();
+  for (const int k : set_.orders()) {
+    sum += (k * frequency) * (k * frequency) * std::hypot(q.sine(k).norm(), q.cosine(k).norm());
+  }
+  return sum;
+}
+
+}  // namespace microslip::solver

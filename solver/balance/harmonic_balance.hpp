@@ -1,0 +1,85 @@
+/// @file
+/// Harmonic-balance equations of a scene (theory section 13; paper A, eqs 30–38), for any set of
+/// harmonics:
+///
+///   R(x, ω) = L(ω) x + G(x, ω) − Q = 0,     x = harmonics of q, in the order of Harmonics::vector()
+///                                               without those that the set leaves out, which are zero
+///
+///   mean        L: ω_n²
+///   harmonic k  L: [ ω_n² − k²ω²    −2ζ_n ω_n kω  ]  on (sine, cosine) of mode n
+///                  [ 2ζ_n ω_n kω    ω_n² − k²ω²   ]
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "solver/balance/harmonic_set.hpp"
+#include "solver/scene.hpp"
+
+namespace microslip::solver {
+
+/// R and its derivatives at one iterate; n = (2 · number of harmonics + 1) · n_modes.
+struct BalanceEvaluation {
+  Eigen::VectorXd residual;              ///< R [N/√kg], n
+  Eigen::MatrixXd jacobian;              ///< ∂R/∂x [1/s²], n × n
+  Eigen::VectorXd parameter_derivative;  ///< ∂R/∂ω at fixed x, or by a homotopy's parameter, n
+  Eigen::VectorXd contact_force;         ///< G [N/√kg], n
+  double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
+};
+
+class HarmonicBalance {
+ public:
+  /// @param scene  borrowed; must outlive this.
+  /// @throws std::invalid_argument  sizes in the scene differ, a value is not finite or out of range.
+  HarmonicBalance(const Scene& scene, HarmonicSet set);
+
+  [[nodiscard]] Eigen::Index size() const { return excitation_.size(); }
+  [[nodiscard]] const HarmonicSet& set() const { return set_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const Eigen::VectorXd& excitation() const { return excitation_; }
+  /// x with zeros for what is left out, up to the highest harmonic of the set.
+  [[nodiscard]] Harmonics harmonics(const Eigen::VectorXd& x) const;
+  /// The harmonics of the set alone; zero where q has none.
+  [[nodiscard]] Eigen::VectorXd unknowns(const Harmonics& q) const;
+  /// The same of a vector in the order of harmonics(x).vector(), of a gradient say.
+  [[nodiscard]] Eigen::VectorXd unknowns(const Eigen::VectorXd& full) const;
+
+  [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency) const;
+  /// λ of the contact and 1 − λ of a linear stiffness in its place; the parameter is λ:
+  ///   R = L x + λ G + (1 − λ) S x − Q
+  /// @param stiffness  S on every harmonic [1/s²], n_modes × n_modes; zero: from the free limit.
+  [[nodiscard]] BalanceEvaluation evaluate_homotopy(const Eigen::VectorXd& x, double frequency,
+                                                    double share,
+                                                    const Eigen::MatrixXd& stiffness) const;
+  /// Response of the linear structure with a stiffness added: (L + S) x = Q. A resonance without
+  /// damping gives entries that are not finite.
+  [[nodiscard]] Eigen::VectorXd linear_response(double frequency,
+                                                const Eigen::MatrixXd& stiffness) const;
+  /// L(ω) as a matrix, n × n.
+  [[nodiscard]] Eigen::MatrixXd linear_operator(double frequency) const;
+  /// Zero, or ModalForce::stuck_stiffness().
+  [[nodiscard]] const Eigen::MatrixXd& stuck_stiffness() const { return stuck_stiffness_; }
+  /// max(‖Q‖, ‖contact force of the stuck limit‖) [N/√kg]: what residuals are measured by.
+  [[nodiscard]] double force_scale(double frequency) const;
+  /// Size of the terms that cancel in R [N/√kg]: stiffness, inertia and stuck contact under x. A point
+  /// that slips far is computed as the small difference of forces of this size.
+  [[nodiscard]] double largest_terms(const Eigen::VectorXd& x, double frequency) const;
+
+ private:
+  void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
+  void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
+                     Eigen::MatrixXd& matrix) const;
+  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x,
+                                                     double frequency) const;
+
+  const Scene& scene_;
+  HarmonicSet set_;
+  std::vector<Eigen::Index> rows_;  // of Harmonics::rows(), one per block of unknowns
+  Eigen::VectorXd excitation_;
+  Eigen::VectorXd stiffness_;  // ω_n²
+  Eigen::VectorXd damping_;    // 2ζ_n ω_n
+  Eigen::MatrixXd stuck_stiffness_;
+};
+
+}  // namespace microslip::solver

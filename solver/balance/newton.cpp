@@ -1,0 +1,193 @@
+#include "solver/balance/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace microslip::solver {
+namespace {
+
+constexpr int max_halvings = 7;
+constexpr int max_polish = 4;
+// Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
+constexpr double rounding = 1e-16;
+constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
+
+/// [∂R/∂x σ_x/ρ   ∂R/∂p σ_p/ρ]
+/// [    c_x           c_p     ]     ρ the scale of the residual
+Eigen::MatrixXd bordered(const BalanceEvaluation& at, const BranchVector& row,
+                         const Scaling& scaling) {
+  const Eigen::Index n = at.residual.size();
+  Eigen::MatrixXd matrix(n + 1, n + 1);
+  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
+  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
+  matrix.bottomLeftCorner(1, n) = row.x.transpose();
+  matrix(n, n) = row.parameter;
+  return matrix;
+}
+
+class Iteration {
+ public:
+  Iteration(const ParametricSystem& system, const BranchVector& constraint, const Scaling& scaling)
+      : system_(system), constraint_(constraint), scaling_(scaling) {}
+
+  NewtonResult run(const BranchVector& start, const NewtonOptions& options) {
+    move_to(start);
+    const double tolerance = std::max(options.tolerance, scaling_.rounding);
+    for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
+      if (!step(i)) break;
+      ++now_.iterations;
+    }
+    now_.converged = now_.residual <= tolerance;
+    if (now_.converged) polish();
+    return std::move(now_);
+  }
+
+ private:
+  [[nodiscard]] NewtonResult evaluated(BranchVector point) const {
+    NewtonResult result;
+    result.point = std::move(point);
+    result.evaluation = system_(result.point.x, result.point.parameter);
+    // A residual that is not known cannot be small.
+    const double size = result.evaluation.residual.norm() + result.evaluation.defect;
+    result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite()
+                          ? size / scaling_.residual
+                          : std::numeric_limits<double>::infinity();
+    return result;
+  }
+
+  void move_to(NewtonResult next) {
+    next.iterations = now_.iterations;
+    next.evaluations = now_.evaluations;
+    now_ = std::move(next);
+  }
+
+  void move_to(const BranchVector& point) {
+    move_to(evaluated(point));
+    ++now_.evaluations;
+  }
+
+  [[nodiscard]] BranchVector newton_step() const {
+    const Eigen::Index n = now_.point.x.size();
+    Eigen::VectorXd right(n + 1);
+    right.head(n) = -now_.evaluation.residual / scaling_.residual;
+    right[n] = 0.0;
+    const Eigen::VectorXd y =
+        bordered(now_.evaluation, constraint_, scaling_).partialPivLu().solve(right);
+    return {y.head(n) * scaling_.x, y[n] * scaling_.parameter};
+  }
+
+  [[nodiscard]] NewtonResult stepped(const BranchVector& step, double length) {
+    ++now_.evaluations;
+    return evaluated(
+        {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter});
+  }
+
+  /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step
+  /// is taken all the same, a few times, to leave the kink.
+  bool step(int iteration) {
+    if (!std::isfinite(now_.residual)) return false;
+    const BranchVector direction = newton_step();
+    if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return false;
+    double length = 1.0;
+    NewtonResult fallback;
+    fallback.residual = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= max_halvings; ++i, length *= 0.5) {
+      NewtonResult next = stepped(direction, length);
+      if (next.residual < (1.0 - 0.1 * length) * now_.residual) {
+        move_to(std::move(next));
+        return true;
+      }
+      if (next.residual < fallback.residual) fallback = std::move(next);
+    }
+    const bool may_rise = iteration % 3 != 2 && fallback.residual < 4.0 * now_.residual;
+    if (!may_rise) return fallback.residual < now_.residual && (move_to(std::move(fallback)), true);
+    move_to(std::move(fallback));
+    return true;
+  }
+
+  /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does not.
+  void polish() {
+    for (int i = 0; i < max_polish && now_.residual > rounding; ++i) {
+      const BranchVector direction = newton_step();
+      if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
+      const double before = now_.residual;
+      for (const double length : {1.0, 0.5, 0.1}) {
+        NewtonResult next = stepped(direction, length);
+        if (next.residual < now_.residual) {
+          keep(std::move(next));
+          break;
+        }
+        if (now_.residual < rounding_level) return;
+      }
+      if (now_.residual > 0.7 * before) return;
+    }
+  }
+
+  void keep(NewtonResult next) {
+    next.converged = true;
+    move_to(std::move(next));
+  }
+
+  const ParametricSystem& system_;
+  const BranchVector& constraint_;
+  const Scaling& scaling_;
+  NewtonResult now_;
+};
+
+}  // namespace
+
+NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                          const BranchVector& constraint, const Scaling& scaling,
+                          const NewtonOptions& options) {
+  return Iteration(system, constraint, scaling).run(start, options);
+}
+
+NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                          const Scaling& scaling, const NewtonOptions& options) {
+  const BranchVector hold{Eigen::VectorXd::Zero(start.x.size()), 1.0};
+  return solve_newton(system, start, hold, scaling, options);
+}
+
+std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scaling& scaling,
+                                        double orientation) {
+  const Eigen::Index n = at.residual.size();
+  const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
+  Eigen::MatrixXd square = bordered(at, none, scaling);
+  if (!square.allFinite()) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(square.topRows(n).transpose());
+  if (factors.rank() < n) return std::nullopt;
+  const Eigen::MatrixXd Q = factors.householderQ();
+  Eigen::VectorXd y = Q.col(n);
+  square.row(n) = y.transpose();
+  if (square.determinant() * orientation < 0.0) y = -y;
+  return BranchVector{y.head(n), y[n]};
+}
+
+Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
+                       const Scaling& scaling) {
+  const Eigen::Index n = at.residual.size();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(at, previous, scaling));
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 1);
+  right[n] = 1.0;
+  Eigen::VectorXd y = factors.solve(right);
+  Tangent tangent;
+  if (!y.allFinite()) {  // the branch turns by a right angle here: go on straight
+    tangent.direction = previous;
+    return tangent;
+  }
+  y.normalize();
+  tangent.direction = {y.head(n), y[n]};
+  // det [D; tᵀ] has the sign of det [D; previousᵀ] because t·previous > 0.
+  tangent.orientation = static_cast<double>(factors.permutationP().determinant());
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    if (factors.matrixLU()(i, i) < 0.0) tangent.orientation = -tangent.orientation;
+  }
+  return tangent;
+}
+
+}  // namespace microslip::solver

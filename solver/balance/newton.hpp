@@ -1,0 +1,73 @@
+/// @file
+/// Newton's method for a residual that is only piecewise smooth, on the plane through the first iterate
+/// that a constraint row spans: the corrector of continuation, and at fixed parameter the plain solver.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "solver/balance/harmonic_balance.hpp"
+
+namespace microslip::solver {
+
+/// R(x, p) and its derivatives.
+using ParametricSystem = std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
+
+/// Sizes that make unknowns, parameter and residual numbers of order one. All > 0.
+struct Scaling {
+  double x = 1.0;
+  double parameter = 1.0;
+  double residual = 1.0;
+  /// Size of rounding errors of the residual, over `residual`: nothing smaller is asked for. ≥ 0
+  double rounding = 0.0;
+};
+
+/// A point of the branch, or a direction: (x, p).
+struct BranchVector {
+  Eigen::VectorXd x;
+  double parameter = 0.0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-11;  ///< of ‖R‖ / scaling.residual; at least scaling.rounding
+  int max_iterations = 15;
+};
+
+struct NewtonResult {
+  BranchVector point;
+  BalanceEvaluation evaluation;  ///< at `point`
+  double residual = 0.0;         ///< ‖R‖ / scaling.residual
+  int iterations = 0;            ///< Newton steps until the tolerance was met
+  int evaluations = 0;
+  bool converged = false;
+};
+
+/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After the tolerance is met the iteration goes on while
+/// the residual still falls: points carry rounding error only.
+/// @param constraint  (c_x, c_p) in scaled variables; (0, 1) holds the parameter.
+[[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                                        const BranchVector& constraint, const Scaling& scaling,
+                                        const NewtonOptions& options);
+
+/// Newton at a fixed parameter.
+[[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
+                                        const Scaling& scaling, const NewtonOptions& options);
+
+/// Tangent of the branch in scaled variables, of length one.
+struct Tangent {
+  BranchVector direction;
+  double orientation = 0.0;  ///< sign of det [∂R/∂y; tᵀ]: constant along a branch, kinks included
+};
+
+/// @param previous  last tangent; the new one makes an angle below 90° with it.
+[[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
+                                     const Scaling& scaling);
+
+/// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ] the sign
+/// of `orientation`. Empty: the Jacobian is not finite or loses rank twice.
+[[nodiscard]] std::optional<BranchVector> null_vector(const BalanceEvaluation& at,
+                                                      const Scaling& scaling, double orientation);
+
+}  // namespace microslip::solver

@@ -1,0 +1,267 @@
+#include "solver/branch/branch_walker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace microslip::solver {
+namespace {
+
+// Lengths in scaled variables: a share of the amplitude, or of the width of the nearest resonance.
+constexpr double longest_step = 0.2;
+constexpr double longest_leap = 0.05;  // over a kink; farther on may be another branch
+constexpr double shortest_step = 1e-7;
+// Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
+constexpr double kink_step = 2e-4;
+constexpr double kink_correction =
+    10.0;                              // of the step: a turn by 84°; beyond, it is another branch
+constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
+constexpr double angle_wanted = 0.13;  // rad per step
+constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
+constexpr int wanted_iterations = 4;
+
+}  // namespace
+
+BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start,
+                           double forward, double tolerance)
+    : system_(std::move(system)), rule_(std::move(rule)), tolerance_(tolerance) {
+  now_.scaling = rule_(start);
+  now_.solution = std::move(start);
+  const BranchVector along{Eigen::VectorXd::Zero(now_.solution.point.x.size()), forward};
+  const Tangent tangent = branch_tangent(now_.solution.evaluation, along, now_.scaling);
+  now_.tangent = tangent.direction;
+  orientation_ = before_orientation_ = tangent.orientation;
+  before_ = now_;
+}
+
+BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) const {
+  return attempt(now_.tangent, distance, max_iterations);
+}
+
+BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
+                                          int max_iterations) const {
+  Trial trial;
+  const NewtonOptions options{tolerance_, max_iterations};
+  const BranchVector predicted = moved(now_.solution.point, direction, distance, now_.scaling);
+  NewtonResult solution = solve_newton(system_, predicted, direction, now_.scaling, options);
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  trial.converged = solution.converged;
+  if (!solution.converged) return trial;
+  trial.correction = length(difference(solution.point, predicted, now_.scaling)) / distance;
+  const Scaling scaling = rule_(solution);
+  const BranchVector previous = rescaled(direction, now_.scaling, scaling);
+  const Tangent tangent = branch_tangent(solution.evaluation, previous, scaling);
+  trial.cosine = dot(tangent.direction, previous);
+  trial.orientation = tangent.orientation;
+  trial.point = {std::move(solution), tangent.direction, scaling};
+  return trial;
+}
+
+bool BranchWalker::smooth(const Trial& trial) const {
+  // The sign of the determinant is that of the branch: another one is another branch's, or a kink at which
+  // the branch turns back lies in between.
+  const bool same = trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
+  return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
+}
+
+void BranchWalker::accept(Trial trial) {
+  // At a kink where the branch turns back by more than a right angle the determinant tells the way
+  // on.
+  before_orientation_ = orientation_;
+  const bool turned =
+      trial.orientation != 0.0 && orientation_ != 0.0 && trial.orientation != orientation_;
+  if (turned && trial.cosine < cosine_limit) {
+    trial.point.tangent.x = -trial.point.tangent.x;
+    trial.point.tangent.parameter = -trial.point.tangent.parameter;
+  } else if (trial.orientation != 0.0) {
+    orientation_ = trial.orientation;
+  }
+  before_ = std::move(now_);
+  now_ = std::move(trial.point);
+}
+
+void BranchWalker::choose_step(const Trial& trial) {
+  const double effort = std::sqrt(static_cast<double>(wanted_iterations) /
+                                  std::max(trial.point.solution.iterations, 1));
+  const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
+  const double bend = angle > 0.0 ? angle_wanted / angle : 2.0;
+  step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
+}
+
+BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
+  constexpr int most_cuts = 3;  // the first is all but right
+  const long n_forced = states_.n_forced();
+  double share = states_.first_cut(now_, trial.point, distance);
+  for (int i = 0; i < most_cuts && share < 1.0; ++i) {
+    Trial shorter = attempt(share * distance, 10);
+    if (!shorter.converged || !smooth(shorter)) break;
+    trial = std::move(shorter);
+    distance *= share;
+    share = states_.next_cut(now_, trial.point, distance);
+  }
+  if (states_.n_forced() > n_forced) remember("states-at-once");
+  step_ = std::min(step_, states_.next_length(distance));
+  return trial;
+}
+
+void BranchWalker::remember(const char* remedy) {
+  remedies_.push_back({now_.solution.point.parameter, remedy});
+}
+
+bool BranchWalker::advance() {
+  bool failed = false;
+  while (step_ >= shortest_step) {
+    Trial trial = attempt(step_, 10);
+    const bool kink = step_ < kink_step && trial.correction < kink_correction;
+    if (trial.converged && (smooth(trial) || kink)) {
+      if (failed) remember("shorter-step");
+      const double distance = step_;
+      choose_step(trial);
+      accept(limited(std::move(trial), distance));
+      return true;
+    }
+    failed = failed || !trial.converged;
+    step_ *= 0.5;
+  }
+  return turn_at_kink() || leap();
+}
+
+std::optional<BranchWalker::Trial> BranchWalker::carried(const WalkerPoint& from,
+                                                        const UnknownMap& map) const {
+  constexpr double farthest = 0.5;  // of the amplitude: a harmonic that does more belongs elsewhere
+  BranchVector direction{map(from.tangent.x), from.tangent.parameter};
+  const double size = length(direction);
+  direction.x /= size;
+  direction.parameter /= size;
+  const BranchVector start{map(from.solution.point.x), from.solution.point.parameter};
+  NewtonOptions options;
+  options.tolerance = tolerance_;
+  NewtonResult solution = solve_newton(system_, start, direction, from.scaling, options);
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  const bool near = length(difference(solution.point, start, from.scaling)) < farthest;
+  if (!solution.converged || !near) return std::nullopt;
+  const Scaling scaling = rule_(solution);
+  const Tangent tangent =
+      branch_tangent(solution.evaluation, rescaled(direction, from.scaling, scaling), scaling);
+  Trial trial;
+  trial.point = {std::move(solution), tangent.direction, scaling};
+  trial.orientation = tangent.orientation;
+  return trial;
+}
+
+bool BranchWalker::change_unknowns(const UnknownMap& map) {
+  std::optional<Trial> before = carried(before_, map);
+  std::optional<Trial> now = before ? carried(now_, map) : std::nullopt;
+  if (!now) return false;
+  before_ = std::move(before->point);
+  now_ = std::move(now->point);
+  before_orientation_ = before->orientation;
+  orientation_ = now->orientation;
+  states_.forget();
+  return true;
+}
+
+Stall BranchWalker::stall() const {
+  constexpr double chattering = 1e-3;  // relative change of the Jacobian over a step of 1e-6
+  constexpr double vertical = 0.1;     // share of the parameter in the tangent
+  const Eigen::MatrixXd& here = now_.solution.evaluation.jacobian;
+  for (const double ahead : {-1e-6, 1e-6}) {
+    const BranchVector probe = moved(now_.solution.point, now_.tangent, ahead, now_.scaling);
+    const Eigen::MatrixXd there = system_(probe.x, probe.parameter).jacobian;
+    ++evaluations_;
+    if (!((there - here).norm() <= chattering * here.norm())) return Stall::chatter;
+  }
+  return std::abs(now_.tangent.parameter) < vertical ? Stall::fold : Stall::newton;
+}
+
+bool BranchWalker::turn_at_kink() {
+  // Where slip begins a branch may turn back sharply: no solution lies ahead in the old direction.
+  // Just beyond the kink the Jacobian is that of the other regime; its null vector, with the sign
+  // that keeps the orientation of the branch, points out of the kink (Allgower & Georg 1990,
+  // section 2.1).
+  if (orientation_ == 0.0) return false;
+  for (double beyond = 1e-7; beyond < 1e-2; beyond *= 10.0) {
+    const BranchVector probe = moved(now_.solution.point, now_.tangent, beyond, now_.scaling);
+    const BalanceEvaluation other = system_(probe.x, probe.parameter);
+    ++evaluations_;
+    const std::optional<BranchVector> way = null_vector(other, now_.scaling, orientation_);
+    if (!way) continue;
+    for (double distance = 30.0 * beyond; distance < 2e-2; distance *= 5.0) {
+      Trial trial = attempt(*way, distance, 15);
+      const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
+                          trial.orientation == orientation_;
+      if (!onward) continue;
+      remember("kink-turn");
+      step_ = distance;
+      accept(std::move(trial));
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BranchWalker::leap() {
+  // A kink the corrector cannot cross in small steps may be crossed in a long one.
+  for (double distance = 1e-5; distance < longest_leap; distance *= 3.0) {
+    Trial trial = attempt(distance, 40);
+    if (!trial.converged || trial.correction > 1.0) continue;
+    remember("long-step");
+    step_ = std::min(distance, 1e-2);
+    accept(std::move(trial));
+    return true;
+  }
+  return false;
+}
+
+/// On the plane through the start across the chord.
+std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
+                                                   const BranchVector& chord) const {
+  const Scaling& scaling = now_.scaling;
+  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
+  NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
+  evaluations_ += solution.evaluations;
+  iterations_ += solution.iterations;
+  const double tolerance = std::max(tolerance_, scaling.rounding);
+  if (!(solution.residual <= tolerance)) return std::nullopt;
+  solution.converged = true;
+  Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
+  // Within a sharp turn the branch may run against the chord; the determinant tells.
+  const bool known = orientation_ != 0.0 && orientation_ == before_orientation_;
+  if (known && tangent.orientation == -orientation_) {
+    tangent.direction.x = -tangent.direction.x;
+    tangent.direction.parameter = -tangent.direction.parameter;
+  }
+  return WalkerPoint{std::move(solution), std::move(tangent.direction), scaling};
+}
+
+std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoint& b,
+                                               double share) const {
+  const Scaling& scaling = now_.scaling;
+  BranchVector chord = difference(now_.solution.point, before_.solution.point, scaling);
+  const double size = length(chord);
+  if (size == 0.0) return std::nullopt;
+  chord.x /= size;
+  chord.parameter /= size;
+  const double width = b.share - a.share;
+  const double u = (share - a.share) / width;
+  for (const BranchVector& start :
+       starts_between(Knot(a.point, chord, size, scaling), Knot(b.point, chord, size, scaling), u, width)) {
+    if (auto point = corrected(start, chord)) return StepPoint{share, std::move(*point)};
+  }
+  return std::nullopt;
+}
+
+NewtonResult BranchWalker::at_parameter(double parameter, double share) const {
+  const auto& a = before_.solution.point;
+  const auto& b = now_.solution.point;
+  const NewtonOptions options{tolerance_, 30};
+  NewtonResult result =
+      solve_newton(system_, {a.x + share * (b.x - a.x), parameter}, now_.scaling, options);
+  evaluations_ += result.evaluations;
+  iterations_ += result.iterations;
+  return result;
+}
+
+}  // namespace microslip::solver

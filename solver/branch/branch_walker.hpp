@@ -1,0 +1,117 @@
+/// @file
+/// One step at a time along a solution branch R(x, p) = 0 by pseudo-arclength continuation (theory
+/// section 16). The step chooses itself by curvature, Newton's effort and the distance to the next
+/// kink of the force; what stalls is tried again by a ladder of remedies.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "solver/branch/branch_geometry.hpp"
+#include "solver/balance/newton.hpp"
+#include "solver/branch/step_states.hpp"
+
+namespace microslip::solver {
+
+/// Scaling for the next step at an accepted point.
+using ScalingRule = std::function<Scaling(const NewtonResult& at)>;
+
+/// Takes a vector of the old unknowns to the new ones.
+using UnknownMap = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
+
+/// A point of the last step.
+struct StepPoint {
+  double share = 0.0;  ///< of the way along the chord from before() to now(), 0 … 1
+  WalkerPoint point;
+};
+
+/// What helped where Newton's method had failed.
+struct Remedy {
+  double parameter = 0.0;
+  const char* name = "";  ///< shorter-step, kink-turn, long-step, states-at-once
+};
+
+/// Why no step was possible.
+enum class Stall { newton, fold, chatter };
+
+class BranchWalker {
+ public:
+  /// @param start      converged.
+  /// @param forward    sign of the parameter's first change, 1 or −1.
+  /// @param tolerance  of the residual of every point, as in NewtonOptions.
+  BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResult start, double forward,
+               double tolerance = NewtonOptions{}.tolerance);
+
+  /// Steps are chosen by what the contact does as well (step_states.hpp).
+  void watch(StateReader reader) { states_ = StepStates(std::move(reader)); }
+
+  /// One accepted step. False: no remedy helped; now() is the last good point.
+  [[nodiscard]] bool advance();
+
+  [[nodiscard]] const WalkerPoint& now() const { return now_; }
+  [[nodiscard]] const WalkerPoint& before() const { return before_; }
+  /// The branch where it passes the plane across the chord from before() to now() at a share of the way:
+  /// Newton's method from the cubic through two points of the step with their tangents, then from the
+  /// tangents and from the line between the points.
+  /// @param a, b  of the last step, on either side of the share.
+  /// @return empty: Newton's method failed from all of them.
+  [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
+                                                 double share) const;
+  /// The solution at a fixed parameter near now() and before(), from the share of the way given.
+  [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
+
+  /// Goes on with other unknowns of the same branch: now() and before() are carried over, corrected
+  /// across the branch. The system and the scaling rule must know the new unknowns already.
+  /// @return false: a correction failed or led far away; nothing is changed.
+  [[nodiscard]] bool change_unknowns(const UnknownMap& map);
+
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] long iterations() const { return iterations_; }
+  [[nodiscard]] double step() const { return step_; }
+  [[nodiscard]] const std::vector<Remedy>& remedies() const { return remedies_; }
+  /// What the step control has seen of the contact.
+  [[nodiscard]] const StepStates& states() const { return states_; }
+  /// After advance() was false.
+  [[nodiscard]] Stall stall() const;
+
+ private:
+  struct Trial {
+    WalkerPoint point;
+    double cosine = -1.0;     ///< between the old and the new tangent
+    double correction = 0.0;  ///< distance from predictor to corrected point, over the step
+    double orientation = 0.0;
+    bool converged = false;
+  };
+
+  /// From now() along its tangent, or along another direction that leaves a kink.
+  [[nodiscard]] Trial attempt(double length, int max_iterations) const;
+  [[nodiscard]] Trial attempt(const BranchVector& direction, double length,
+                              int max_iterations) const;
+  [[nodiscard]] bool smooth(const Trial& trial) const;
+  void accept(Trial trial);
+  void choose_step(const Trial& trial);
+  /// The trial, or a shorter one that changes fewer states. @param distance  of the trial.
+  [[nodiscard]] Trial limited(Trial trial, double distance);
+  void remember(const char* remedy);
+  [[nodiscard]] bool leap();
+  [[nodiscard]] bool turn_at_kink();
+  [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
+                                                     const BranchVector& chord) const;
+  [[nodiscard]] std::optional<Trial> carried(const WalkerPoint& from, const UnknownMap& map) const;
+
+  ParametricSystem system_;
+  ScalingRule rule_;
+  double tolerance_;
+  WalkerPoint now_;
+  WalkerPoint before_;
+  double step_ = 0.05;
+  double orientation_ = 0.0;  ///< 0: not known yet
+  double before_orientation_ = 0.0;
+  StepStates states_;
+  std::vector<Remedy> remedies_;
+  mutable long evaluations_ = 0;
+  mutable long iterations_ = 0;
+};
+
+}  // namespace microslip::solver

@@ -1,0 +1,290 @@
+#include "solver/branch/special_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "solver/balance/output_amplitude.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// Of a segment, which is at most a fifth of a resonance wide: below it are rounding errors only.
+constexpr double finest_share = 1e-13;
+// A bracket that Newton's method does not make shorter than this tells the place to eight digits.
+constexpr double rounding_share = 1e-8;
+constexpr int max_cuts =
+    90;  // bisection alone needs 44 for the finest share, and a third are bisections
+// A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
+constexpr double suspicious_slope = 0.3;
+// One that is this large where the cubic has its extremum does not; below, parabolas look closer.
+constexpr double hopeless_slope = 0.02;
+constexpr int max_parabolas = 8;
+
+// Angles of the tangents with the chord are equal on an arc; a kink, where points begin to slip, to stick or
+// to separate, makes them differ by more than this factor, and the cubic is not the branch.
+constexpr double uneven = 1.5;
+constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
+// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not. Steep
+// parts of a branch, where folds may hide, are few.
+constexpr double level_at_peak = 0.1;
+constexpr double level_at_fold = 0.3;
+// The motion along the branch jumps at a kink by about this share of itself; the slope no more.
+constexpr double kink_reach = 0.3;
+// Of more points each is a small part of the force: their kinks together are a smooth curve.
+constexpr std::size_t most_kinks = 32;
+constexpr int max_splits = 7;         // of a step, at its kinks: to less than a hundredth of it
+
+/// Something that varies along a segment, with its slope by arc length in the scaling of now().
+struct Value {
+  double value;
+  double slope;
+  double steepest;  ///< slope in the direction in which it rises most
+};
+
+/// A place on a segment.
+struct Node {
+  StepPoint at;
+  Value value;
+  BranchVector position;  ///< scaled
+  BranchVector tangent;   ///< scaled, of length one
+};
+
+BranchVector minus(const BranchVector& a, const BranchVector& b) {
+  return {a.x - b.x, a.parameter - b.parameter};
+}
+
+double angle(const BranchVector& a, const BranchVector& b) {
+  return std::acos(std::clamp(dot(a, b) / std::sqrt(dot(a, a) * dot(b, b)), -1.0, 1.0));
+}
+
+class Segment {
+ public:
+  Segment(const BranchWalker& walker, const HarmonicBalance& balance, PointMark kind)
+      : walker_(walker), balance_(balance), kind_(kind) {}
+
+  [[nodiscard]] std::vector<SpecialPoint> search() {
+    search(node({0.0, walker_.before()}), node({1.0, walker_.now()}), 0);
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] bool wanted(const Node& before) const {
+    return kind_ == PointMark::fold || before.value.slope > 0.0;
+  }
+
+  void search(const Node& a, const Node& b, int n_splits) {
+    if (n_splits < max_splits && may_hide(a, b)) {
+      if (const auto middle = between(a, b, 0.5 * (a.at.share + b.at.share))) {
+        search(a, *middle, n_splits + 1);
+        search(*middle, b, n_splits + 1);
+        return;
+      }
+    }
+    if ((a.value.slope > 0.0) != (b.value.slope > 0.0)) {
+      if (wanted(a)) found_.push_back(locate(a, b));
+      return;
+    }
+    const double share = turning_share(a, b);
+    if (share <= 0.0) return;
+    const std::optional<Node> middle = beyond_zero(a, b, share);
+    if (!middle) return;
+    if (wanted(a)) found_.push_back(locate(a, *middle));
+    if (wanted(*middle)) found_.push_back(locate(*middle, b));
+  }
+
+  [[nodiscard]] Node node(StepPoint at) const {
+    const Scaling& scaling = walker_.now().scaling;
+    const WalkerPoint& point = at.point;
+    const BranchVector& solution = point.solution.point;
+    BranchVector tangent{point.tangent.x * (point.scaling.x / scaling.x),
+                         point.tangent.parameter * (point.scaling.parameter / scaling.parameter)};
+    const double length = std::sqrt(dot(tangent, tangent));
+    tangent.x /= length;
+    tangent.parameter /= length;
+    BranchVector position{solution.x / scaling.x, solution.parameter / scaling.parameter};
+    const Value value = value_at(solution, tangent);
+    return {std::move(at), value, std::move(position), std::move(tangent)};
+  }
+
+  [[nodiscard]] Value value_at(const BranchVector& point, const BranchVector& tangent) const {
+    const Scaling& scaling = walker_.now().scaling;
+    if (kind_ == PointMark::fold) {
+      return {point.parameter, tangent.parameter * scaling.parameter, scaling.parameter};
+    }
+    const auto amplitude = output_amplitude(balance_.harmonics(point.x), balance_.scene().output);
+    const Eigen::VectorXd gradient = scaling.x * balance_.unknowns(amplitude.gradient);
+    return {amplitude.half_peak_to_peak, gradient.dot(tangent.x), gradient.norm()};
+  }
+
+  [[nodiscard]] std::optional<Node> between(const Node& a, const Node& b, double share) const {
+    auto point = walker_.between(a.at, b.at, share);
+    if (!point) return std::nullopt;
+    return node(std::move(*point));
+  }
+
+  [[nodiscard]] double nearly_level() const {
+    return kind_ == PointMark::fold ? level_at_fold : level_at_peak;
+  }
+
+  /// Between two places there is a kink at which the slope may change its sign unseen.
+  [[nodiscard]] bool may_hide(const Node& a, const Node& b) const {
+    const BranchVector chord = minus(b.position, a.position);
+    const double first = angle(a.tangent, chord);
+    const double second = angle(chord, b.tangent);
+    const auto [less, more] = std::minmax(first, second);
+    const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
+                                    std::abs(b.value.slope) / b.value.steepest);
+    const double turn = first + second;
+    if (turn > slight_turn && more > uneven * less && nearest < turn) return true;
+    const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
+    if (turn > slight_turn && same_sign && nearest < nearly_level() * turn) return true;
+    const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
+    return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
+  }
+
+  /// A few points, and one of them begins or ceases to slip or to separate on the way.
+  [[nodiscard]] bool crosses_kink(const Node& a, const Node& b) const {
+    const auto& contact = balance_.scene().contact;
+    if (!contact) return false;
+    const auto read = [&](const Node& at, contact::ContactStates& states) {
+      const BranchVector& point = at.at.point.solution.point;
+      contact->states(balance_.harmonics(point.x), point.parameter, states);
+    };
+    contact::ContactStates before;
+    contact::ContactStates after;
+    read(a, before);
+    if (before.size() > most_kinks) return false;
+    read(b, after);
+    return contact::state_change(before, after).n_regimes > 0;
+  }
+
+  /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole
+  /// segment; 0: it does not.
+  [[nodiscard]] static double turning_share(const Node& a, const Node& b) {
+    const BranchVector chord = minus(b.position, a.position);
+    const double length = std::sqrt(dot(chord, chord));
+    const double first = a.value.slope;
+    const double last = b.value.slope;
+    const double rise = b.value.value - a.value.value;
+    const double linear = 6.0 * rise - (4.0 * first + 2.0 * last) * length;
+    const double square = 3.0 * (first + last) * length - 6.0 * rise;
+    const double share = -0.5 * linear / square;
+    if (!(share > 0.02) || !(share < 0.98)) return 0.0;
+    const double sign = first > 0.0 ? 1.0 : -1.0;
+    const double least = sign * (first * length + 0.5 * linear * share);
+    const double least_end = std::min(std::abs(first), std::abs(last)) * length;
+    if (!(least < suspicious_slope * least_end)) return 0.0;
+    return a.at.share + share * (b.at.share - a.at.share);
+  }
+
+  struct End {
+    double share;
+    double slope;
+  };
+
+  /// A place where the slope has the other sign, near a share where it may: its extremum by parabolas
+  /// through three places, as long as it may still pass zero.
+  [[nodiscard]] std::optional<Node> beyond_zero(const Node& a, const Node& b, double share) const {
+    const double sign = a.value.slope > 0.0 ? 1.0 : -1.0;
+    const double hopeless =
+        hopeless_slope * std::min(std::abs(a.value.slope), std::abs(b.value.slope));
+    End left{a.at.share, sign * a.value.slope};
+    End right{b.at.share, sign * b.value.slope};
+    std::optional<End> least;
+    for (int i = 0; i < max_parabolas; ++i) {
+      std::optional<Node> point = between(a, b, share);
+      if (!point) return std::nullopt;
+      const End here{share, sign * point->value.slope};
+      if (here.slope <= 0.0) return point;
+      if (here.slope > hopeless) return std::nullopt;
+      if (!least) {
+        least = here;
+      } else {
+        const bool below = here.slope < least->slope;
+        const bool before = here.share < least->share;
+        (before == below ? right : left) = below ? *least : here;
+        if (below) least = here;
+      }
+      share = vertex(left, *least, right);
+      const bool settled = std::abs(share - least->share) < 1e-5;
+      if (settled || !(share > left.share) || !(share < right.share)) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  /// Extremum of the parabola through three ends.
+  [[nodiscard]] static double vertex(End a, End b, End c) {
+    const double r = (b.share - a.share) * (b.slope - c.slope);
+    const double q = (b.share - c.share) * (b.slope - a.slope);
+    return b.share - 0.5 * ((b.share - c.share) * q - (b.share - a.share) * r) / (q - r);
+  }
+
+  /// At a share of the bracket, or where Newton's method fails there, elsewhere in it.
+  [[nodiscard]] std::optional<Node> inside(const Node& low, const Node& high, double share) const {
+    for (const double other : {share, 0.5, 0.25, 0.75, 0.05, 0.95}) {
+      const double at = low.at.share + other * (high.at.share - low.at.share);
+      if (auto point = between(low, high, at)) return point;
+    }
+    return std::nullopt;
+  }
+
+  /// Regula falsi (Illinois) with a bisection after every two steps, so that a jump is found as well.
+  [[nodiscard]] SpecialPoint locate(Node low, Node high) const {
+    const bool rises = low.value.slope > 0.0;
+    double low_weight = low.value.slope;
+    double high_weight = high.value.slope;
+    const double enough = 1e-14 * std::max(std::abs(low_weight), std::abs(high_weight));
+    std::optional<SpecialPoint> best;
+    for (int i = 0; i < max_cuts && high.at.share - low.at.share > finest_share; ++i) {
+      const double cut = low_weight / (low_weight - high_weight);
+      std::optional<Node> point = inside(low, high, i % 3 == 2 ? 0.5 : cut);
+      if (!point) return unsolved(low, high);
+      const double slope = point->value.slope;
+      best = SpecialPoint{point->at.share, point->at.point.solution, kind_, true};
+      if (std::abs(slope) <= enough || cut <= 0.0 || cut >= 1.0) break;
+      const bool is_low = (slope > 0.0) == rises;
+      (is_low ? low : high) = std::move(*point);
+      (is_low ? low_weight : high_weight) = slope;
+      (is_low ? high_weight : low_weight) *= 0.5;
+    }
+    return best ? std::move(*best) : unsolved(low, high);
+  }
+
+  /// The end of a bracket that comes nearest.
+  [[nodiscard]] SpecialPoint unsolved(const Node& low, const Node& high) const {
+    const bool low_is_nearer = kind_ == PointMark::peak
+                                   ? low.value.value > high.value.value
+                                   : std::abs(low.value.slope) < std::abs(high.value.slope);
+    const Node& nearer = low_is_nearer ? low : high;
+    // Within rounding of the zero nothing is missing.
+    const bool solved = high.at.share - low.at.share < rounding_share;
+    return {nearer.at.share, nearer.at.point.solution, kind_, solved};
+  }
+
+  const BranchWalker& walker_;
+  const HarmonicBalance& balance_;
+  PointMark kind_;
+  std::vector<SpecialPoint> found_;
+};
+
+}  // namespace
+
+std::vector<SpecialPoint> peaks_between(const BranchWalker& walker,
+                                        const HarmonicBalance& balance) {
+  return Segment(walker, balance, PointMark::peak).search();
+}
+
+std::vector<SpecialPoint> special_points(const BranchWalker& walker,
+                                         const HarmonicBalance& balance) {
+  std::vector<SpecialPoint> found = peaks_between(walker, balance);
+  for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
+    found.push_back(std::move(fold));
+  }
+  std::sort(found.begin(), found.end(),
+            [](const SpecialPoint& a, const SpecialPoint& b) { return a.share < b.share; });
+  return found;
+}
+
+}  // namespace microslip::solver

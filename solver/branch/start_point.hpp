@@ -1,0 +1,32 @@
+/// @file
+/// A first solution at one frequency: Newton from the linear limits, then homotopies that exchange a
+/// linear limit for the contact.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "solver/balance/newton.hpp"
+
+namespace microslip::solver {
+
+struct StartPoint {
+  std::optional<NewtonResult> solution;
+  std::string way;  ///< how it was reached, or what was tried
+  long iterations = 0;
+  long evaluations = 0;
+};
+
+/// @param tolerance  of ResponsePoint::residual.
+[[nodiscard]] StartPoint find_start(const HarmonicBalance& balance, double frequency,
+                                    double tolerance);
+
+/// Newton at a fixed frequency from a guess, on the scale of the balance there.
+[[nodiscard]] NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& guess,
+                                    double frequency, const NewtonOptions& options);
+
+/// Scale of unknowns: ‖x‖, or the linear responses' where x vanishes; of residuals: force_scale.
+[[nodiscard]] Scaling natural_scaling(const HarmonicBalance& balance, const Eigen::VectorXd& x,
+                                      double frequency);
+
+}  // namespace microslip::solver

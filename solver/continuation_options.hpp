@@ -1,0 +1,27 @@
+/// @file
+/// How a response curve is traced (theory section 16).
+#pragma once
+
+#include <vector>
+
+namespace microslip::solver {
+
+struct ContinuationOptions {
+  double frequency_begin = 0.0;  ///< [rad/s], > 0
+  double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
+  int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
+  std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
+  /// Above 0: harmonics are added to 1 and those of the excitation, and dropped again, point by point, so
+  /// that those left out change the amplitude by less than this share of it (harmonic_choice.hpp);
+  /// n_harmonics is the highest that may be added, `orders` is not used.
+  double harmonic_tolerance = 0.0;
+  /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
+  double residual_tolerance = 1e-11;
+  int max_points = 20000;
+  /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
+  bool linear_certificate = true;
+  /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
+  int search_starts = 0;
+};
+
+}  // namespace microslip::solver

@@ -1,0 +1,263 @@
+#include "solver/curve/branch_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "solver/curve/curve_tracer.hpp"
+#include "solver/curve/solved_point.hpp"
+#include "solver/branch/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+constexpr int n_inside = 7;  // frequencies, evenly
+// Of the range. At a fold two known solutions meet and the equations are singular; this far beside it they
+// are apart, or not there.
+constexpr double beside_fold = 1e-3;
+constexpr double same_frequency = 1e-6;
+constexpr int most_iterations = 60;
+constexpr int most_halvings = 6;
+constexpr double longest_step = 3.0;  // of the amplitude: deflation scales steps without bound
+// Closer to a known solution, over the amplitude, it is that solution.
+constexpr double distinct = 1e-5;
+constexpr std::size_t most_branches = 10;
+
+/// Resonances with a stiffness added [rad/s].
+Eigen::VectorXd resonances(const Scene& scene, const Eigen::MatrixXd& stiffness) {
+  Eigen::MatrixXd all = stiffness;
+  all.diagonal() += scene.natural_frequency.cwiseAbs2();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+/// Where other solutions are looked for [rad/s], ascending, each once.
+std::vector<double> search_frequencies(const Scene& scene, const ContinuationOptions& options,
+                                       const ResponseCurve& curve) {
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  const double range = high - low;
+  if (range == 0.0) return {low};
+  std::vector<double> all{low, high};
+  for (int i = 0; i < n_inside; ++i) all.push_back(low + (i + 0.5) / n_inside * range);
+  const auto add = [&, least = low, most = high](double frequency) {
+    if (frequency > least && frequency < most) all.push_back(frequency);
+  };
+  for (const ResponsePoint& point : curve.points) {
+    if (point.mark == PointMark::peak) add(point.frequency);
+    if (point.mark != PointMark::fold) continue;
+    add(point.frequency - beside_fold * range);
+    add(point.frequency + beside_fold * range);
+  }
+  for (const double frequency : scene.natural_frequency) add(frequency);
+  for (const double frequency : resonances(scene, scene.contact->stuck_stiffness())) add(frequency);
+  std::sort(all.begin(), all.end());
+  const auto same = [&](double a, double b) { return b - a < same_frequency * range; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
+class Search {
+ public:
+  Search(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve)
+      : scene_(scene), options_(options), curve_(curve) {}
+
+  void run() {
+    for (const double frequency : search_frequencies(scene_, options_, curve_)) search_at(frequency);
+  }
+
+ private:
+  void search_at(double frequency) {
+    // All harmonics that the branches known have: solutions are compared in the same unknowns.
+    HarmonicSet set = first_harmonics(scene_, options_);
+    for (const ResponsePoint& point : curve_.points) set = set.united(point.orders);
+    for (const DetachedBranch& branch : curve_.detached) {
+      for (const ResponsePoint& point : branch.points) set = set.united(point.orders);
+    }
+    balance_ = std::make_unique<HarmonicBalance>(scene_, std::move(set));
+    std::vector<Eigen::VectorXd> known = known_at(frequency);
+    for (int i = 0; i < options_.search_starts; ++i) {
+      if (curve_.detached.size() >= most_branches) return;
+      ++curve_.n_starts;
+      const std::optional<Eigen::VectorXd> found =
+          deflated(start(i, frequency, known), frequency, known);
+      if (!found) continue;
+      NewtonOptions newton;
+      newton.tolerance = options_.residual_tolerance;
+      NewtonResult solution = solve_at(*balance_, *found, frequency, newton);
+      count(solution.iterations, solution.evaluations);
+      if (!solution.converged || near(solution.point.x, known)) continue;
+      const Eigen::VectorXd x = solution.point.x;
+      keep_branch(std::move(solution));
+      known = known_at(frequency);  // the branch may come back to this frequency
+      if (!near(x, known)) known.push_back(x);
+    }
+  }
+
+  void count(int iterations, int evaluations) {
+    curve_.iterations += iterations;
+    curve_.contact_evaluations += evaluations;
+  }
+
+  [[nodiscard]] std::vector<Eigen::VectorXd> known_at(double frequency) const {
+    std::vector<Eigen::VectorXd> known;
+    const auto add = [&](const ResponseCurve& curve) {
+      for (const auto& point : points_at_frequency(scene_, curve, frequency, options_)) {
+        Eigen::VectorXd x = balance_->unknowns(point.q);
+        if (point.orders != balance_->set().orders()) {
+          NewtonResult solution = solve_at(*balance_, x, frequency, {});
+          if (solution.converged) x = std::move(solution.point.x);
+        }
+        known.push_back(std::move(x));
+      }
+    };
+    add(curve_);
+    for (const DetachedBranch& branch : curve_.detached) {
+      ResponseCurve other;
+      other.points = branch.points;
+      // A closed branch has a piece between its last point and its first.
+      if (branch.closed) other.points.push_back(branch.points.front());
+      add(other);
+    }
+    return known;
+  }
+
+  [[nodiscard]] static bool near(const Eigen::VectorXd& x,
+                                 const std::vector<Eigen::VectorXd>& known) {
+    return std::any_of(known.begin(), known.end(), [&](const Eigen::VectorXd& other) {
+      return (x - other).norm() <= distinct * std::max(x.norm(), other.norm());
+    });
+  }
+
+  /// Places far apart: known and linear solutions, shrunk, grown and turned in phase.
+  [[nodiscard]] Eigen::VectorXd start(int index, double frequency,
+                                      const std::vector<Eigen::VectorXd>& known) const {
+    constexpr std::array<double, 8> factors{1.0, 3.0, 10.0, 0.3, 30.0, 0.1, 100.0, 2.0};
+    const Eigen::Index n = scene_.n_modes();
+    const int n_bases = 2 + static_cast<int>(known.size());
+    const int base = index % n_bases;
+    const int round = index / n_bases;
+    Eigen::VectorXd x = base == 0 ? balance_->linear_response(frequency, balance_->stuck_stiffness())
+                        : base == 1
+                            ? balance_->linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
+                            : known[static_cast<std::size_t>(base - 2)];
+    if (!x.allFinite()) x = Eigen::VectorXd::Ones(x.size());
+    Harmonics q = balance_->harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
+    const double turn = 1.0 * round;  // rad: never the same twice
+    for (int k = 1; k <= q.n_harmonics(); ++k) {
+      const Eigen::RowVectorXd sine = q.sine(k);
+      const Eigen::RowVectorXd cosine = q.cosine(k);
+      q.rows().row(2 * k - 1) = std::cos(k * turn) * sine - std::sin(k * turn) * cosine;
+      q.rows().row(2 * k) = std::sin(k * turn) * sine + std::cos(k * turn) * cosine;
+    }
+    return balance_->unknowns(q);
+  }
+
+  [[nodiscard]] static double factor(const Eigen::VectorXd& x, double size,
+                                     const std::vector<Eigen::VectorXd>& known) {
+    double product = 1.0;
+    for (const Eigen::VectorXd& other : known) {
+      product *= size * size / (x - other).squaredNorm() + 1.0;
+    }
+    return product;
+  }
+
+  /// g = ∇m/m
+  [[nodiscard]] static Eigen::VectorXd logarithmic_gradient(
+      const Eigen::VectorXd& x, double size, const std::vector<Eigen::VectorXd>& known) {
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(x.size());
+    for (const Eigen::VectorXd& other : known) {
+      const Eigen::VectorXd d = x - other;
+      const double square = d.squaredNorm();
+      g -= 2.0 * size * size / (square * (size * size + square)) * d;
+    }
+    return g;
+  }
+
+  /// Newton's method on the deflated equations. Empty: it did not converge.
+  [[nodiscard]] std::optional<Eigen::VectorXd> deflated(Eigen::VectorXd x, double frequency,
+                                                        const std::vector<Eigen::VectorXd>& known) {
+    if (known.empty()) return std::nullopt;
+    double size = 0.0;
+    for (const Eigen::VectorXd& other : known) size = std::max(size, other.norm());
+    if (size == 0.0) size = natural_scaling(*balance_, x, frequency).x;
+    const double scale = natural_scaling(*balance_, known.front(), frequency).residual;
+    for (const Eigen::VectorXd& other : known) {
+      if ((x - other).norm() < 1e-2 * size) x *= 1.1;  // m has no value at a known solution
+    }
+    BalanceEvaluation at = balance_->evaluate(x, frequency);
+    count(0, 1);
+    for (int i = 0; i < most_iterations; ++i) {
+      const double merit = factor(x, size, known) * at.residual.norm();
+      if (at.residual.norm() <= 1e-8 * scale) return x;
+      Eigen::VectorXd step = -at.jacobian.partialPivLu().solve(at.residual);
+      step /= 1.0 - logarithmic_gradient(x, size, known).dot(step);
+      if (!step.allFinite() || !std::isfinite(merit)) return std::nullopt;
+      const double longest = longest_step * std::max(x.norm(), size);
+      if (step.norm() > longest) step *= longest / step.norm();
+      count(1, 0);
+      double length = 1.0;
+      for (int k = 0; k <= most_halvings; ++k, length *= 0.5) {
+        const Eigen::VectorXd next = x + length * step;
+        BalanceEvaluation there = balance_->evaluate(next, frequency);
+        count(0, 1);
+        // The last try is taken even if it rises: between regimes no length may do.
+        if (factor(next, size, known) * there.residual.norm() < merit || k == most_halvings) {
+          x = next;
+          at = std::move(there);
+          break;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  void keep_branch(NewtonResult start) {
+    if (options_.frequency_begin == options_.frequency_end) {
+      DetachedBranch branch;
+      branch.points.push_back(
+          point_with_harmonics(scene_, balance_->set(), std::move(start), options_, curve_));
+      curve_.detached.push_back(std::move(branch));
+      return;
+    }
+    const PointObserver none;
+    ContinuationOptions backward = options_;
+    std::swap(backward.frequency_begin, backward.frequency_end);
+    const ResponseCurve ahead = CurveTracer(scene_, options_, none).follow(start, balance_->set());
+    count_work(ahead);
+    DetachedBranch branch;
+    branch.closed = ahead.diagnosis == "loop";
+    if (!branch.closed) {
+      const ResponseCurve back = CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
+      count_work(back);
+      branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
+    }
+    branch.points.insert(branch.points.end(), ahead.points.begin(), ahead.points.end());
+    curve_.detached.push_back(std::move(branch));
+  }
+
+  void count_work(const ResponseCurve& branch) {
+    curve_.iterations += branch.iterations;
+    curve_.contact_evaluations += branch.contact_evaluations;
+  }
+
+  const Scene& scene_;
+  const ContinuationOptions& options_;
+  ResponseCurve& curve_;
+  std::unique_ptr<HarmonicBalance> balance_;
+};
+
+}  // namespace
+
+void search_branches(const Scene& scene, const ContinuationOptions& options, ResponseCurve& curve) {
+  if (scene.contact) Search(scene, options, curve).run();
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,73 @@
+#include "solver/curve/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/balance/output_amplitude.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged.
+constexpr double vanishing = 1e-15;
+
+/// π Σ_k k (A_s·F_c − A_c·F_s)
+double work(const Harmonics& q, const Harmonics& force) {
+  double sum = 0.0;
+  for (int k = 1; k <= q.n_harmonics(); ++k) {
+    sum += k * (q.sine(k).dot(force.cosine(k)) - q.cosine(k).dot(force.sine(k)));
+  }
+  return std::numbers::pi * sum;
+}
+
+double viscous_work(const Harmonics& q, const Scene& scene, double frequency) {
+  const Eigen::ArrayXd damping =
+      2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+  double sum = 0.0;
+  for (int k = 1; k <= q.n_harmonics(); ++k) {
+    const Eigen::ArrayXd square =
+        (q.sine(k).array().square() + q.cosine(k).array().square()).transpose();
+    sum += k * k * (damping * square).sum();
+  }
+  return std::numbers::pi * frequency * sum;
+}
+
+}  // namespace
+
+ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult& solution,
+                              double frequency, const StabilityReport& stability) {
+  const Scene& scene = balance.scene();
+  ResponsePoint point;
+  point.frequency = frequency;
+  point.q = balance.harmonics(solution.point.x);
+  point.orders = balance.set().orders();
+  const OutputAmplitude output = output_amplitude(point.q, scene.output);
+  point.amplitude = output.half_peak_to_peak;
+  point.first_amplitude = output.first_harmonic;
+  point.mean = output.mean;
+  point.phase = output.phase;
+  point.residual = solution.residual;
+  point.iterations = solution.iterations;
+  point.stability = stability.stability;
+  point.stability_basis = stability.basis;
+  point.determinant_sign = stability.determinant_sign;
+  if (scene.contact) point.report = scene.contact->report(point.q, frequency);
+
+  const double excited = work(point.q, balance.harmonics(balance.excitation()));
+  const double damped = viscous_work(point.q, scene, frequency);
+  const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
+  const double exchanged = std::max(std::abs(excited), damped + rubbed);
+  const double load = balance.excitation().norm();
+  // Without a load a motion is what rounding of the forces at rest leaves, and all work is that of the residual.
+  const double size = std::numbers::pi * point.q.vector().norm() * load;
+  if (load > 0.0 && exchanged > vanishing * size) {
+    point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;
+    if (scene.contact) {
+      point.dissipation_mismatch = std::abs(rubbed - point.report.slip_work) / exchanged;
+    }
+  }
+  return point;
+}
+
+}  // namespace microslip::solver

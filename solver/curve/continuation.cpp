@@ -1,0 +1,281 @@
+#include "solver/continuation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "solver/curve/branch_search.hpp"
+#include "solver/curve/curve_tracer.hpp"
+#include "solver/harmonics/harmonic_choice.hpp"
+#include "solver/curve/linear_certificate.hpp"
+#include "solver/balance/linear_force.hpp"
+#include "solver/balance/linear_resonance.hpp"
+#include "solver/branch/refit.hpp"
+#include "solver/curve/solved_point.hpp"
+#include "solver/branch/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+void check_range(const ContinuationOptions& options) {
+  const auto bad = [](double frequency) { return !(frequency > 0.0) || !std::isfinite(frequency); };
+  if (bad(options.frequency_begin) || bad(options.frequency_end)) {
+    throw std::invalid_argument(
+        "continuation: frequencies " + std::to_string(options.frequency_begin) + " and " +
+        std::to_string(options.frequency_end) + " rad/s; both must be finite and above 0");
+  }
+  if (bad(options.residual_tolerance)) {
+    throw std::invalid_argument("continuation: residual_tolerance " +
+                                std::to_string(options.residual_tolerance) +
+                                "; it must be finite and above 0");
+  }
+}
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+};
+
+void note_boundary_peak(ResponseCurve& curve) {
+  if (!curve.complete || curve.points.size() < 2) return;
+  const auto largest = std::max_element(
+      curve.points.begin(), curve.points.end(),
+      [](const ResponsePoint& a, const ResponsePoint& b) { return a.amplitude < b.amplitude; });
+  const bool at_end = largest == curve.points.begin() || largest == std::prev(curve.points.end());
+  if (at_end && largest->amplitude > 0.0) {
+    curve.message = "peak at boundary: the largest amplitude lies at an end of the range";
+  }
+}
+
+/// From the other end; the points are turned to the order asked for.
+ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
+                              const PointObserver& observe) {
+  std::swap(options.frequency_begin, options.frequency_end);
+  ResponseCurve curve = CurveTracer(scene, options, observe).run();
+  std::reverse(curve.points.begin(), curve.points.end());
+  return curve;
+}
+
+Eigen::MatrixXd limit_stiffness(const Scene& scene, LinearLimit limit) {
+  const Eigen::Index n = scene.n_modes();
+  if (limit == LinearLimit::free) return Eigen::MatrixXd::Zero(n, n);
+  return scene.contact->stuck_stiffness();
+}
+
+/// The scene with another force in the place of its contact.
+Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force) {
+  Scene other;
+  other.natural_frequency = scene.natural_frequency;
+  other.damping_ratio = scene.damping_ratio;
+  other.excitation = scene.excitation;
+  other.output = scene.output;
+  other.contact = std::move(force);
+  return other;
+}
+
+/// What was evaluated was linear.
+void forget_evaluations(ResponseCurve& curve) {
+  curve.contact_evaluations = 0;
+  curve.state_readings = 0;
+  curve.state_cuts = 0;
+  for (ResponsePoint& point : curve.points) point.contact_evaluations = 0;
+}
+
+/// The linear curve where it is proved to be one; nothing nonlinear is evaluated.
+std::optional<ResponseCurve> trace_certified(const Scene& scene, const ContinuationOptions& options,
+                                             const PointObserver& observe) {
+  if (!options.linear_certificate || !scene.contact) return std::nullopt;
+  const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
+  const LinearCertificate proof =
+      certify_linear(HarmonicBalance(scene, first_harmonics(scene, options)), low, high);
+  if (proof.state == contact::LinearState::unknown) return std::nullopt;
+  const bool stuck = proof.state == contact::LinearState::stuck;
+  const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
+  const Scene linear = with_force(
+      scene, std::make_unique<LinearForce>(limit_stiffness(scene, limit), *scene.contact));
+  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  forget_evaluations(curve);
+  curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
+                      " over the whole range (" + std::to_string(proof.n_intervals) +
+                      " frequency intervals): the linear response is a solution; others may exist";
+  return curve;
+}
+
+/// A linear curve as far as to an undamped resonance, where the response has no bound.
+ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, double resonance) {
+  constexpr double nearest = 1e-3;  // of the frequency: some 500 times the static response
+  const double way = resonance - options.frequency_begin;
+  options.frequency_end = resonance - std::copysign(nearest * resonance, way);
+  ResponseCurve curve;
+  if (std::abs(way) > nearest * resonance) curve = trace_response(linear, options);
+  if (!curve.diagnosis.empty()) return curve;
+  curve.complete = false;
+  curve.diagnosis = "unbounded";
+  curve.message = "undamped resonance at " + std::to_string(resonance / (2.0 * std::numbers::pi)) +
+                  " Hz: the linear response has no bound there";
+  return curve;
+}
+
+/// The curve of a structure that no force moves, if the contact is in balance at rest: zero. A walk would follow
+/// rounding errors of the preload.
+std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const ContinuationOptions& options,
+                                           const PointObserver& observe) {
+  if (!scene.contact || !scene.excitation.rows().isZero(0.0)) return std::nullopt;
+  const HarmonicBalance balance(scene, first_harmonics(scene, options));
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(balance.size());
+  const BalanceEvaluation at = balance.evaluate(rest, options.frequency_begin);
+  if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
+  const Eigen::Index n = scene.n_modes();
+  const Scene linear = with_force(
+      scene, std::make_unique<LinearForce>(at.jacobian.block(n, n, n, n), *scene.contact));
+  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  forget_evaluations(curve);
+  curve.contact_evaluations = 1;
+  curve.certificate =
+      "at rest: no force acts and the contact is in balance; other solutions may exist";
+  return curve;
+}
+
+}  // namespace
+
+HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
+  if (options.harmonic_tolerance > 0.0) {
+    return HarmonicChoice(scene, options.harmonic_tolerance, options.n_harmonics).least();
+  }
+  return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
+}
+
+ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
+                             const PointObserver& observe) {
+  check_range(options);
+  if (options.frequency_begin == options.frequency_end) {
+    return solve_at_frequency(scene, options.frequency_begin, options);
+  }
+  const Stopwatch watch;
+  std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
+  if (!certified) certified = trace_at_rest(scene, options, observe);
+  ResponseCurve curve =
+      certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
+  if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
+    ResponseCurve other = trace_backwards(scene, options, observe);
+    const long iterations = curve.iterations + other.iterations;
+    const long evaluations = curve.contact_evaluations + other.contact_evaluations;
+    const long readings = curve.state_readings + other.state_readings;
+    const long cuts = curve.state_cuts + other.state_cuts;
+    const bool two_sides = curve.diagnosis == "unbounded" && other.diagnosis == "unbounded" &&
+                           curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
+    if (two_sides) {
+      curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
+      curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
+    } else if (other.complete || other.points.size() > curve.points.size()) {
+      other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
+      other.log.push_back({options.frequency_end, "other-end"});
+      curve = std::move(other);
+    }
+    curve.iterations = iterations;
+    curve.contact_evaluations = evaluations;
+    curve.state_readings = readings;
+    curve.state_cuts = cuts;
+  }
+  note_boundary_peak(curve);
+  if (options.search_starts > 0 && curve.diagnosis != "interrupted") {
+    search_branches(scene, options, curve);
+  }
+  curve.seconds = watch.seconds();
+  return curve;
+}
+
+ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
+                                 const ContinuationOptions& options) {
+  ContinuationOptions here = options;
+  here.frequency_begin = here.frequency_end = frequency;
+  check_range(here);
+  const Stopwatch watch;
+  HarmonicSet set = first_harmonics(scene, options);
+  StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance);
+  ResponseCurve curve;
+  curve.iterations = start.iterations;
+  curve.contact_evaluations = start.evaluations;
+  if (start.solution) {
+    curve.points.push_back(point_with_harmonics(scene, std::move(set), std::move(*start.solution),
+                                                options, curve));
+    curve.points.back().contact_evaluations = curve.contact_evaluations;
+    curve.points.back().seconds = watch.seconds();
+    curve.complete = true;
+    if (options.search_starts > 0) search_branches(scene, here, curve);
+  } else {
+    curve.diagnosis = "no-start";
+    curve.message = "no solution found; tried " + start.way;
+  }
+  curve.seconds = watch.seconds();
+  return curve;
+}
+
+std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const ResponseCurve& curve,
+                                               double frequency,
+                                               const ContinuationOptions& options) {
+  const HarmonicSet least = first_harmonics(scene, options);
+  std::unique_ptr<HarmonicBalance> balance;
+  std::vector<ResponsePoint> found;
+  const auto solve_between = [&](const ResponsePoint& a, const ResponsePoint& b, double share) {
+    const HarmonicSet set = least.united(a.orders).united(b.orders);
+    if (!balance || balance->set() != set) balance = std::make_unique<HarmonicBalance>(scene, set);
+    const Eigen::VectorXd guess =
+        (1.0 - share) * balance->unknowns(a.q) + share * balance->unknowns(b.q);
+    NewtonOptions newton;
+    newton.tolerance = options.residual_tolerance;
+    newton.max_iterations = 30;
+    if (scene.contact) scene.contact->begin_point();
+    static_cast<void>(refit_to(*balance, {{guess, frequency}}));
+    NewtonResult solution = solve_at(*balance, guess, frequency, newton);
+    if (!solution.converged) return;
+    ResponseCurve work;
+    found.push_back(settled_point(*balance, std::move(solution), options, work));
+  };
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const ResponsePoint& b = curve.points[i];
+    const ResponsePoint& a = curve.points[i > 0 ? i - 1 : 0];
+    const bool repeated = i > 0 && a.frequency == b.frequency && a.q.vector() == b.q.vector();
+    if (b.frequency == frequency && !repeated) solve_between(b, b, 1.0);
+    const bool crosses = (a.frequency < frequency && b.frequency > frequency) ||
+                         (a.frequency > frequency && b.frequency < frequency);
+    if (crosses) solve_between(a, b, (frequency - a.frequency) / (b.frequency - a.frequency));
+  }
+  return found;
+}
+
+ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
+                           const ContinuationOptions& options) {
+  const Eigen::MatrixXd stiffness = scene.contact
+                                        ? limit_stiffness(scene, limit)
+                                        : Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
+  std::unique_ptr<contact::ModalForce> force;
+  if (scene.contact) {
+    const bool stuck = limit == LinearLimit::stuck;
+    force = std::make_unique<LinearForce>(stiffness, stuck
+                                                         ? contact::CycleReport{1.0, 0.0, 0.0}
+                                                         : contact::CycleReport{0.0, 0.0, 1.0});
+  }
+  const Scene linear = with_force(scene, std::move(force));
+  ContinuationOptions alone = options;
+  alone.search_starts = 0;  // a linear response is the only one
+  const std::optional<double> unbounded =
+      unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);
+  ResponseCurve curve =
+      unbounded ? trace_below(linear, alone, *unbounded) : trace_response(linear, alone);
+  forget_evaluations(curve);
+  return curve;
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,250 @@
+#include "solver/curve/curve_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/balance/linear_resonance.hpp"
+#include "solver/branch/start_point.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// Bounds of a step in frequency, as shares of the range: ten points are the least a curve has, and
+// a resonance narrower than the lower bound cannot be told from its neighbours in double precision.
+constexpr double widest = 0.1;
+constexpr double narrowest = 1e-7;
+
+// Share of the response by which it may change where the branch is interrupted, beyond what its
+// tangent tells; more is another branch.
+constexpr double same_branch = 0.05;
+constexpr double longest_extrapolation = 0.3;  // of the response: a steep tangent tells no more
+constexpr int most_restarts = 20;
+
+bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
+  const BranchVector& from = last.solution.point;
+  const double ahead = (next.parameter - from.parameter) / last.scaling.parameter;
+  const double along =
+      std::abs(ahead / last.tangent.parameter) * last.tangent.x.norm() * last.scaling.x;
+  const double size = from.x.norm();
+  return (next.x - from.x).norm() <=
+         same_branch * size + std::min(along, longest_extrapolation * size);
+}
+
+const char* stall_name(Stall stall) {
+  if (stall == Stall::fold) return "fold-lost";
+  return stall == Stall::chatter ? "event-chatter" : "newton-stall";
+}
+
+}  // namespace
+
+CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
+                         const PointObserver& observe)
+    : scene_(scene),
+      options_(options),
+      balance_(std::make_unique<HarmonicBalance>(scene, first_harmonics(scene, options))),
+      observe_(observe),
+      range_(std::abs(options.frequency_end - options.frequency_begin)) {
+  const Eigen::MatrixXd free = Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
+  unbounded_ = unbounded_resonance(scene, free, options.frequency_begin, options.frequency_end);
+  if (options.harmonic_tolerance > 0.0) {
+    choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
+    screening_.emplace(scene, *choice_);
+  }
+}
+
+double CurveTracer::progress(double frequency) const {
+  return (frequency - options_.frequency_begin) /
+         (options_.frequency_end - options_.frequency_begin);
+}
+
+StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
+  if (last_x_.size() != at.point.x.size() || last_x_ != at.point.x) {
+    last_stability_ = slow_flow_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
+    last_x_ = at.point.x;
+  }
+  return last_stability_;
+}
+
+Scaling CurveTracer::scaling_at(const NewtonResult& at) {
+  Scaling scaling = natural_scaling(*balance_, at.point.x, at.point.parameter);
+  scaling.parameter = std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
+  return scaling;
+}
+
+/// Counts what the walker has done since it was asked last.
+void CurveTracer::take_stock(const BranchWalker& walker) {
+  curve_.contact_evaluations += walker.evaluations() - walker_evaluations_;
+  curve_.iterations += walker.iterations() - walker_iterations_;
+  walker_evaluations_ = walker.evaluations();
+  walker_iterations_ = walker.iterations();
+  curve_.state_readings += walker.states().n_readings() - walker_readings_;
+  curve_.state_cuts += walker.states().n_cuts() - walker_cuts_;
+  walker_readings_ = walker.states().n_readings();
+  walker_cuts_ = walker.states().n_cuts();
+  for (; n_remedies_ < walker.remedies().size(); ++n_remedies_) {
+    const Remedy& remedy = walker.remedies()[n_remedies_];
+    curve_.log.push_back({remedy.parameter, remedy.name});
+  }
+}
+
+void CurveTracer::stop(const std::string& diagnosis, const std::string& message) {
+  curve_.diagnosis = diagnosis;
+  curve_.message = message;
+}
+
+/// A branch that was entered by a jump may be detached: then it comes back to where it was entered.
+bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
+  constexpr int fewest = 10;  // steps away from the entry
+  if (!entry_ || n_steps < fewest) return false;
+  const Scaling& scaling = walker.now().scaling;
+  const auto distance = [&](const BranchVector& a, const BranchVector& b) {
+    return std::hypot((a.x - b.x).norm() / scaling.x,
+                      (a.parameter - b.parameter) / scaling.parameter);
+  };
+  const BranchVector& now = walker.now().solution.point;
+  const BranchVector entry{balance_->unknowns(entry_->q), entry_->frequency};
+  return distance(now, entry) < distance(now, walker.before().solution.point);
+}
+
+/// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is the smaller
+/// one, nothing bounds an undamped resonance of the free structure, and the branch climbs for ever.
+bool CurveTracer::endless() const {
+  constexpr double near = 1e-6;  // of the frequency: 5e5 times the static response
+  constexpr double high = 1e4;   // times the first point
+  const ResponsePoint& now = curve_.points.back();
+  return unbounded_ && std::abs(now.frequency - *unbounded_) <= near * *unbounded_ &&
+         now.amplitude > high * curve_.points.front().amplitude;
+}
+
+bool CurveTracer::walk(BranchWalker& walker) {
+  for (int n_steps = 0; static_cast<int>(curve_.points.size()) < options_.max_points; ++n_steps) {
+    const bool stepped = walker.advance();
+    take_stock(walker);
+    if (!stepped) return true;
+    enlarge(walker);
+    settle_step(walker);
+    const double frequency = walker.now().solution.point.parameter;
+    if (progress(frequency) >= 1.0) {
+      if (reach(walker, options_.frequency_end)) curve_.complete = curve_.diagnosis.empty();
+      return false;
+    }
+    if (progress(frequency) < -1e-9) {
+      if (reach(walker, options_.frequency_begin)) {
+        stop("out-of-range",
+             at_hertz("the branch turned back out of the range", options_.frequency_begin));
+      }
+      return false;
+    }
+    if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
+      stop("interrupted", at_hertz("stopped", frequency));
+      return false;
+    }
+    if (endless()) {
+      stop("unbounded", at_hertz("an undamped resonance that friction does not hold", frequency));
+      return false;
+    }
+    if (closed(walker, n_steps)) {
+      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
+      return false;
+    }
+    reduce(walker);
+  }
+  stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
+                     " points");
+  return false;
+}
+
+BranchWalker CurveTracer::walker_from(NewtonResult start) {
+  const ParametricSystem system = [this](const Eigen::VectorXd& x, double frequency) {
+    return balance_->evaluate(x, frequency);
+  };
+  walker_evaluations_ = walker_iterations_ = 0;
+  walker_readings_ = walker_cuts_ = 0;
+  n_remedies_ = 0;
+  const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
+  BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
+                      std::move(start), forward, options_.residual_tolerance);
+  if (scene_.contact) {
+    walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
+      scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
+    });
+  }
+  return walker;
+}
+
+/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies
+/// from the linear limits, at growing distances.
+std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
+  const BranchVector& from = stalled.now().solution.point;
+  NewtonOptions newton;
+  newton.tolerance = options_.residual_tolerance;
+  newton.max_iterations = 40;
+  for (const double ahead : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2}) {
+    const double frequency =
+        from.parameter + ahead * (options_.frequency_end - options_.frequency_begin);
+    if (progress(frequency) >= 1.0) break;
+    NewtonResult corrected = solve_at(*balance_, from.x, frequency, newton);
+    curve_.contact_evaluations += corrected.evaluations;
+    curve_.iterations += corrected.iterations;
+    const bool plain = corrected.converged;
+    if (!plain) {
+      StartPoint start = find_start(*balance_, frequency, options_.residual_tolerance);
+      curve_.contact_evaluations += start.evaluations;
+      curve_.iterations += start.iterations;
+      if (!start.solution) continue;
+      corrected = std::move(*start.solution);
+    }
+    curve_.log.push_back({from.parameter, plain ? "fixed-frequency" : "homotopy"});
+    return corrected;
+  }
+  return std::nullopt;
+}
+
+ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
+  use(set);
+  start = settled(std::move(start));
+  entry_ = {balance_->harmonics(start.point.x), start.point.parameter};
+  if (!add(start)) return finished();
+  BranchWalker walker = walker_from(std::move(start));
+  if (walk(walker)) {
+    stop(stall_name(walker.stall()),
+         at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
+  }
+  return finished();
+}
+
+ResponseCurve CurveTracer::run() {
+  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance);
+  curve_.iterations = start.iterations;
+  curve_.contact_evaluations = start.evaluations;
+  if (!start.solution) {
+    stop("no-start",
+         at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
+    return finished();
+  }
+  std::optional<NewtonResult> next = settled(std::move(*start.solution));
+  for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
+    if (!add(*next)) {
+      stop("interrupted", at_hertz("stopped", next->point.parameter));
+      return finished();
+    }
+    BranchWalker walker = walker_from(std::move(*next));
+    if (!walk(walker)) return finished();
+    const double last = walker.now().solution.point.parameter;
+    const char* name = stall_name(walker.stall());
+    next = restart(walker);
+    if (!next) {
+      stop(name, at_hertz("Newton's method stalled and no remedy helped", last));
+    } else if (!on_the_branch(walker.now(), next->point)) {
+      stop("branch-jump", at_hertz(std::string(name) + ", and another branch beyond it", last));
+      curve_.log.push_back({last, "other-branch"});
+      entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
+    }
+    if (next) next = settled(std::move(*next));
+  }
+  if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
+  return finished();
+}
+
+}  // namespace microslip::solver

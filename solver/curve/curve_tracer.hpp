@@ -1,0 +1,106 @@
+/// @file
+/// One sweep along one branch: walks it, certifies every point, solves for peaks and folds between
+/// points, ends exactly at the end of the range. Where harmonics are chosen, both ends of a step and the
+/// peaks and folds between them have those that any of them needs. Where the force follows the motion
+/// (refit.hpp) it suits all of them as well: no peak or fold is lost between two discretisations.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/branch/branch_walker.hpp"
+#include "solver/continuation.hpp"
+#include "solver/balance/harmonic_balance.hpp"
+#include "solver/harmonics/harmonic_choice.hpp"
+#include "solver/harmonics/harmonic_screening.hpp"
+#include "solver/branch/special_points.hpp"
+#include "solver/stability/stability.hpp"
+
+namespace microslip::solver {
+
+class CurveTracer {
+ public:
+  /// @param scene  borrowed.
+  CurveTracer(const Scene& scene, const ContinuationOptions& options, const PointObserver& observe);
+
+  /// The curve; never throws for one that cannot be completed.
+  [[nodiscard]] ResponseCurve run();
+  /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
+  /// with the diagnosis "loop".
+  /// @param set  of the unknowns of `start`.
+  [[nodiscard]] ResponseCurve follow(NewtonResult start, const HarmonicSet& set);
+
+ private:
+  [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
+  [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
+  [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
+  /// False: the observer asked to stop.
+  [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);
+  /// True: the walker stalled; false: the curve has ended one way or another.
+  [[nodiscard]] bool walk(BranchWalker& walker);
+  [[nodiscard]] BranchWalker walker_from(NewtonResult start);
+  /// A solution a little way beyond a point at which the walker stalled; empty: none was found.
+  [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
+  void take_stock(const BranchWalker& walker);
+  void use(const HarmonicSet& set);
+  /// The solution with the harmonics it needs, solved for at its frequency.
+  [[nodiscard]] NewtonResult settled(NewtonResult at);
+  [[nodiscard]] bool change_harmonics(BranchWalker& walker, const HarmonicSet& set);
+  /// Harmonics that a point on the last step needs, on the whole step. False: there are none.
+  [[nodiscard]] bool enlarge(BranchWalker& walker, const NewtonResult& at);
+  void enlarge(BranchWalker& walker);
+  /// The last step on a force fitted to its ends and the points between. True: it was solved again.
+  [[nodiscard]] bool refit(BranchWalker& walker, const std::vector<SpecialPoint>& between);
+  void settle_step(BranchWalker& walker);
+  /// Peaks and folds of the last step, with harmonics and a force that suit them.
+  /// @param left_out  of each, by its harmonics.
+  [[nodiscard]] std::vector<SpecialPoint> settled_specials(BranchWalker& walker,
+                                                           std::vector<double>& left_out);
+  void reduce(BranchWalker& walker);
+  /// Brings all points to the same number of harmonics.
+  [[nodiscard]] ResponseCurve finished();
+  [[nodiscard]] bool endless() const;
+  [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
+  void note_unsolved(double frequency, PointMark mark);
+  /// Peaks and folds up to a share of the last step. False: as for add().
+  [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
+  /// What the last step has up to an end of the range, and the point there. False: diagnosis says why.
+  [[nodiscard]] bool reach(BranchWalker& walker, double edge);
+  [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
+  void stop(const std::string& diagnosis, const std::string& message);
+  [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
+
+  using Clock = std::chrono::steady_clock;
+
+  struct Entry {
+    Harmonics q;
+    double frequency = 0.0;
+  };
+
+  const Scene& scene_;
+  ContinuationOptions options_;
+  std::unique_ptr<HarmonicBalance> balance_;
+  std::optional<double> unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
+  std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
+  std::optional<HarmonicScreening> screening_;
+  double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked
+  double change_ = 0.0;                   ///< by the last refit of the force
+  const PointObserver& observe_;
+  ResponseCurve curve_;
+  double range_;
+  StabilityReport last_stability_;
+  Eigen::VectorXd last_x_;             ///< of last_stability_
+  std::optional<Entry> entry_;         ///< where a jump entered the branch walked now
+  std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
+  long walker_evaluations_ = 0;        ///< of the walker, counted already
+  long walker_iterations_ = 0;
+  long walker_readings_ = 0;
+  long walker_cuts_ = 0;
+  long point_evaluations_ = 0;  ///< of the curve when the last point was added
+  Clock::time_point last_time_ = Clock::now();
+};
+
+}  // namespace microslip::solver

@@ -1,0 +1,116 @@
+// The part of CurveTracer that makes rows of the curve: points with their proof, peaks and folds of a step, and
+// the end of the range.
+
+#include <chrono>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "solver/curve/certificate.hpp"
+#include "solver/curve/curve_tracer.hpp"
+#include "solver/branch/special_points.hpp"
+
+namespace microslip::solver {
+
+std::string CurveTracer::at_hertz(const std::string& text, double frequency) {
+  std::ostringstream stream;
+  stream.precision(8);
+  stream << text << " at " << frequency / (2.0 * std::numbers::pi) << " Hz";
+  return stream.str();
+}
+
+ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
+  StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
+                                             at.point.parameter, stability_at(at));
+  if (mark != PointMark::fold) {
+    const bool is_peak = mark == PointMark::peak;
+    stability = stability_in_time(
+        *balance_, balance_->harmonics(at.point.x), at.point.parameter, std::move(stability),
+        is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
+  }
+  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
+  point.mark = mark;
+  point.harmonics_left_out = left_out_;
+  point.quadrature_change = change_;
+  // At a fold a multiplier is 1: on which side it falls is rounding.
+  if (mark == PointMark::fold) point.stability = Stability::not_assessed;
+  return point;
+}
+
+bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
+  ResponsePoint point = certified(at, mark);
+  const Clock::time_point now = Clock::now();
+  point.contact_evaluations = curve_.contact_evaluations - point_evaluations_;
+  point.seconds = std::chrono::duration<double>(now - last_time_).count();
+  point_evaluations_ = curve_.contact_evaluations;
+  last_time_ = now;
+  curve_.points.push_back(std::move(point));
+  return !observe_ || observe_(curve_.points.back());
+}
+
+std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
+                                                        std::vector<double>& left_out) {
+  std::vector<SpecialPoint> found;
+  const auto any_lacks = [&] {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (enlarge(walker, found[i].solution)) return true;
+      left_out[i] = left_out_;
+    }
+    return false;
+  };
+  if (scene_.contact) scene_.contact->begin_point();
+  do {
+    found = special_points(walker, *balance_);
+    left_out.assign(found.size(), 0.0);
+  } while ((choice_ && any_lacks()) || (!found.empty() && refit(walker, found)));
+  return found;
+}
+
+void CurveTracer::note_unsolved(double frequency, PointMark mark) {
+  curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
+}
+
+bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
+  const double left_out_now = left_out_;
+  const double change_now = change_;
+  std::vector<double> left_out;
+  const std::vector<SpecialPoint> found = settled_specials(walker, left_out);
+  take_stock(walker);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    left_out_ = left_out[i];
+    if (!(found[i].share < share_of_segment)) continue;
+    if (!found[i].solved) note_unsolved(found[i].solution.point.parameter, found[i].mark);
+    if (!add(found[i].solution, found[i].mark)) return false;
+  }
+  left_out_ = left_out_now;
+  if (found.empty()) change_ = change_now;
+  return true;
+}
+
+bool CurveTracer::reach(BranchWalker& walker, double edge) {
+  const double before = walker.before().solution.point.parameter;
+  const double now = walker.now().solution.point.parameter;
+  if (before == edge) return true;  // a branch that was followed from there
+  const double share = (edge - before) / (now - before);
+  if (!add_specials(walker, share)) {
+    stop("interrupted", at_hertz("stopped", edge));
+    return false;
+  }
+  if (scene_.contact) scene_.contact->begin_point();
+  NewtonResult last;
+  do {
+    last = walker.at_parameter(edge, share);
+  } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
+  take_stock(walker);
+  if (!last.converged) {
+    stop("newton-stall", at_hertz("no solution found", edge));
+    return false;
+  }
+  if (!add(last)) {
+    stop("interrupted", at_hertz("stopped", edge));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,134 @@
+/// @file
+/// Peak against parameter: the largest amplitude over a frequency range of a family of scenes, carried from
+/// value to value as an unknown (local_peak.hpp) instead of being searched on a whole curve for each.
+///
+/// Every peak of the curves at a few values of the parameter ("checks"), and the solution at either end of
+/// the range, is followed both ways; the result is the highest of all. Peaks thus may enter and leave the
+/// range: there an end is the highest. What following alone cannot see is caught by the checks:
+///
+///   a peak that appears or overtakes   it stands on the curve of a check and is followed back from there
+///   a peak that enters the range       the amplitude at the end grows into it: the curve is traced whole
+///   a peak that vanishes or jumps      following stops, the curve there is traced whole
+///   a branch that comes off the curve  its peak is missing on the curve of the next check; all values up to
+///                                      the last agreement are traced whole
+///
+/// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is made with every
+/// whole curve; a peak it finds counts like one of the curve. Without it such a peak is not known, unless the
+/// branch was followed to where it came off the curve: the notes say so then. At worst every value is traced whole, which is what a search on curves costs.
+///
+/// Where harmonics are chosen, all peaks have those that the peaks of the checks need
+/// (common_harmonics.hpp); a curve whose highest peak needs more is named in `notes`.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "solver/peak/high_points.hpp"
+#include "solver/peak/local_peak.hpp"
+
+namespace microslip::solver {
+
+/// Scene for a value of the parameter.
+using SceneFamily = std::function<Scene(double parameter)>;
+
+enum class ParameterScale { logarithmic, linear };
+
+struct PeakOfParameter {
+  double parameter = 0.0;
+  double frequency = 0.0;  ///< [rad/s]
+  double amplitude = 0.0;  ///< [m]
+  bool whole_curve =
+      false;  ///< the peak is the highest of a complete curve, not only of those followed
+  PeakPlace place = PeakPlace::peak;  ///< what has this amplitude
+  /// It was found on a branch that the sweep does not meet; told where the curve was traced whole.
+  bool detached = false;
+};
+
+struct PeakTraceOptions {
+  double lower = 0.0;  ///< of the parameter; > 0 on the logarithmic scale
+  double upper = 0.0;  ///< > lower
+  int n_values = 30;   ///< spread evenly on the scale, both bounds included, ≥ 2
+  int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
+  ParameterScale scale = ParameterScale::logarithmic;
+};
+
+struct PeakTrace {
+  std::vector<PeakOfParameter> peaks;  ///< sorted by parameter; values without a solution are left out
+  std::vector<std::string> notes;      ///< what following met, in words; the fall-backs among them
+  std::vector<std::string> warnings;   ///< the notes that tell of peaks beside the curves
+  int n_curves = 0;                    ///< traced whole
+  long iterations = 0;
+  long contact_evaluations = 0;
+  double seconds = 0.0;
+};
+
+/// The peaks of a family that have been found so far, each followed as far as asked for.
+class PeakFamilies {
+ public:
+  /// @param family  borrowed.
+  /// @throws std::invalid_argument  bounds or counts out of range.
+  PeakFamilies(const SceneFamily& family, const ContinuationOptions& range,
+               const PeakTraceOptions& options);
+
+  /// Follows all peaks over all values.
+  void trace();
+  /// The highest of peaks and ends at any value between the bounds, followed from the nearest values; +∞
+  /// amplitude where no solution is known.
+  [[nodiscard]] PeakOfParameter highest(double parameter);
+  /// Traces the curve at a value whole. True: it confirms what highest() says there; else the peaks
+  /// missing are followed from here on.
+  bool confirm(double parameter);
+
+  [[nodiscard]] PeakTrace result() const;
+
+ private:
+  using Peaks = std::map<double, LocalPeak>;  // what one peak or end is, by position
+  struct Curve {
+    std::vector<HighPoint> high;  // from the highest down
+    bool complete = false;
+  };
+
+  // Positions are parameters on the scale of the options.
+  [[nodiscard]] double position(double parameter) const;
+  [[nodiscard]] double known_position(double parameter) const;
+  [[nodiscard]] double parameter(double position) const;
+  [[nodiscard]] double value_position(int index) const;
+  [[nodiscard]] double check_position(int index) const;
+  [[nodiscard]] const LocalPeak* highest_followed(double position) const;
+  [[nodiscard]] PeakOfParameter highest_at(double position) const;
+  [[nodiscard]] bool needs_curve(double position) const;
+  [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
+  const Curve& curve_at(double position);
+  void seed(double position);
+  void settle();
+  void follow_values(std::size_t family, double from, double direction);
+  bool follow_to(Peaks& peaks, double target);
+  [[nodiscard]] std::optional<LocalPeak> followed(const Peaks& peaks, Peaks::const_iterator nearest,
+                                                  double target);
+  [[nodiscard]] bool known_elsewhere(std::size_t family, double position) const;
+  [[nodiscard]] bool agrees(const Peaks& peaks, double position) const;
+  void cut(Peaks& peaks, double position);
+  void note(const std::string& text, double position);
+  void warn(const std::string& text, double position);
+
+  const SceneFamily& family_;
+  ContinuationOptions choosing_;  ///< as given
+  ContinuationOptions range_;     ///< with the harmonics that all peaks have
+  PeakTraceOptions options_;
+  double spacing_;
+  std::vector<Peaks> families_;
+  std::map<double, Curve> curves_;
+  std::set<double> asked_;    // positions whose highest peak is known
+  std::set<double> pending_;  // positions whose curve is to be traced whole
+  PeakTrace result_;
+};
+
+/// @throws std::invalid_argument  bounds or counts out of range.
+[[nodiscard]] PeakTrace trace_peaks(const SceneFamily& family, const ContinuationOptions& range,
+                                    const PeakTraceOptions& options);
+
+}  // namespace microslip::solver

@@ -1,0 +1,288 @@
+#include "solver/stability/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "solver/stability/floquet.hpp"
+#include "solver/balance/linear_force.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// Eigenvalues of a matrix whose entries are of the size of ω carry errors of some 1e-13 ω; a growth
+// below this share of ω takes over 1e9 periods to show.
+constexpr double growth_tolerance = 1e-10;
+// Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in it,
+// and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
+constexpr double slow_share = 0.25;  // of ω
+// Of Hill's problem: some 0.1 s for its eigenvectors.
+constexpr Eigen::Index most_states = 160;
+// Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
+constexpr double real_tolerance = 1e-6;
+// Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
+constexpr Eigen::Index most_multipliers = 16;
+// The same where few points are judged: sliders at rest in the period are no states of the matrix, points cost time
+// in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).
+constexpr Eigen::Index most_multipliers_of_few = 60;
+constexpr Eigen::Index most_points_of_few = 100;
+// Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
+constexpr double multiplier_tolerance = 1e-4;
+
+double sign_of_determinant(const Eigen::MatrixXd& matrix) {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
+  auto sign = static_cast<double>(factors.permutationP().determinant());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const double pivot = factors.matrixLU()(i, i);
+    sign *= pivot > 0.0 ? 1.0 : (pivot < 0.0 ? -1.0 : 0.0);
+  }
+  return sign;
+}
+
+/// A balance reduced to some of its harmonics: the others follow without inertia or memory of their own,
+/// J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
+struct Reduced {
+  std::vector<int> orders;
+  Eigen::MatrixXd jacobian;
+};
+
+/// The first two, and harmonics at which a mode is slow against the cycle.
+std::vector<int> slow_orders(const HarmonicBalance& balance, double frequency) {
+  std::vector<int> kept;
+  for (const int k : balance.set().orders()) {
+    const Eigen::ArrayXd turn = balance.scene().natural_frequency.array() - k * frequency;
+    if (kept.size() < 2 || (turn.abs() < slow_share * frequency).any()) kept.push_back(k);
+  }
+  return kept;
+}
+
+/// As many as Hill's problem can hold.
+std::vector<int> low_orders(const HarmonicBalance& balance) {
+  const auto room = static_cast<std::size_t>(most_states / (4 * balance.scene().n_modes()));
+  std::vector<int> orders = balance.set().orders();
+  orders.resize(std::min(orders.size(), std::max<std::size_t>(room, 2)));
+  return orders;
+}
+
+Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                std::vector<int> orders) {
+  const Eigen::Index n = balance.scene().n_modes();
+  Reduced result{std::move(orders), {}};
+  std::vector<Eigen::Index> low;
+  std::vector<Eigen::Index> high;
+  for (Eigen::Index i = 0; i < n; ++i) low.push_back(i);
+  Eigen::Index first = n;
+  for (const int k : balance.set().orders()) {
+    const bool kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
+    for (Eigen::Index i = first; i < first + 2 * n; ++i) (kept ? low : high).push_back(i);
+    first += 2 * n;
+  }
+  result.jacobian = jacobian(low, low);
+  if (!high.empty()) {
+    result.jacobian -= jacobian(low, high) * jacobian(high, high).partialPivLu().solve(
+                                                 Eigen::MatrixXd(jacobian(high, low)));
+  }
+  return result;
+}
+
+Eigen::ArrayXd damping_of(const Scene& scene) {
+  return 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+}
+
+/// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean.
+Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double frequency) {
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::MatrixXd& jacobian = balance.jacobian;
+  const Eigen::Index size = jacobian.rows();
+  const Eigen::ArrayXd damping = damping_of(scene);
+  Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(size + n, size + n);
+  flow.block(0, size, n, n).setIdentity();
+  flow.block(size, 0, n, size) = -jacobian.topRows(n);
+  flow.block(size, size, n, n).diagonal() = -damping.matrix();
+  Eigen::Index s = n;
+  for (const int k : balance.orders) {
+    const Eigen::Index c = s + n;
+    const double spin = 2.0 * k * frequency;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      // [c −2kω; 2kω c]⁻¹ = [c 2kω; −2kω c] / (c² + 4k²ω²)
+      const double square = damping[i] * damping[i] + spin * spin;
+      const auto sine = jacobian.row(s + i);
+      const auto cosine = jacobian.row(c + i);
+      flow.row(s + i).head(size) = -(damping[i] * sine + spin * cosine) / square;
+      flow.row(c + i).head(size) = (spin * sine - damping[i] * cosine) / square;
+    }
+    s += 2 * n;
+  }
+  return flow;
+}
+
+/// Hill's problem as a first-order one in (p, λp/ω), eigenvalues over ω.
+Eigen::MatrixXd hill_matrix(const Scene& scene, const Reduced& balance, double frequency) {
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::Index size = balance.jacobian.rows();
+  const Eigen::VectorXd damping = damping_of(scene).matrix() / frequency;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * size, 2 * size);
+  matrix.topRightCorner(size, size).setIdentity();
+  matrix.bottomLeftCorner(size, size) = -balance.jacobian / (frequency * frequency);
+  auto delta = matrix.bottomRightCorner(size, size);  // −Δ/ω
+  delta.diagonal() = -damping.replicate(size / n, 1);
+  Eigen::Index s = n;
+  for (const int k : balance.orders) {
+    delta.block(s, s + n, n, n).diagonal().setConstant(2.0 * k);
+    delta.block(s + n, s, n, n).diagonal().setConstant(-2.0 * k);
+    s += 2 * n;
+  }
+  return matrix;
+}
+
+/// Mean harmonic of an eigenvector, from −H to H: S sin kθ + C cos kθ has (C ∓ iS)/2 at ±k.
+double centre_of(const Eigen::VectorXcd& p, const std::vector<int>& orders, Eigen::Index n) {
+  constexpr std::complex<double> i{0.0, 1.0};
+  double moment = 0.0;
+  double size = p.head(n).squaredNorm();
+  Eigen::Index s = n;
+  for (const int k : orders) {
+    const auto sine = p.segment(s, n);
+    const auto cosine = p.segment(s + n, n);
+    const double ahead = 0.25 * (cosine - i * sine).squaredNorm();
+    const double behind = 0.25 * (cosine + i * sine).squaredNorm();
+    moment += k * (ahead - behind);
+    size += ahead + behind;
+    s += 2 * n;
+  }
+  return moment / size;
+}
+
+/// A resonance near by is a pair −d ± i(ω_r − ω), or, close to it, two real values of which one vanishes
+/// at a fold: there the other one tells the width.
+double nearest_resonance(const Eigen::VectorXcd& eigenvalues) {
+  double oscillating = std::numeric_limits<double>::infinity();
+  double real = 0.0;
+  for (const auto& value : eigenvalues) {
+    if (value.imag() == 0.0) {
+      real = std::max(real, std::abs(value.real()));
+    } else {
+      oscillating = std::min(oscillating, std::abs(value));
+    }
+  }
+  return real > 0.0 ? std::min(real, oscillating) : oscillating;
+}
+
+/// Whether a matrix is symmetric without negative eigenvalues, up to rounding of the sum that made it.
+bool is_spring(const Eigen::MatrixXd& stiffness) {
+  constexpr double rounding = 1e-12;  // of the norm: sums over some thousand points
+  const double least = rounding * stiffness.norm();
+  if (!((stiffness - stiffness.transpose()).norm() <= least)) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
+  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -least;
+}
+
+/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0: the energy of a perturbation falls until it is at rest.
+bool is_damped_linear(const Scene& scene) {
+  const bool damped =
+      (scene.natural_frequency.array() > 0.0).all() && (scene.damping_ratio.array() > 0.0).all();
+  if (!damped || !scene.contact) return damped;
+  const auto* linear = dynamic_cast<const LinearForce*>(scene.contact.get());
+  return linear != nullptr && is_spring(linear->stuck_stiffness());
+}
+
+}  // namespace
+
+StabilityReport slow_flow_stability(const HarmonicBalance& balance,
+                                    const Eigen::MatrixXd& jacobian, double frequency) {
+  StabilityReport report;
+  report.determinant_sign = sign_of_determinant(jacobian);
+  const Eigen::MatrixXd flow = slow_flow(
+      balance.scene(), reduced(balance, jacobian, slow_orders(balance, frequency)), frequency);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
+  if (!flow.allFinite() || solver.info() != Eigen::Success) return report;
+  report.nearest = nearest_resonance(solver.eigenvalues());
+  report.growth = -std::numeric_limits<double>::infinity();
+  for (const auto& value : solver.eigenvalues()) {
+    if (std::abs(value.imag()) < slow_share * frequency) {
+      report.growth = std::max(report.growth, value.real());
+    }
+  }
+  const bool grows = report.growth > growth_tolerance * frequency;
+  report.stability =
+      grows || report.determinant_sign < 0.0 ? Stability::unstable : Stability::stable;
+  return report;
+}
+
+StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                               double frequency, StabilityReport slow) {
+  if (balance.set().highest() == 1) return slow;
+  StabilityReport report = std::move(slow);
+  if (is_damped_linear(balance.scene())) {
+    report.stability = Stability::stable;
+    report.basis = StabilityBasis::damped_linear;
+    return report;
+  }
+  report.stability = Stability::not_assessed;
+  report.basis = StabilityBasis::hill;
+  const Scene& scene = balance.scene();
+  const Reduced low = reduced(balance, jacobian, low_orders(balance));
+  const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
+  if (!matrix.allFinite()) return report;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success) return report;
+  const Eigen::Index n = scene.n_modes();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors().topRows(low.jacobian.rows());
+  std::vector<std::pair<double, Eigen::Index>> centres;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    centres.emplace_back(std::abs(centre_of(vectors.col(i), low.orders, n)), i);
+  }
+  std::sort(centres.begin(), centres.end());
+  double real_growth = -std::numeric_limits<double>::infinity();
+  double growth = real_growth;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(2 * n); ++i) {
+    const std::complex<double> value = solver.eigenvalues()[centres[i].second];  // over ω
+    const bool real = std::abs(value.imag() - std::round(value.imag())) < real_tolerance;
+    growth = std::max(growth, value.real());
+    if (real) real_growth = std::max(real_growth, value.real());
+  }
+  report.growth = growth * frequency;
+  if (report.determinant_sign < 0.0 || real_growth > growth_tolerance) {
+    report.stability = Stability::unstable;
+  } else if (growth <= growth_tolerance) {
+    report.stability = Stability::stable;
+  }
+  return report;
+}
+
+StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,
+                                  double frequency, StabilityReport hill, PeriodMapEffort effort) {
+  const Scene& scene = balance.scene();
+  if (balance.set().highest() == 1 || !scene.transient) return hill;
+  if (hill.basis == StabilityBasis::damped_linear) return hill;
+  if (hill.stability == Stability::unstable) return hill;
+  const Eigen::Index n_points = scene.transient->n_points();
+  const bool few = effort == PeriodMapEffort::few_points;
+  if (few ? n_points > most_points_of_few : 2 * scene.n_modes() + n_points > most_multipliers) {
+    return hill;
+  }
+  const FloquetMultipliers floquet = floquet_multipliers(
+      scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
+  if (!floquet.known()) return hill;
+  hill.basis = StabilityBasis::period_map;
+  const double beyond = floquet.largest_oscillating() - 1.0;
+  const double unsure = std::max(multiplier_tolerance, floquet.distance);
+  hill.stability = Stability::not_assessed;
+  if (beyond > unsure) hill.stability = Stability::unstable;
+  if (beyond < -unsure) hill.stability = Stability::stable;
+  return hill;
+}
+
+StabilityReport assess_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                                 double frequency) {
+  return hill_stability(balance, jacobian, frequency,
+                        slow_flow_stability(balance, jacobian, frequency));
+}
+
+}  // namespace microslip::solver

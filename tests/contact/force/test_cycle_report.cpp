@@ -1,0 +1,69 @@
+#include "contact/force/cycle_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace microslip::contact {
+namespace {
+
+constexpr PointParameters stuck{1.0, 0.0, 0.5, 100.0};
+constexpr PointParameters slips_freely{1.0, 0.0, 0.0, 1.0};
+constexpr PointParameters open{1.0, 1.0, 0.5, -5.0};
+constexpr PointMotion swing{.u_sin = 1.0};
+
+TEST(CycleReport, SharesAreFractionsOfAreaTimesPeriod) {
+  const ContactPatch patch(Eigen::Vector3d(1.0, 2.0, 5.0), {stuck, slips_freely, open});
+  const CycleReport report = cycle_report(patch, {swing, swing, swing});
+  // Sums of segments of a period: a few roundings.
+  EXPECT_NEAR(report.stick_share, 1.0 / 8.0, 1e-15);
+  EXPECT_NEAR(report.slip_share, 2.0 / 8.0, 1e-15);
+  EXPECT_NEAR(report.separated_share, 5.0 / 8.0, 1e-15);
+  EXPECT_NEAR(report.three_states_share, 1.0 / 8.0, 1e-15);
+  EXPECT_EQ(report.slip_work, 0.0);
+}
+
+// Constant load, k_u a = 2 μ n₀: slip lasts 2 (π − ψ), cos ψ = 1 − 2q/(k_u a) = 0: half the period.
+TEST(CycleReport, SlipShareIsTheDurationOfSlip) {
+  const ContactPatch patch(Eigen::VectorXd::Ones(1), {{1.0, 0.0, 0.5, 1.0}});
+  const CycleReport report = cycle_report(patch, {swing});
+  EXPECT_NEAR(report.slip_share, 0.5, 1e-15);
+  EXPECT_NEAR(report.stick_share, 0.5, 1e-15);
+  EXPECT_NEAR(report.slip_work, 4.0 * 0.5 * (1.0 - 0.5), 1e-15);  // 4q (a − q/k_u)
+  EXPECT_EQ(report.three_states_share, 0.0);
+}
+
+// Two points that open for half the period each, in turn, with one stuck and one slipping point of
+// other weights: the sweep must find the instant with the larger smallest area.
+TEST(CycleReport, CoexistenceIsTheBestInstant) {
+  constexpr PointParameters half_open{1.0, 1.0, 1e6, 0.0};
+  const ContactPatch patch(Eigen::Vector4d(3.0, 2.0, 4.0, 1.0),
+                           {half_open, half_open, slips_freely, stuck});
+  const PointMotion early{.v_sin = 1.0};
+  const PointMotion late{.v_sin = -1.0};
+  const CycleReport report = cycle_report(patch, {early, late, swing, PointMotion{}});
+  // Either 3 of 10 separated and 2 + 1 stuck, or 2 separated and 3 + 1 stuck; 4 slipping.
+  EXPECT_NEAR(report.three_states_share, 0.3, 1e-15);
+  EXPECT_NEAR(report.separated_share, 0.25, 1e-15);
+}
+
+TEST(CycleReport, TwoStatesInTurnAreNotThreeAtOnce) {
+  const ContactPatch patch(Eigen::VectorXd::Ones(1), {{1.0, 1.0, 0.5, 0.2}});
+  const CycleReport report =
+      cycle_report(patch, {PointMotion{.u_sin = 2.0, .v_sin = 0.1, .v_cos = 1.0}});
+  EXPECT_GT(report.stick_share, 0.0);
+  EXPECT_GT(report.slip_share, 0.0);
+  EXPECT_GT(report.separated_share, 0.0);
+  EXPECT_EQ(report.three_states_share, 0.0);
+}
+
+TEST(CycleReport, PatchWithoutAreaHasNoShares) {
+  const ContactPatch patch(Eigen::Vector2d::Zero(), {stuck, open});
+  const CycleReport report = cycle_report(patch, {swing, swing});
+  EXPECT_EQ(report.stick_share, 0.0);
+  EXPECT_EQ(report.slip_share, 0.0);
+  EXPECT_EQ(report.separated_share, 0.0);
+}
+
+}  // namespace
+}  // namespace microslip::contact

@@ -1,0 +1,283 @@
+#include "contact/force/sleeping_laws.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+
+#include "contact/force/any_harmonics_force.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/plane/planar_cycle.hpp"
+#include "tests/support/sampled/sampled_cycle.hpp"
+
+namespace microslip::contact {
+namespace {
+
+constexpr Eigen::Index n_modes = 4;
+
+// A law that does not say where it is linear: always evaluated.
+class Sleepless final : public PointLaw {
+ public:
+  explicit Sleepless(std::shared_ptr<const PointLaw> law) : law_(std::move(law)) {}
+
+  void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
+    law_->traction(motion, frequency, result);
+  }
+  [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
+                                     const Eigen::VectorXd& phases, int n) const override {
+    return law_->history(motion, frequency, phases, n);
+  }
+  [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override { return law_->stuck_stiffness(); }
+  [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
+
+ private:
+  std::shared_ptr<const PointLaw> law_;
+};
+
+using Laws = std::vector<std::shared_ptr<const PointLaw>>;
+using MakeLaw =
+    std::function<std::shared_ptr<const PointLaw>(const PointParameters&, double second)>;
+
+struct Patch {
+  LawPatchForce sleeping;
+  LawPatchForce sleepless;
+};
+
+Patch patch_of(const Eigen::VectorXd& weights, const Laws& laws, const ModalShapes& shapes) {
+  Laws bare;
+  for (const auto& law : laws) bare.push_back(std::make_shared<Sleepless>(law));
+  return {LawPatchForce(weights, laws, shapes), LawPatchForce(weights, bare, shapes)};
+}
+
+enum class Directions : std::uint8_t { one, two };
+
+// Preloads from gaps to loads that hold everything; points without friction, without normal
+// stiffness.
+Patch random_patch(Eigen::Index n, const MakeLaw& make, Directions directions,
+                   std::mt19937_64& random) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  Eigen::VectorXd weights(n);
+  Laws laws;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    weights[i] = i % 11 == 3 ? 0.0 : 1.1 + u(random);
+    const PointParameters point{i % 13 == 0 ? 0.0 : 1.1 + u(random),
+                                i % 7 == 1 ? 0.0 : 1.1 + u(random),
+                                i % 5 == 0 ? 0.0 : 0.5 + 0.4 * u(random), 6.0 * u(random) + 2.0};
+    laws.push_back(make(point, i % 9 == 0 ? 0.0 : 1.1 + u(random)));
+  }
+  const auto shape = [&] {
+    return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
+  };
+  ModalShapes shapes{shape(), shape(), {}};
+  if (directions == Directions::two) shapes.w = shape();
+  return patch_of(weights, laws, shapes);
+}
+
+Harmonics random_motion(int n_harmonics, double size, std::mt19937_64& random) {
+  std::normal_distribution<double> g(0.0, size);
+  Harmonics q(n_harmonics, n_modes);
+  for (Eigen::Index k = 0; k < q.rows().rows(); ++k) {
+    for (Eigen::Index m = 0; m < n_modes; ++m) {
+      q.rows()(k, m) = g(random) / static_cast<double>((k + 3) / 2);
+    }
+  }
+  return q;
+}
+
+struct Seen {
+  double least = 1.0;
+  double most = 0.0;
+};
+
+// Motions of every size up to one that wakes nearly everything. @param accuracy  of the law, in
+// shares of the forces; sums of n terms of size 10 come on top.
+void expect_same(const Patch& p, int n_harmonics, double accuracy, std::mt19937_64& random,
+                 Seen& seen) {
+  for (const double size : {0.02, 0.1, 0.3, 0.6, 1.2}) {
+    const Harmonics q = random_motion(n_harmonics, size, random);
+    const ForceAndJacobian a = p.sleeping.evaluate(q, 2.0);
+    const ForceAndJacobian b = p.sleepless.evaluate(q, 2.0);
+    const double force = b.force.vector().norm();
+    const double stiffness = b.jacobian.norm() + 1.0;
+    ASSERT_LE((a.force.vector() - b.force.vector()).norm(), accuracy * (force + 1.0)) << size;
+    ASSERT_LE((a.jacobian - b.jacobian).norm(), accuracy * stiffness) << size;
+    ASSERT_LE((a.frequency_derivative - b.frequency_derivative).norm(), accuracy * (force + 1.0));
+    const CycleReport r = p.sleeping.report(q, 2.0);
+    const CycleReport s = p.sleepless.report(q, 2.0);
+    EXPECT_NEAR(r.stick_share, s.stick_share, 1e-13);
+    EXPECT_NEAR(r.slip_share, s.slip_share, 1e-13);
+    EXPECT_NEAR(r.separated_share, s.separated_share, 1e-13);
+    EXPECT_NEAR(r.three_states_share, s.three_states_share, 1e-13);
+    EXPECT_NEAR(r.slip_work, s.slip_work, 1e-13 * (1.0 + s.slip_work));
+    EXPECT_EQ(s.awake_share, 1.0);
+    seen.least = std::min(seen.least, r.awake_share);
+    seen.most = std::max(seen.most, r.awake_share);
+  }
+}
+
+// Sums of a few hundred numbers of either sign in another order.
+constexpr double rounding = 2e-14;
+
+std::shared_ptr<const PointLaw> event(const PointParameters& point, double /*second*/) {
+  return std::make_shared<EventLaw>(point);
+}
+
+TEST(SleepingLaws, EventPointsGiveWhatEvaluationGives) {
+  std::mt19937_64 random(1);
+  Seen seen;
+  for (int n_harmonics = 1; n_harmonics <= 5; ++n_harmonics) {
+    for (const Eigen::Index n : {1, 40, 233}) {
+      const Patch p = random_patch(n, event, Directions::one, random);
+      expect_same(p, n_harmonics, rounding, random, seen);
+    }
+  }
+  EXPECT_LT(seen.least, 0.2);
+  EXPECT_GT(seen.most, 0.8);
+}
+
+// k_p ≠ k_r. Stuck cycles are integrated by quadrature: a little more than rounding.
+TEST(SleepingLaws, PlanarPointsGiveWhatEvaluationGives) {
+  const MakeLaw planar = [](const PointParameters& point, double second) {
+    return std::make_shared<PlanarLaw>(SurfaceLaw(point, second), 1e-9);
+  };
+  std::mt19937_64 random(2);
+  Seen seen;
+  for (int n_harmonics = 1; n_harmonics <= 5; n_harmonics += 2) {
+    const Patch p = random_patch(60, planar, Directions::two, random);
+    expect_same(p, n_harmonics, 1e-13, random, seen);
+  }
+  EXPECT_LT(seen.least, 0.2);
+  EXPECT_GT(seen.most, 0.5);
+}
+
+TEST(SleepingLaws, SampledPointsGiveWhatEvaluationGives) {
+  const MakeLaw constant = [](const PointParameters& point, double second) {
+    return std::make_shared<SampledLaw>(SurfaceLaw(point, second), 64);
+  };
+  std::mt19937_64 random(3);
+  Seen seen;
+  const Patch p = random_patch(150, constant, Directions::one, random);
+  for (int n_harmonics = 1; n_harmonics <= 5; ++n_harmonics) {
+    expect_same(p, n_harmonics, rounding, random, seen);
+  }
+  EXPECT_LT(seen.least, 0.2);
+}
+
+// Friction falls and rises with the speed: sleep is judged by the smallest coefficient that is
+// reached.
+TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
+  const auto make = [](const FrictionLaw& friction) -> MakeLaw {
+    return [friction](const PointParameters& point, double second) {
+      return std::make_shared<SampledLaw>(SurfaceLaw(point, second, friction), 64);
+    };
+  };
+  std::mt19937_64 random(4);
+  Seen seen;
+  for (const FrictionLaw& friction :
+       {FrictionLaw::exponential(0.5, 0.2, 0.7), FrictionLaw::exponential(0.2, 0.6, 0.7),
+        FrictionLaw::hyperbolic(0.6, 0.3)}) {
+    const Patch p = random_patch(150, make(friction), Directions::one, random);
+    expect_same(p, 2, rounding, random, seen);
+  }
+  EXPECT_LT(seen.least, 0.3);
+}
+
+TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
+  const auto make = [](const RoughSurface& surface) -> MakeLaw {
+    return [surface](const PointParameters& point, double second) {
+      PointParameters stiff = point;
+      stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
+      return std::make_shared<SampledLaw>(
+          SurfaceLaw(stiff, second, FrictionLaw::constant(point.friction_coefficient), surface),
+          64);
+    };
+  };
+  std::mt19937_64 random(5);
+  Seen cubic;
+  expect_same(random_patch(150, make(RoughSurface::cubic(0.5)), Directions::one, random), 2,
+              rounding, random, cubic);
+  EXPECT_LT(cubic.least, 0.9);
+  EXPECT_GT(cubic.least, 0.5);  // two thirds are pressed
+  Seen gaussian;
+  expect_same(random_patch(50, make(RoughSurface::matching_gaussian(0.5)), Directions::one, random),
+              2, rounding, random, gaussian);
+  // Nine deviations beyond the mean height they are open as well.
+  EXPECT_LT(gaussian.least, 0.9);
+  EXPECT_GT(gaussian.least, 0.5);
+}
+
+// Whatever was asked before.
+TEST(SleepingLaws, EqualMotionsGiveEqualBits) {
+  std::mt19937_64 random(6);
+  const auto seed = random();
+  std::mt19937_64 one(seed);
+  std::mt19937_64 other(seed);
+  const Patch walked = random_patch(300, event, Directions::one, one);
+  const Patch fresh = random_patch(300, event, Directions::one, other);
+  for (int step = 0; step < 30; ++step) {
+    (void)walked.sleeping.evaluate(random_motion(3, 0.05 * step, random), 1.0);
+  }
+  const Harmonics q = random_motion(3, 0.3, random);
+  const ForceAndJacobian a = walked.sleeping.evaluate(q, 1.0);
+  const ForceAndJacobian b = fresh.sleeping.evaluate(q, 1.0);
+  EXPECT_EQ(a.force.rows(), b.force.rows());
+  EXPECT_EQ(a.jacobian, b.jacobian);
+}
+
+TEST(SleepingLaws, SomeRowsAreThoseOfAll) {
+  std::mt19937_64 random(7);
+  const Patch p = random_patch(120, event, Directions::one, random);
+  const Harmonics q = random_motion(2, 0.2, random);
+  const std::vector<Eigen::Index> rows{1, 2, 4};
+  const ForceAndJacobian some = p.sleeping.evaluate_rows(q, 1.0, rows);
+  const ForceAndJacobian all = p.sleepless.evaluate(q, 1.0);
+  EXPECT_LE((some.force.vector() - all.force.vector()).norm(),
+            rounding * all.force.vector().norm());
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    for (Eigen::Index l = 0; l < 3; ++l) {
+      const Eigen::MatrixXd block =
+          all.jacobian.block(n_modes * rows[static_cast<std::size_t>(k)],
+                             n_modes * rows[static_cast<std::size_t>(l)], n_modes, n_modes);
+      EXPECT_LE((some.jacobian.block(n_modes * k, n_modes * l, n_modes, n_modes) - block).norm(),
+                rounding * all.jacobian.norm());
+    }
+  }
+}
+
+TEST(SleepingLaws, LinearStateIsProvedOfAPlanarBall) {
+  Eigen::MatrixXd phi(1, 1);
+  phi << 1.0;
+  const auto force = [&](double preload) {
+    return LawPatchForce(Eigen::VectorXd::Ones(1),
+                         {std::make_shared<PlanarLaw>(SurfaceLaw({2.0, 0.0, 0.5, preload}, 1.0))},
+                         {phi, 0.0 * phi, phi});
+  };
+  Harmonics q(1, 1);
+  q.rows()(1, 0) = 1.0;  // |K x| = √5 against μ n = 5
+  EXPECT_EQ(force(10.0).linear_state(q, 0.0), LinearState::stuck);
+  // √5 √2 radius uses up the rest, 2.76.
+  EXPECT_EQ(force(10.0).linear_state(q, 0.87), LinearState::stuck);
+  EXPECT_EQ(force(10.0).linear_state(q, 0.88), LinearState::unknown);
+  EXPECT_EQ(force(-1.0).linear_state(q, 1e6), LinearState::free);  // constant gap
+  EXPECT_EQ(force(0.0).linear_state(q, 0.0), LinearState::unknown);
+}
+
+TEST(SleepingLaws, LinearStateIsProvedOfSeveralHarmonics) {
+  const ContactPatch patch(Eigen::VectorXd::Ones(1), {{2.0, 1.0, 0.5, 10.0}});
+  Eigen::MatrixXd phi(1, 1);
+  phi << 1.0;
+  const AnyHarmonicsForce force(patch, {phi, 0.0 * phi, {}});
+  Harmonics q(2, 1);
+  q.rows() << 0.0, 1.0, 0.0, 1.0, 0.0;  // 2 |u| ≤ 3.52: sin θ + sin 2θ stays below 1.76
+  EXPECT_EQ(force.linear_state(q, 0.0), LinearState::stuck);
+  EXPECT_EQ(force.linear_state(q, 0.4), LinearState::stuck);  // 2 √3 0.4 = 1.39 < 1.48
+  EXPECT_EQ(force.linear_state(q, 0.44), LinearState::unknown);
+  q.vector() *= 1.5;  // 5.28 > 5, while the amplitudes add up to 6
+  EXPECT_EQ(force.linear_state(q, 0.0), LinearState::unknown);
+}
+
+}  // namespace
+}  // namespace microslip::contact

@@ -1,0 +1,189 @@
+// Static and harmonic loads, springs, residual flexibility of a Structure.
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "fem/modal_analysis.hpp"
+#include "fem/petsc_error.hpp"
+#include "fem/elements/surface_load.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/dense_system.hpp"
+
+namespace microslip::fem {
+namespace {
+
+using mesh::ElementType;
+
+const Material titanium{1.14e11, 0.32, 4430.0};
+// Condition of K times rounding, with a margin: 1e5 · 1e-16.
+constexpr double direct = 1e-10;
+
+Eigen::Vector3d bend(const Eigen::Vector3d& x) { return {x[0], x[1] + 3.0 * x[0] * x[0], x[2]}; }
+
+mesh::Mesh bar() {
+  return test::box_mesh(ElementType::tet10, {.size = {0.1, 0.02, 0.015}, .cells = {3, 1, 1}, .map = bend});
+}
+
+Eigen::Matrix3d some_frame() {
+  return Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+}
+
+Eigen::MatrixXd some_loads(const mesh::Mesh& mesh) {
+  return Eigen::MatrixXd::NullaryExpr(3 * mesh.n_nodes(), 4, [](Eigen::Index i, Eigen::Index j) {
+    return std::sin(1.0 + 0.37 * static_cast<double>(i) + 1.9 * static_cast<double>(j));
+  });
+}
+
+double relative(const Eigen::MatrixXd& computed, const Eigen::MatrixXd& exact) {
+  return (computed - exact).norm() / exact.norm();
+}
+
+TEST(Loads, StaticSolutionIsThatOfTheFullMatrix) {
+  const mesh::Mesh mesh = bar();
+  Structure structure(mesh, titanium, {"x0"});
+  const test::DenseSystem dense = test::dense_system(mesh, titanium, {"x0"});
+  const Eigen::MatrixXd F = some_loads(mesh);
+  const Eigen::MatrixXd u = dense.K.llt().solve(dense.reduce(F));
+  EXPECT_LT(relative(structure.solve_static(F), dense.expand(u, F.rows())), direct);
+}
+
+TEST(Loads, AFreeBodyHasNoStaticSolution) {
+  const mesh::Mesh mesh = bar();
+  Structure structure(mesh, titanium, {});
+  EXPECT_THROW(static_cast<void>(structure.solve_static(some_loads(mesh))), EigenError);
+}
+
+TEST(Loads, ForcesOfAnotherSizeAreRefused) {
+  Structure structure(bar(), titanium, {"x0"});
+  EXPECT_THROW(static_cast<void>(structure.solve_static(Eigen::MatrixXd::Zero(7, 1))), std::invalid_argument);
+}
+
+TEST(Loads, HarmonicSolutionIsThatOfTheFullMatrixBelowAndAboveResonance) {
+  const mesh::Mesh mesh = bar();
+  Structure structure(mesh, titanium, {"x0"});
+  const test::DenseSystem dense = test::dense_system(mesh, titanium, {"x0"});
+  const Eigen::MatrixXd F = some_loads(mesh);
+  const Eigen::VectorXd natural = dense.eigenvalues().cwiseSqrt();
+  for (const double frequency : {0.5 * natural[0], 0.5 * (natural[2] + natural[3])}) {
+    const Eigen::MatrixXd dynamic = dense.K - frequency * frequency * dense.M;
+    const Eigen::MatrixXd u = dynamic.partialPivLu().solve(dense.reduce(F));
+    EXPECT_LT(relative(structure.solve_harmonic(frequency, F), dense.expand(u, F.rows())), direct);
+  }
+}
+
+// Springs at the nodes of a face, k different at each and along each axis.
+struct NodeSprings {
+  Eigen::SparseMatrix<double> to_points;
+  Eigen::VectorXd weights;
+  Eigen::MatrixX3d stiffness;
+};
+
+NodeSprings springs_at_nodes(const mesh::Surface& surface) {
+  const Eigen::Index n = std::ssize(surface.nodes);
+  NodeSprings springs{Eigen::SparseMatrix<double>(n, n), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3)};
+  springs.to_points.setIdentity();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double s = static_cast<double>(i);
+    springs.weights[i] = 1e-5 * (1.0 + 0.1 * s);
+    springs.stiffness.row(i) << 1e12 + 1e11 * s, 5e11, 2e12 - 5e10 * s;
+  }
+  return springs;
+}
+
+void add_to(test::DenseSystem& dense, const mesh::Surface& surface, const NodeSprings& springs,
+            const Eigen::Matrix3d& frame) {
+  for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
+    const Eigen::Matrix3d k = springs.weights[i] * frame.transpose() * springs.stiffness.row(i).asDiagonal() * frame;
+    const Eigen::Index first = 3 * surface.nodes[static_cast<std::size_t>(i)];
+    const auto row = std::find(dense.dofs.begin(), dense.dofs.end(), first) - dense.dofs.begin();
+    dense.K.block<3, 3>(row, row) += k;
+  }
+}
+
+TEST(Loads, SpringsAddWhatTheyShould) {
+  const mesh::Mesh mesh = bar();
+  const mesh::Surface& tip = mesh.surface("x1");
+  const NodeSprings springs = springs_at_nodes(tip);
+  for (const std::vector<std::string>& clamped : {std::vector<std::string>{"x0"}, std::vector<std::string>{}}) {
+    Structure structure(mesh, titanium, clamped);
+    structure.add_surface_springs(tip, springs.to_points, springs.weights, some_frame(), springs.stiffness);
+    test::DenseSystem dense = test::dense_system(mesh, titanium, clamped);
+    add_to(dense, tip, springs, some_frame());
+    const Eigen::VectorXd exact = dense.eigenvalues().head(6).cwiseSqrt();
+    const ModalBasis basis = structure.solve_modes({.n_modes = 6});
+    EXPECT_EQ(basis.n_rigid_body, 0) << "springs hold a body that is free otherwise";
+    EXPECT_LT(relative(basis.frequency, exact), direct);
+    const Eigen::MatrixXd F = some_loads(mesh);
+    const Eigen::MatrixXd u = dense.K.llt().solve(dense.reduce(F));
+    EXPECT_LT(relative(structure.solve_static(F), dense.expand(u, F.rows())), direct);
+  }
+}
+
+TEST(Loads, SpringsOfAnotherSizeAreRefused) {
+  const mesh::Mesh mesh = bar();
+  const mesh::Surface& tip = mesh.surface("x1");
+  const NodeSprings springs = springs_at_nodes(tip);
+  Structure structure(mesh, titanium, {"x0"});
+  EXPECT_THROW(structure.add_surface_springs(tip, springs.to_points, springs.weights.head(2), some_frame(),
+                                             springs.stiffness),
+               std::invalid_argument);
+}
+
+TEST(Loads, NodalAreasSumToTheAreaAndItsFirstMoment) {
+  const mesh::Mesh mesh = test::box_mesh(ElementType::hex20, {.size = {0.1, 0.2, 0.3}, .cells = {1, 2, 2}, .map = {}});
+  const Eigen::VectorXd area = nodal_areas(mesh.nodes(), mesh.surface("x1"));
+  EXPECT_NEAR(area.sum(), 0.06, 1e-16);
+  const Eigen::Vector3d moment = mesh.nodes().transpose() * area;
+  EXPECT_LT((moment - 0.06 * Eigen::Vector3d(0.1, 0.1, 0.15)).norm(), 1e-16);
+}
+
+// Flexibility from all modes but the first N, summed one by one.
+Eigen::MatrixX3d omitted_modes(const test::DenseSystem& dense, const mesh::Mesh& mesh, const mesh::Surface& surface,
+                               const Eigen::Matrix3d& frame, Eigen::Index n_kept) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense.K, dense.M);
+  const Eigen::Index n = dense.K.rows() - n_kept;
+  const Eigen::MatrixXd Phi = eigen.eigenvectors().rightCols(n);
+  const Eigen::MatrixXd loads = dense.reduce(uniform_tractions(mesh.nodes(), surface, frame));
+  const Eigen::MatrixXd u = Phi * eigen.eigenvalues().tail(n).cwiseInverse().asDiagonal() * Phi.transpose() * loads;
+  const Eigen::MatrixXd on_mesh = dense.expand(u, 3 * mesh.n_nodes());
+  Eigen::MatrixX3d row_sums(std::ssize(surface.nodes), 3);
+  for (Eigen::Index i = 0; i < row_sums.rows(); ++i) {
+    for (int d = 0; d < 3; ++d) {
+      row_sums(i, d) = frame.row(d).dot(on_mesh.col(d).segment<3>(3 * surface.nodes[static_cast<std::size_t>(i)]));
+    }
+  }
+  return row_sums;
+}
+
+TEST(Loads, ResidualFlexibilityIsTheSumOverTheModesLeftOut) {
+  const mesh::Mesh mesh = bar();
+  const mesh::Surface& tip = mesh.surface("x1");
+  const test::DenseSystem dense = test::dense_system(mesh, titanium, {"x0"});
+  Structure structure(mesh, titanium, {"x0"});
+  for (const Eigen::Index n : {1, 5, 12}) {
+    const ModalBasis basis = structure.solve_modes({.n_modes = n});
+    const Eigen::MatrixX3d c = structure.residual_flexibility(basis, tip, some_frame()).row_sums;
+    EXPECT_LT(relative(c, omitted_modes(dense, mesh, tip, some_frame(), n)), 1e-8) << n;
+  }
+}
+
+// Theory section 14: inertia relief. The sum runs over elastic modes only.
+TEST(Loads, ResidualFlexibilityOfAFreeBodyLeavesItsRigidMotionsOut) {
+  const mesh::Mesh mesh = bar();
+  const mesh::Surface& tip = mesh.surface("x1");
+  const test::DenseSystem dense = test::dense_system(mesh, titanium, {});
+  Structure structure(mesh, titanium, {});
+  for (const Eigen::Index n : {6, 9}) {
+    const ModalBasis basis = structure.solve_modes({.n_modes = n});
+    const Eigen::MatrixX3d c = structure.residual_flexibility(basis, tip, some_frame()).row_sums;
+    EXPECT_LT(relative(c, omitted_modes(dense, mesh, tip, some_frame(), n)), 1e-8) << n;
+  }
+}
+
+}  // namespace
+}  // namespace microslip::fem

@@ -1,0 +1,63 @@
+#include "fem/petsc/factorisation.hpp"
+
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "fem/assembly/fe_system.hpp"
+#include "fem/eigen/mode_search.hpp"
+#include "fem/petsc_error.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/dense_system.hpp"
+
+namespace microslip::fem {
+namespace {
+
+const Material titanium{1.14e11, 0.32, 4430.0};
+
+mesh::Mesh block() {
+  return test::box_mesh(mesh::ElementType::tet10, {.size = {0.1, 0.05, 0.04}, .cells = {3, 2, 2}, .map = {}});
+}
+
+TEST(Factorisation, SolvesManyRightHandSidesAtOnce) {
+  const FeSystem system = assemble(block(), titanium, {"x0"});
+  const Factorisation factor(system.stiffness.get(), FactorKind::positive_definite);
+  const test::DenseSystem dense = test::dense_system(block(), titanium, {"x0"});
+  const Eigen::MatrixXd loads = Eigen::MatrixXd::Random(3 * block().n_nodes(), 5);
+  const Eigen::MatrixXd u = system.dofs.to_mesh(factor.solve(system.dofs.to_local(loads)));
+  const Eigen::MatrixXd exact = dense.K.llt().solve(dense.reduce(loads));
+  EXPECT_LT((dense.reduce(u) - exact).norm(), 1e-10 * exact.norm());  // condition 1e5 times rounding
+}
+
+TEST(Factorisation, CountsTheEigenvaluesBelowEveryShift) {
+  const FeSystem system = assemble(block(), titanium, {"x0"});
+  const Eigen::VectorXd values = test::dense_system(block(), titanium, {"x0"}).eigenvalues();
+  for (const Eigen::Index n : {0, 1, 7, 30, 200}) {
+    const double shift = n == 0 ? 0.5 * values[0] : 0.5 * (values[n - 1] + values[n]);
+    for (const FactorKind kind : {FactorKind::indefinite, FactorKind::inertia_only}) {
+      const Factorisation factor(shifted_stiffness(system, shift).get(), kind);
+      EXPECT_EQ(factor.inertia().negative, n);
+      EXPECT_EQ(factor.inertia().zero, 0);
+    }
+  }
+}
+
+TEST(Factorisation, ThatDoesNotFitIsRefusedWithItsSize) {
+  const FeSystem system = assemble(block(), titanium, {"x0"});
+  try {
+    const Factorisation factor(system.stiffness.get(), FactorKind::positive_definite, 0.5);
+    FAIL() << "half a megabyte was enough";
+  } catch (const MemoryError& error) {
+    EXPECT_NE(std::string(error.what()).find("out of memory: the factorisation needs about"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(MachineMemory, IsThatOfAMachine) {
+  EXPECT_GT(available_memory_mb(), 10.0);
+  EXPECT_LT(available_memory_mb(), 1e9);
+}
+
+}  // namespace
+}  // namespace microslip::fem

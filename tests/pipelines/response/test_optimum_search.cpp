@@ -1,0 +1,180 @@
+// The search for a best value of a scene, and what it varies in the contact.
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/optimum_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pipelines/model/contact_factors.hpp"
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+constexpr const char* bar_text = R"toml([model]
+kind = "bar"
+youngs_modulus = "200 GPa"
+area = "1e-4 m^2"
+density = 7800
+length = "1 m"
+end_stiffness = "80 kN/mm"
+[modes]
+count = 2
+damping_ratio = "0.5 %"
+residual = "stiffness"
+[contact]
+tangential_stiffness = "1e7 N/m^2"
+friction_coefficient = 0.3
+load = "2000 N/m"
+points = 8
+[excitation]
+force = "0.2 kN"
+[response]
+frequency = ["900 Hz", "2200 Hz"]
+optimum = "preload"
+optimum_range = [0.01, 10]
+)toml";
+
+/// The first point rubs; the second is a stop behind a gap of 2e-4 m.
+constexpr const char* stop_text = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [20.0]
+damping_ratio = [0.01]
+force_sine = [1.0]
+output = [1.0]
+points = [
+  { weight = 1, tangential_stiffness = 5000, normal_stiffness = 5000, friction_coefficient = 0.4, preload = 2, phi_u_1 = 0.8, phi_v_1 = 0.3 },
+  { weight = 1, tangential_stiffness = 0, normal_stiffness = 2000, friction_coefficient = 0, preload = -0.4, phi_u_1 = 0, phi_v_1 = 1 },
+]
+[response]
+frequency = [15, 30]
+)toml";
+
+struct Found {
+  solver::Optimum best;
+  OptimumBracket bracket;
+};
+
+ReducedModel model_alone(const SceneDescription& scene) {
+  std::vector<std::string> warnings;
+  return model_of(scene, nullptr, warnings);
+}
+
+Found search(const SceneDescription& scene, bool with_bracket = true) {
+  const ReducedModel model = model_alone(scene);
+  OptimumSearch search(model, scene, nullptr);
+  return {search.best(), with_bracket ? search.bracket() : OptimumBracket{}};
+}
+
+const solver::Optimum& entry(const Found& found, const std::string& parameter, double factor) {
+  for (const OptimumOfFactor& one : found.bracket.entries) {
+    if (one.parameter == parameter && one.factor == factor) return one.optimum;
+  }
+  throw std::out_of_range(parameter);
+}
+
+void expect_same(const solver::Optimum& a, const solver::Optimum& b) {
+  EXPECT_TRUE(a.found) << a.message;
+  EXPECT_TRUE(b.found) << b.message;
+  // Equations that differ by rounding, searched to 1e-4 of the parameter.
+  EXPECT_NEAR(a.best.parameter, b.best.parameter, 2e-4 * b.best.parameter);
+  EXPECT_NEAR(a.best.amplitude, b.best.amplitude, 1e-6 * b.best.amplitude);
+}
+
+TEST(OptimumSearch, VariesTheLocalStiffnessAndNotTheResidualFlexibility) {
+  const Found found = search(parse_scene(bar_text, "bar", ".", {}));
+  for (const double factor : {0.5, 2.0}) {
+    const std::string key = "contact.tangential_stiffness=" + std::to_string(1e7 * factor);
+    const Found scaled = search(parse_scene(bar_text, "bar", ".", {key}), false);
+    expect_same(entry(found, "contact_stiffness", factor), scaled.best);
+  }
+}
+
+TEST(OptimumSearch, WidensTheRangeByTheFactorOfFriction) {
+  // Under a constant load only μ n counts: the best preload is that of the scene divided by the factor.
+  const Found found =
+      search(parse_scene(bar_text, "bar", ".", {"response.optimum_range=[0.4, 1]"}));
+  for (const double factor : {0.5, 2.0}) {
+    const solver::Optimum& other = entry(found, "friction_coefficient", factor);
+    ASSERT_TRUE(other.found) << other.message;
+    // Both searches end within 1e-4 of their minimum.
+    EXPECT_NEAR(factor * other.best.parameter, found.best.best.parameter,
+                2e-4 * found.best.best.parameter);
+    EXPECT_LE(other.trace.front().parameter, 0.4 / std::max(1.0, factor) * (1.0 + 1e-9));
+    EXPECT_GE(other.trace.back().parameter, 1.0 / std::min(1.0, factor) * (1.0 - 1e-9));
+  }
+  for (const OptimumOfFactor& one : found.bracket.entries) {  // and it is told
+    const bool friction = one.parameter == "friction_coefficient";
+    EXPECT_EQ(one.widened, friction) << one.parameter;
+    EXPECT_EQ(one.range[0], 0.4 / (friction ? std::max(1.0, one.factor) : 1.0));
+    EXPECT_EQ(one.range[1], 1.0 / (friction ? std::min(1.0, one.factor) : 1.0));
+  }
+}
+
+TEST(OptimumSearch, KeepsGapsUnderAnotherStiffness) {
+  const Overrides preload{"response.optimum=preload", "response.optimum_range=[0.2, 8]"};
+  const Found found = search(parse_scene(stop_text, "stop", ".", preload));
+  std::string doubled = stop_text;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (auto at = doubled.find(from); at != doubled.npos; at = doubled.find(from, at + to.size())) {
+      doubled.replace(at, from.size(), to);
+    }
+  };
+  replace("= 5000", "= 10000");
+  replace("= 2000", "= 4000");
+  replace("= -0.4", "= -0.8");
+  const Found scaled = search(parse_scene(doubled, "stop", ".", preload), false);
+  expect_same(entry(found, "contact_stiffness", 2.0), scaled.best);
+}
+
+TEST(OptimumSearch, DoesNotVaryWhatTheContactDoesNotHave) {
+  SceneDescription scene = parse_scene(bar_text, "bar", ".", {});
+  ReducedModel model = model_alone(scene);
+  EXPECT_EQ(no_stiffness_factor(model, scene), "");
+  EXPECT_EQ(no_friction_factor(model), "");
+  scene.contact.emplace();  // both local stiffnesses "rigid"
+  EXPECT_EQ(stiffness_place(scene), StiffnessPlace::none);
+  EXPECT_NE(no_stiffness_factor(model, scene).find("rigid"), std::string::npos);
+  scene.contact->normal_stiffness = 1e11;
+  EXPECT_EQ(stiffness_place(scene), StiffnessPlace::keys);
+  const SceneDescription halved = with_stiffness_keys(scene, 0.5);
+  EXPECT_EQ(halved.contact->normal_stiffness, 5e10);
+  EXPECT_FALSE(halved.contact->tangential_stiffness.has_value());
+  model.weights.resize(0);
+  EXPECT_NE(no_friction_factor(model).find("no contact"), std::string::npos);
+}
+
+TEST(OptimumSearch, SaysWhichNumberIsNotVariedBecauseItIsSearched) {
+  const Found found = search(
+      parse_scene(bar_text, "bar", ".", {"response.optimum=contact.friction_coefficient",
+                                         "response.optimum_range=[0.1, 0.6]", "response.preload_scale=[1]"}));
+  ASSERT_EQ(found.bracket.left_out.size(), 1U);
+  EXPECT_NE(found.bracket.left_out[0].find("contact.friction_coefficient is the number that is searched"),
+            std::string::npos)
+      << found.bracket.left_out[0];
+  EXPECT_EQ(found.bracket.entries.size(), 2U);  // those of the stiffness
+}
+
+TEST(OptimumSearch, SaysThatItDoesNotIntegrateInTime) {
+  const Overrides settings{"response.method=time", "response.optimum_range=[0.5, 4]",
+                           "response.optimum=preload"};
+  const SceneDescription scene = parse_scene(stop_text, "stop", ".", settings);
+  const ReducedModel model = model_alone(scene);
+  OptimumSearch in_time(model, scene, nullptr);
+  EXPECT_NE(in_time.warning().find("harmonic balance"), std::string::npos);
+  ASSERT_FALSE(in_time.best().notes.empty());
+  EXPECT_EQ(in_time.best().notes.front(), in_time.warning());
+  const SceneDescription plain = parse_scene(bar_text, "bar", ".", {});
+  const ReducedModel other = model_alone(plain);
+  EXPECT_EQ(OptimumSearch(other, plain, nullptr).warning(), "");
+}
+
+}  // namespace
+}  // namespace microslip::pipelines

@@ -1,0 +1,146 @@
+#include "pipelines/run/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <thread>
+
+#include "pipelines/system/scene_error.hpp"
+#include "tests/pipelines/synthetic_run.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t n_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+TEST(Progress, StagesAreTimedInOrderAndMeasured) {
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::normal);
+  progress.stage("mesh");
+  progress.stage("modes");
+  std::vector<char> block(200'000'000, 1);  // 200 MB, touched
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  block = {};
+  progress.stage("curves");
+  const auto stages = progress.stages();
+  ASSERT_EQ(stages.size(), 3U);
+  EXPECT_EQ(stages[0].name, "mesh");
+  EXPECT_EQ(stages[1].name, "modes");
+  EXPECT_GE(stages[1].seconds, 0.02);
+  EXPECT_LT(stages[1].seconds, 10.0);
+  EXPECT_GT(stages[1].peak_memory_mb, 200.0);
+  EXPECT_EQ(stages[2].name, "curves");
+}
+
+TEST(Progress, HistoryGrowsWithEveryPoint) {
+  const synthetic::Folder folder("progress_history");
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::quiet);
+  progress.keep_in(folder.path());
+  progress.stage("curves");
+  progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.1);
+  EXPECT_EQ(n_lines(content_of(folder.path() / "history.csv")), 2U);
+  progress.point("preload_1", synthetic::point(296.5, 2e-4), 0.2);
+  const std::string history = content_of(folder.path() / "history.csv");
+  EXPECT_EQ(n_lines(history), 3U);
+  EXPECT_NE(history.find("\npreload_1,295.5,"), std::string::npos) << history;
+}
+
+// A sweep that was given up for one from the other end leaves no lines.
+TEST(Progress, HistoryHoldsOnlyWhatAFinishedCurveHolds) {
+  const synthetic::Folder folder("progress_settle");
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::quiet);
+  progress.keep_in(folder.path());
+  progress.stage("curves");
+  const std::vector<solver::ResponsePoint> kept{synthetic::point(297.5, 3e-4), synthetic::point(296.5, 2e-4)};
+  progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.1);
+  progress.point("preload_10", synthetic::point(295.5, 1e-4), 0.1);
+  for (const auto& point : kept) progress.point("preload_1", point, 0.2);
+  progress.settle("preload_1", kept);
+  progress.point("preload_10", synthetic::point(298.5, 1e-4), 0.1);
+  const std::string history = content_of(folder.path() / "history.csv");
+  EXPECT_EQ(n_lines(history), 5U) << history;
+  EXPECT_EQ(history.find("\npreload_1,295.5,"), std::string::npos) << history;
+  for (const char* line : {"curve,", "\npreload_1,297.5,", "\npreload_1,296.5,", "\npreload_10,295.5,",
+                           "\npreload_10,298.5,"}) {
+    EXPECT_NE(history.find(line), std::string::npos) << line << history;
+  }
+}
+
+TEST(Progress, LogHoldsWhatWasSaidBeforeItExisted) {
+  const synthetic::Folder folder("progress_log");
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::quiet);
+  progress.info("mesh has 7 nodes");
+  progress.warning("degree {} lowered");  // braces are text, not a format
+  progress.keep_in(folder.path());
+  progress.error("no more disk");
+  const std::string log = content_of(folder.path() / "log.txt");
+  EXPECT_NE(log.find("info: mesh has 7 nodes"), std::string::npos) << log;
+  EXPECT_NE(log.find("warning: degree {} lowered"), std::string::npos) << log;
+  EXPECT_NE(log.find("error: no more disk"), std::string::npos) << log;
+  EXPECT_EQ(out.str(), "warning: degree {} lowered\n") << "quiet prints warnings only";
+  EXPECT_EQ(progress.warnings().size(), 1U);
+}
+
+TEST(Progress, TerminalGetsOneLiveLineThatIsClearedAtTheEnd) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("curves");
+  progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.5);
+  EXPECT_EQ(n_lines(out.str()), 0U);
+  EXPECT_NE(out.str().find("curves  preload_1  295.5000 Hz"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("stick 50 %"), std::string::npos) << out.str();
+  progress.finish();
+  EXPECT_EQ(out.str().back(), '\n');
+  EXPECT_NE(out.str().find("\r\033[Kcurves "), std::string::npos);
+}
+
+TEST(Progress, OutsideATerminalThereAreNoControlCharacters) {
+  std::ostringstream out;
+  {
+    Progress progress(out, false, Verbosity::verbose);
+    progress.stage("curves");
+    progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.5);
+  }
+  EXPECT_EQ(out.str().find_first_of("\r\033"), std::string::npos);
+  EXPECT_EQ(n_lines(out.str()), 2U) << out.str();
+}
+
+TEST(Progress, PointsFromSeveralThreadsAreAllKept) {
+  const synthetic::Folder folder("progress_threads");
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.keep_in(folder.path());
+  progress.stage("curves");
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&progress, i] {
+      for (int k = 0; k < 50; ++k) {
+        progress.point("curve_" + std::to_string(i), synthetic::point(300.0, 1e-4), 0.5);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(n_lines(content_of(folder.path() / "history.csv")), 201U);
+}
+
+TEST(Progress, MissingRunFolderIsReported) {
+  std::ostringstream out;
+  Progress progress(out, false, Verbosity::normal);
+  // A file in place of the folder: spdlog would create a missing one.
+  EXPECT_THROW(progress.keep_in("/proc/version"), ExhaustedError);
+}
+
+}  // namespace
+}  // namespace microslip::pipelines

@@ -1,0 +1,731 @@
+#include "pipelines/scene/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/scene/scene_template.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+constexpr const char* blade_text = R"([model]
+kind = "blade"
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["root"]
+[modes]
+count = 3
+damping_ratio = "0.2 %"
+[contact]
+surface = "contact"
+friction_coefficient = 0.4
+normal_stiffness = "1e12 N/m^3"
+tangential_stiffness = "rigid"
+wear_coefficient = "1e-13 m^2/N"
+[excitation]
+forces = [ { at = "B", direction = [2, 0, 0], amplitude = "0.5 N" } ]
+[response]
+output = { at = "A", direction = [1, 0, 0] }
+frequency = ["350 Hz", "0.25 kHz"]
+preload = [ "free", -5e5, "1 kN", "stuck" ]
+maps = [ "peak", "folds", "315 Hz" ]
+)";
+
+constexpr const char* modal_text = R"([model]
+kind = "modal"
+[modal]
+frequency = [15.9, 41.4]
+damping_ratio = 0.01
+force_sine = [0.0, 0.3]
+force_cosine = [1.0, 0.4]
+output = [0.9, 0.35]
+points = [
+  { weight = 1, tangential_stiffness = 1e4, normal_stiffness = 2e4, friction_coefficient = 0.3, preload = -2, phi_u_1 = 0.8, phi_u_2 = -0.5 },
+  { weight = 2, tangential_stiffness = 1e4, normal_stiffness = 2e4, friction_coefficient = 0.3, preload = 2, phi_u_1 = 0.8, phi_u_2 = -0.5, phi_v_2 = 0.25 },
+]
+[response]
+frequency = 20
+)";
+
+SceneDescription parse(const std::string& text, const Overrides& overrides = {}) {
+  return parse_scene(text, "scene.toml", "/nowhere", overrides);
+}
+
+/// Message of the SceneError; empty when the scene is taken.
+std::string complaint(const std::string& text, const Overrides& overrides = {}) {
+  try {
+    static_cast<void>(parse(text, overrides));
+    return {};
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+void expect_complaint(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << "\"" << message << "\" lacks " << part;
+  }
+}
+
+std::size_t line_of(const std::string& text, const std::string& part) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(text.find(part));
+  return static_cast<std::size_t>(std::count(text.begin(), end, '\n')) + 1;
+}
+
+// ---- what is read
+
+TEST(SceneFile, ABladeSceneIsReadInSi) {
+  const SceneDescription scene = parse(blade_text);
+  EXPECT_DOUBLE_EQ(scene.material.youngs_modulus, 2.1e11);
+  EXPECT_EQ(scene.clamped, std::vector<std::string>{"root"});
+  EXPECT_DOUBLE_EQ(std::get<std::vector<double>>(scene.modes.damping).at(0), 0.002);
+  EXPECT_EQ(scene.contact->normal_stiffness, 1e12);
+  EXPECT_FALSE(scene.contact->tangential_stiffness.has_value());
+  EXPECT_DOUBLE_EQ(scene.contact->wear_coefficient, 1e-13);
+  ASSERT_EQ(scene.forces.size(), 1U);
+  EXPECT_EQ(scene.forces[0].direction, Eigen::Vector3d::UnitX());
+  EXPECT_EQ(scene.response->frequency_begin_hz, 350.0);
+  EXPECT_EQ(scene.response->frequency_end_hz, 250.0);
+  const std::vector<PreloadEntry> preload{LimitName::free, -5e5, 1000.0, LimitName::stuck};
+  EXPECT_EQ(scene.response->preload, preload);
+  const std::vector<MapEntry> maps{MapName::peak, MapName::folds, 315.0};
+  EXPECT_EQ(scene.response->maps, maps);
+}
+
+TEST(SceneFile, EveryKeyOfTheBladeHasADefault) {
+  const BladeModel blade = std::get<BladeModel>(parse(blade_text).model);
+  const mesh::BladeGeometry& g = blade.geometry;
+  for (const double length : {blade.element_size, g.root_width, g.root_height, g.root_length,
+                              g.platform_width, g.platform_height, g.platform_length, g.span,
+                              g.root_chord, g.tip_chord, g.root_thickness, g.tip_thickness}) {
+    EXPECT_GT(length, 0.0);
+    EXPECT_LT(length, 1.0);
+  }
+}
+
+TEST(SceneFile, AModalSceneIsReadWithItsPoints) {
+  const SceneDescription scene = parse(modal_text);
+  const auto& modal = std::get<ModalModel>(scene.model);
+  EXPECT_EQ(modal.frequency_hz, Eigen::Vector2d(15.9, 41.4));
+  EXPECT_EQ(modal.damping_ratio, Eigen::Vector2d(0.01, 0.01));
+  EXPECT_EQ(modal.force_static, Eigen::Vector2d::Zero());
+  ASSERT_EQ(modal.points.size(), 2U);
+  EXPECT_EQ(modal.points[0].preload, -2.0);
+  EXPECT_EQ(modal.points[1].normal_stiffness, 2e4);
+  EXPECT_EQ(modal.weights, Eigen::Vector2d(1.0, 2.0));
+  EXPECT_EQ(modal.shapes.u(1, 1), -0.5);
+  EXPECT_EQ(modal.shapes.v(0, 1), 0.0);
+  EXPECT_EQ(modal.shapes.v(1, 1), 0.25);
+  EXPECT_EQ(modal.positions.rows(), 0);
+  EXPECT_EQ(scene.response->frequency_begin_hz, 20.0);
+  EXPECT_EQ(scene.response->frequency_end_hz, 20.0);
+  EXPECT_EQ(scene.response->preload_scale, std::vector<double>{1.0});
+}
+
+TEST(SceneFile, AngularFrequenciesAreTurnedIntoHertz) {
+  const std::string text =
+      replaced(modal_text, "frequency = [15.9, 41.4]", "angular_frequency = [100, \"600 rpm\"]");
+  const auto modal = std::get<ModalModel>(parse(text).model);
+  EXPECT_DOUBLE_EQ(modal.frequency_hz[0], 50.0 / std::numbers::pi);
+  EXPECT_DOUBLE_EQ(modal.frequency_hz[1], 10.0);
+}
+
+TEST(SceneFile, DampingIsANumberAListOrATable) {
+  const auto damping = [](const std::string& value) {
+    return parse(blade_text, {"modes.damping_ratio=" + value}).modes.damping;
+  };
+  EXPECT_EQ(std::get<std::vector<double>>(damping("[0.1, 0, 0.5]")),
+            (std::vector<double>{0.1, 0.0, 0.5}));
+  EXPECT_EQ(std::get<RayleighDamping>(damping("{ alpha = 2, beta = 1e-6 }")).beta, 1e-6);
+  EXPECT_EQ(std::get<std::vector<double>>(damping("0")), std::vector<double>{0.0});
+}
+
+TEST(SceneFile, LineEndsTabsAndByteOrderMarkDoNotMatter) {
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char c : std::string(blade_text)) {
+    if (c == '\n') windows += '\r';
+    windows += c;
+    if (c == '=') windows += '\t';
+  }
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "scene.toml", std::ios::binary) << windows;
+  const SceneDescription scene = read_scene(folder.path() / "scene.toml");
+  EXPECT_EQ(scene.complete_toml, parse(blade_text).complete_toml);
+}
+
+TEST(SceneFile, PointsComeFromACsvFileBesideTheScene) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path below = folder.path() / "with space ä";
+  std::filesystem::create_directory(below);
+  std::ofstream(below / "points.csv")
+      << "preload,phi_u_2,phi_u_1,\"weight\",friction_coefficient,r,"
+         "normal_stiffness,tangential_stiffness\r\n"
+         "5,0.2,0.1,3,0.4,0.7,100,200\r\n";
+  std::string text(modal_text);
+  const auto begin = text.find("points = [");
+  text.replace(begin, text.find("]\n[response]") + 2 - begin, "points = \"points.csv\"\n");
+  std::ofstream(below / "scene.toml") << text;
+  const SceneDescription scene = read_scene(below / "scene.toml");
+  const auto& modal = std::get<ModalModel>(scene.model);
+  ASSERT_EQ(modal.points.size(), 1U);
+  EXPECT_EQ(modal.points[0].tangential_stiffness, 200.0);
+  EXPECT_EQ(modal.shapes.u.row(0), Eigen::RowVector2d(0.1, 0.2));
+  EXPECT_EQ(modal.positions.row(0), Eigen::RowVector2d(0.0, 0.7));
+
+  // The completed scene stands in another folder and still finds its points.
+  const test::TemporaryFolder elsewhere;
+  std::ofstream(elsewhere.path() / "scene.toml") << scene.complete_toml;
+  EXPECT_EQ(std::get<ModalModel>(read_scene(elsewhere.path() / "scene.toml").model).points.size(),
+            1U);
+}
+
+// ---- the completed scene
+
+TEST(SceneFile, TheCompletedSceneReadsBackToItself) {
+  for (const char* text : {blade_text, modal_text}) {
+    const std::string complete = parse(text, {"title=a \"quoted\" ü"}).complete_toml;
+    EXPECT_EQ(parse(complete).complete_toml, complete);
+  }
+}
+
+TEST(SceneFile, TheCompletedSceneHasDefaultsAndOverrides) {
+  const std::string complete =
+      parse(blade_text, {"excitation.forces[0].amplitude=2", "contact.fit=7"}).complete_toml;
+  for (const char* part : {"span = \"114.1 mm\"", "amplitude = 2", "phase = 0", "fit = 7",
+                           "slip_direction = [0, 0, 1]", "normal_motion = \"auto\"",
+                           "method = \"harmonic_balance\"", "length_unit"}) {
+    const bool expected = std::string(part) != "length_unit";  // a key of another kind
+    EXPECT_EQ(complete.find(part) != std::string::npos, expected) << part << "\n" << complete;
+  }
+  EXPECT_LT(complete.find("[model]"), complete.find("[material]"));
+}
+
+TEST(SceneFile, NumbersOfTheCompletedSceneKeepEveryDigitAndNoMore) {
+  for (const char* number : {"0.10000000000000002", "0.3", "1e-300", "2.0", "3"}) {
+    const std::string assignment = std::string("contact.friction_coefficient=") + number;
+    const SceneDescription scene = parse(blade_text, {assignment});
+    EXPECT_EQ(std::get<double>(parse(scene.complete_toml).contact->friction.value),
+              std::get<double>(scene.contact->friction.value));
+    EXPECT_NE(scene.complete_toml.find(std::string("friction_coefficient = ") + number + "\n"),
+              std::string::npos)
+        << scene.complete_toml;
+  }
+}
+
+TEST(SceneFile, TextsOfTheCompletedSceneSurviveQuotesAndControls) {
+  for (const char* title : {"plain", "it's", "a \"b\" c", "back\\slash", "two\nlines", "tab\there",
+                            "é ✓", "x '''", "\x7f"}) {
+    const SceneDescription scene = parse(modal_text, {std::string("title=") + title});
+    EXPECT_EQ(scene.title, title);
+    EXPECT_EQ(parse(scene.complete_toml).title, scene.title) << scene.complete_toml;
+  }
+}
+
+TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
+  for (const char* kind : {"blade", "mesh", "modal", "bar", "chain"}) {
+    EXPECT_EQ(complaint(scene_template(kind)), "") << kind;
+  }
+  expect_complaint(
+      [] {
+        try {
+          static_cast<void>(scene_template("step"));
+        } catch (const SceneError& error) {
+          return std::string(error.what());
+        }
+        return std::string();
+      }(),
+      {"step", "blade, mesh, modal, bar, chain"});
+}
+
+// ---- overrides
+
+TEST(Overrides, AnyKeyMayBeSetAlsoInsideLists) {
+  const SceneDescription scene =
+      parse(blade_text, {"excitation.forces[0].amplitude=2 N", "response.preload[1]=7",
+                         "model.span=120 mm", "effects.stability=on", "response.frequency=300"});
+  EXPECT_EQ(scene.forces[0].amplitude, 2.0);
+  EXPECT_EQ(scene.response->preload[1], PreloadEntry(7.0));
+  EXPECT_DOUBLE_EQ(std::get<BladeModel>(scene.model).geometry.span, 0.12);
+  EXPECT_EQ(scene.response->frequency_end_hz, 300.0);
+}
+
+TEST(Overrides, AMissingSectionIsMade) {
+  EXPECT_EQ(parse(modal_text, {"effects.separation=on"}).effects[1].second, "on");
+}
+
+TEST(Overrides, TheLastOneHolds) {
+  EXPECT_EQ(parse(blade_text, {"modes.count=4", "modes.count=5"}).modes.count, 5);
+}
+
+TEST(Overrides, MessagesNameTheOverride) {
+  expect_complaint(complaint(modal_text, {"modal.frequncy=3"}),
+                   {"--set modal.frequncy=3", "did you mean \"frequency\"?"});
+  expect_complaint(complaint(blade_text, {"contact.friction_coefficient=-1"}),
+                   {"--set contact.friction_coefficient=-1", "out of range"});
+  expect_complaint(complaint(blade_text, {"material.density=5 m"}), {"--set", "density", "kg/m^3"});
+  expect_complaint(complaint(blade_text, {"foo.bar=1"}), {"--set foo.bar=1", "foo"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[1, nan]"}), {"--set", "finite"});
+  expect_complaint(complaint(modal_text, {"modal.points[0].preload=nan"}), {"--set", "preload"});
+}
+
+TEST(Overrides, BrokenOnesAreRefused) {
+  for (const char* broken :
+       {"", "=", "=5", "modes.count", "modes..count=5", ".count=5", "modes.=5",
+        "response.preload[=1", "response.preload[x]=1", "response.preload[9]=1",
+        "response.preload[-1]=1", "response.preload[0]x=1", "title[0]=x", "modes.count.more=5",
+        "model[0].kind=blade"}) {
+    EXPECT_NE(complaint(blade_text, {broken}), "") << broken;
+    EXPECT_NE(complaint(blade_text, {broken}).find("--set"), std::string::npos) << broken;
+  }
+}
+
+TEST(Overrides, ALineBreakDoesNotSmuggleInAnotherKey) {
+  const SceneDescription scene = parse(modal_text, {"title=1\nmodes=2"});
+  EXPECT_EQ(scene.title, "1\nmodes=2");
+}
+
+// ---- what is refused
+
+TEST(BadScene, UnknownKeysAreNamedWithLineAndNearestName) {
+  const std::string text = replaced(blade_text, "youngs_modulus", "young_modulus");
+  expect_complaint(complaint(text),
+                   {"scene.toml:" + std::to_string(line_of(text, "young_modulus")) + ": ",
+                    "material.young_modulus", "did you mean \"youngs_modulus\"?"});
+  expect_complaint(complaint(replaced(blade_text, "[supports]", "[suports]")),
+                   {"suports", "did you mean \"supports\"?"});
+  expect_complaint(complaint(replaced(blade_text, "amplitude", "amplitud")),
+                   {"excitation.forces.amplitud", "did you mean \"amplitude\"?"});
+}
+
+TEST(BadScene, MissingKeysAreNamedWithTheirSection) {
+  const std::string text = replaced(blade_text, "density = 7800\n", "");
+  expect_complaint(complaint(text), {"scene.toml:" + std::to_string(line_of(text, "[material]")),
+                                     "material.density", "is missing", "kg/m^3"});
+  expect_complaint(complaint("[model]\nkind = \"blade\"\n"), {"youngs_modulus", "missing"});
+  expect_complaint(complaint(""), {"model.kind", "missing"});
+}
+
+TEST(BadScene, TomlErrorsTellTheLine) {
+  for (const char* broken : {"density = 1e\n", "density = 7800\ndensity = 7800\n", "density = \n",
+                             "density = \"7800\n", "density = 7,8\n", "density = 1\x01\n"}) {
+    const std::string text = replaced(blade_text, "density = 7800\n", broken);
+    const std::string message = complaint(text);
+    const std::size_t line = line_of(text, "density");
+    const bool told = message.find("scene.toml:" + std::to_string(line) + ":") == 0 ||
+                      message.find("scene.toml:" + std::to_string(line + 1) + ":") == 0;
+    EXPECT_TRUE(told) << message;
+  }
+  EXPECT_NE(complaint("\xFF\xFE\x00"), "");
+}
+
+TEST(BadScene, NumbersAreCheckedForRangeAndSense) {
+  const auto refused = [](const std::string& assignment, const std::vector<std::string>& parts) {
+    const std::string message = complaint(blade_text, {assignment});
+    EXPECT_NE(message, "") << assignment;
+    expect_complaint(message, parts);
+  };
+  refused("material.density=0", {"material.density", "above 0"});
+  refused("material.youngs_modulus=0", {"above 0"});
+  refused("material.youngs_modulus=nan", {"finite"});
+  refused("material.youngs_modulus=inf", {"finite"});
+  refused("material.youngs_modulus=1e400 Pa", {"youngs_modulus"});
+  refused("material.youngs_modulus=210 GHz", {"youngs_modulus", "GHz", "Pa"});
+  refused("material.youngs_modulus=true", {"expected a number"});
+  refused("material.youngs_modulus=[1]", {"expected a number"});
+  refused("material.poissons_ratio=0.5", {"poissons_ratio", "0.4999"});
+  refused("modes.count=0", {"1 to 1000"});
+  refused("modes.count=2.5", {"whole number"});
+  refused("modes.count=99999999999", {"1 to 1000"});
+  refused("modes.damping_ratio=-0.1", {"negative"});
+  refused("modes.damping_ratio=[0.1, 0.1]", {"2 values for 3 modes"});
+  refused("modes.damping_ratio={ alfa = 1 }", {"alfa", "alpha, beta"});
+  refused("contact.slip_direction=[0, 0, 0]", {"zero"});
+  refused("contact.slip_direction=[0, 1]", {"three numbers"});
+  refused("contact.slip_direction=[0, nan, 1]", {"finite"});
+  refused("contact.friction_coefficient=-0.1", {"at least 0"});
+  refused("contact.normal_stiffness=rgid", {"rigid"});
+  refused("contact.fit=-1", {"degree"});
+  refused("contact.surface=5", {"text in quotes"});
+  refused("contact.surface=", {"text in quotes"});
+  refused("supports.clamped=root", {"list"});
+  refused("supports.clamped=[1]", {"quotes"});
+  refused("excitation.forces=5", {"list"});
+  refused("excitation.forces=[5]", {"tables"});
+  refused("model.span=-1 mm", {"above 0"});
+  refused("title=5", {"title", "text"});
+}
+
+TEST(BadScene, FrequenciesMustBeAboveZero) {
+  expect_complaint(complaint(modal_text, {"response.frequency=0 Hz"}), {"0 Hz", "above 0"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[-5, 5]"}), {"above 0"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[1, 2, 3]"}), {"[from, to]"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[]"}), {"[from, to]"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[\"60 rpm\", 5]"}), {"rpm", "Hz"});
+  EXPECT_EQ(complaint(modal_text, {"response.frequency=[20, 20]"}), "");
+  EXPECT_EQ(complaint(modal_text, {"response.frequency=[\"20 Hz\"]"}), "");
+}
+
+TEST(BadScene, WordsAmongNumbersAreToldTheWordsThereAre) {
+  expect_complaint(complaint(blade_text, {"response.preload=[\"stcuk\"]"}),
+                   {"free, stuck", "did you mean \"stuck\"?"});
+  expect_complaint(complaint(blade_text, {"response.maps=[\"peaks\"]"}),
+                   {"did you mean \"peak\"?"});
+  expect_complaint(complaint(blade_text, {"response.preload=[]"}), {"empty"});
+  expect_complaint(complaint(blade_text, {"response.preload=[\"5 mm\"]"}), {"mm", "N"});
+  expect_complaint(complaint(blade_text, {"response.maps=[0]"}), {"above 0"});
+}
+
+TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
+  const auto refused = [](const char* text, const std::string& assignment) {
+    const std::string message = complaint(text, {assignment});
+    EXPECT_NE(message.find("available"), std::string::npos) << assignment << ": " << message;
+  };
+  refused(blade_text, "model.kind=step");
+  refused(blade_text, "modes.residual=attachment");
+  refused(blade_text, "contact.surface=[\"a\", \"b\"]");
+  refused(blade_text, "contact=[{ surface = \"a\" }, { surface = \"b\" }]");
+  for (const char* effect : {"higher_harmonics", "roughness", "rate_dependence"}) {
+    expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
+                     {effect, "needs"});
+  }
+  expect_complaint(complaint(modal_text, {"effects.higher_harmonics=off", "response.harmonics=3"}),
+                   {"contradicts response.harmonics"});
+  for (const char* effect : {"separation", "mean_coupling"}) {
+    expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=off"}),
+                     {effect, "switch effects.normal_motion off"});
+  }
+  expect_complaint(complaint(modal_text, {"effects.stability=off"}), {"cannot be switched off"});
+  expect_complaint(complaint(blade_text, {"effects.residual=off"}), {"modes.residual = \"none\""});
+  EXPECT_EQ(parse(blade_text, {"effects.residual=off", "modes.residual=none"}).effects.size(), 9U);
+  expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
+  for (const char* friction : {"0.3 m", "0.3 +* p"}) {
+    expect_complaint(complaint(blade_text, {std::string("contact.friction_coefficient='") + friction + "'"}),
+                     {"contact.friction_coefficient"});
+  }
+  for (const char* harmonics : {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
+    expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
+                     {"response.harmonics"});
+  }
+  const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"x.inp\"");
+  expect_complaint(complaint(mesh), {"x.inp", "this version"});
+}
+
+TEST(SceneFile, LawsOfContactAreRead) {
+  const SceneDescription blade =
+      parse(blade_text, {"contact.friction_coefficient={ law = \"exponential\", static = 0.5, kinetic = "
+                         "\"30 %\", rate = \"2 s/mm\" }",
+                         "contact.roughness=[{ law = \"cubic\", height = \"3 um\" }, { law = \"cubic\", "
+                         "height = \"4 um\" }]",
+                         "contact.preload_field={ expression = \"1 + 10*p\" }"});
+  ASSERT_TRUE(blade.laws.friction && blade.laws.roughness);
+  EXPECT_EQ(blade.laws.friction->at(0.0).value, 0.5);
+  EXPECT_NEAR(blade.laws.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0), 1e-15);
+  EXPECT_DOUBLE_EQ(blade.laws.roughness->height(), 5e-6);
+  ASSERT_TRUE(blade.contact->preload_field.has_value());
+  EXPECT_EQ(complaint(blade.complete_toml), "");
+  const SceneDescription field = parse(blade_text, {"contact.friction_coefficient=0.3+0.1*p",
+                                                    "contact.preload_moment=[\"2 N*m\", 0]"});
+  EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contact->friction.value));
+  EXPECT_EQ(field.contact->preload_moment[0], 2.0);
+  const SceneDescription modal = parse(
+      modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
+                   "response.harmonics=5", "response.method=time", "response.points=7"});
+  EXPECT_NEAR(modal.laws.friction->at(1.0).value, 0.1, 1e-15);
+  EXPECT_EQ(modal.response->harmonics, 5);
+  EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
+  EXPECT_EQ(modal.response->n_time_points, 7);
+}
+
+TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
+  const auto list = *parse(modal_text, {"response.harmonics=[5, 0, 1, 3]"}).response;
+  EXPECT_EQ(list.harmonic_orders, (std::vector<int>{5, 1, 3}));
+  EXPECT_EQ(list.harmonics, 5);
+  EXPECT_EQ(list.harmonic_tolerance, 0.0);
+  const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
+  EXPECT_EQ(chosen.harmonic_tolerance, 1e-3);
+  EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
+  const auto finer = parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
+  EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
+  EXPECT_EQ(complaint(finer.complete_toml), "");
+  EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).response->harmonic_tolerance, 0.0);
+}
+
+TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
+  expect_complaint(complaint(modal_text, {"response.method=time", "response.harmonics=auto"}),
+                   {"response.harmonics", "harmonic_balance"});
+  expect_complaint(complaint(modal_text, {"response.method=time", "response.search_starts=3"}),
+                   {"response.search_starts", "harmonic_balance"});
+  EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
+}
+
+TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
+  const auto bad = [](const std::string& value, const std::vector<std::string>& words) {
+    expect_complaint(complaint(blade_text, {value}), words);
+  };
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", rate = 1 }", {"static is missing"});
+  bad("contact.friction_coefficient={ law = \"linear\" }", {"exponential, hyperbolic"});
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", static = 1, rate = 1, kinetic = 1 }",
+      {"kinetic"});
+  bad("contact.friction_coefficient={ law = \"hyperbolic\", static = -1, rate = 1 }",
+      {"static", "at least 0"});
+  bad("contact.friction_coefficient={ expression = 3 }", {"expression"});
+  bad("contact.roughness={ law = \"cubic\" }", {"height is missing"});
+  bad("contact.roughness={ law = \"cubic\", height = 1e-6, hight = 2 }", {"hight", "known"});
+  bad("contact.roughness=[{ law = \"cubic\", height = 1e-6 }, { law = \"gaussian\", height = 1e-6 }]",
+      {"cubic surface against a gaussian"});
+  bad("contact.preload_moment=[1]", {"[M_p, M_r]"});
+  expect_complaint(complaint(blade_text, {"contact.preload_moment=[1, 0]",
+                                          "contact.preload_field={ expression = \"p\" }"}),
+                   {"preload_moment", "one of the two"});
+}
+
+/// What is no TOML has no keys to ask for; the message names the one it breaks off in all the same.
+TEST(SceneFile, WhatIsNoTomlIsToldByLineColumnAndKey) {
+  const auto said = [](const std::string& from, const std::string& to) { return complaint(replaced(modal_text, from, to)); };
+  EXPECT_EQ(said("[15.9, 41.4]", "[15.9,\n 1e400]"),
+            "scene.toml:5:7: modal.frequency: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "size");
+  EXPECT_NE(said("weight = 2", "weight = 2.").find("scene.toml:11:16: modal.points.weight: "), std::string::npos)
+      << said("weight = 2", "weight = 2.");
+  EXPECT_NE(said("frequency = 20", "frequency = 99999999999999999999").find("response.frequency: 9999999999999999999"),
+            std::string::npos);
+  EXPECT_NE(said("frequency = 20", "frequency = \"20").find("response.frequency: "), std::string::npos);
+  EXPECT_NE(said("damping_ratio = 0.01", "frequency = 0.01").find("modal.frequency: "), std::string::npos);
+  EXPECT_EQ(complaint(modal_text, {"modal.frequency=[1e400, 3]"}),
+            "--set modal.frequency=[1e400, 3]: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "size");
+  EXPECT_NE(complaint(modal_text, {"response.search_starts=many"}).find("expected a whole number, 0 to 1000"),
+            std::string::npos)
+      << complaint(modal_text, {"response.search_starts=many"});
+}
+
+TEST(SceneFile, TablesAndFormulasOfThePatchAreReadWithTheScene) {
+  const Overrides missing{"contact.friction_coefficient={file=\"none.csv\"}"};
+  EXPECT_NE(complaint(blade_text, missing).find("/nowhere/none.csv: no such file"), std::string::npos)
+      << complaint(blade_text, missing);
+  EXPECT_NE(complaint(blade_text, {"contact.preload_field=1+sqt(p)"}).find("character 3: \"sqt\" is not known"),
+            std::string::npos);
+}
+
+TEST(SceneFile, NegativeScalesWouldTurnGapsIntoPressure) {
+  expect_complaint(complaint(modal_text, {"response.preload_scale=[1, -1]"}), {"preload_scale", "at least 0"});
+  EXPECT_EQ(parse(modal_text, {"response.preload_scale=[0, 2]"}).response->preload_scale,
+            (std::vector<double>{0.0, 2.0}));
+}
+
+TEST(SceneFile, AnyNumberCanBeSearched) {
+  const std::vector<std::string> search{"response.optimum=contact.normal_stiffness",
+                                        "response.optimum_range=[\"1 GPa/m\", 1e12]",
+                                        "response.preload=[100, \"free\"]"};
+  const SceneDescription scene = parse(blade_text, search);
+  ASSERT_TRUE(scene.response->optimum.has_value());
+  EXPECT_EQ(scene.response->optimum->range, (std::array<double, 2>{1e9, 1e12}));
+  EXPECT_EQ(scene.response->optimum->load, 100.0);
+  const SceneDescription changed = with_value(scene, "contact.normal_stiffness", 2.5e10);
+  EXPECT_EQ(changed.contact->normal_stiffness, 2.5e10);
+  EXPECT_FALSE(changed.response->optimum.has_value());
+  EXPECT_EQ(changed.contact->tangential_stiffness, scene.contact->tangential_stiffness);
+  const SceneDescription force = parse(
+      blade_text, {"response.optimum=excitation.forces[0].amplitude",
+                   "response.optimum_range=[\"1 mN\", \"2 N\"]", "response.optimum_at=\"1 kN\""});
+  EXPECT_EQ(force.response->optimum->range, (std::array<double, 2>{1e-3, 2.0}));
+  EXPECT_EQ(force.response->optimum->load, 1000.0);
+  EXPECT_EQ(with_value(force, force.response->optimum->key, 0.25).forces[0].amplitude, 0.25);
+}
+
+TEST(BadScene, SearchesOfNoNumber) {
+  const auto bad = [](const std::string& key, const std::string& range,
+                      const std::vector<std::string>& words) {
+    expect_complaint(complaint(blade_text, {"response.optimum=" + key, "response.optimum_range=" + range,
+                                            "response.optimum_at=100"}),
+                     words);
+  };
+  bad("contact.frction_coefficient", "[0.1, 1]", {"contact.frction", "friction_coefficient"});
+  bad("response.frequency", "[1, 2]", {"outside [response]"});
+  bad("modes.count", "[5, 10]", {"whole number"});
+  bad("contact.friction_coefficient", "[-1, 1]", {"optimum_range", "-1 is no value"});
+  bad("contact.friction_coefficient", "[\"1 mm\", 1]", {"optimum_range", "mm"});
+  bad("contact.normal_stiffness", "[2e10, 1e10]", {"low < high"});
+  bad("excitation.forces[7].amplitude", "[1, 2]", {"forces has no entry 7"});
+  bad("preload", "[1, 2]", {"optimum_at", "no meaning"});
+  expect_complaint(complaint(blade_text, {"response.optimum=material.density"}), {"optimum_range"});
+  expect_complaint(complaint(blade_text, {"response.optimum=material.density",
+                                          "response.optimum_range=[1, 2]",
+                                          "response.preload=[1, 2]"}),
+                   {"optimum_at", "2 positive preloads"});
+}
+
+TEST(BadScene, KeysThatSayNothingAreRefused) {
+  expect_complaint(complaint(blade_text, {"response.optimum_range=[1, 2]"}), {"optimum"});
+  expect_complaint(
+      complaint(blade_text, {"response.optimum=preload", "response.optimum_range=[2, 1]"}),
+      {"0 < low < high"});
+  std::string free(blade_text);
+  const auto begin = free.find("[contact]");
+  free.erase(begin, free.find("[excitation]") - begin);
+  EXPECT_EQ(complaint(free), "");  // `modes` works without a contact; what `run` says of it:
+  expect_complaint(parse(free).without_contact, {"response.preload", "no [contact]"});
+  expect_complaint(complaint(modal_text, {"response.preload=5"}), {"preload"});
+  expect_complaint(complaint(modal_text, {"contact.surface=a"}),
+                   {"contact.surface", "unknown key", "friction_law"});
+}
+
+TEST(BadScene, ALengthUnitMustBeALength) {
+  const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"x.msh\"");
+  const auto unit = [&](const std::string& value) {
+    return std::get<MeshFileModel>(parse(mesh, {"model.length_unit=" + value}).model).length_unit;
+  };
+  EXPECT_DOUBLE_EQ(unit("mm"), 1e-3);
+  EXPECT_DOUBLE_EQ(unit("0.0254"), 0.0254);
+  for (const char* value : {"", "s", "0", "-1", "1 mm", "nan"}) {
+    EXPECT_NE(complaint(mesh, {std::string("model.length_unit=") + value}), "") << value;
+  }
+}
+
+// ---- modal scenes
+
+TEST(BadModalScene, ListsMustFitTheNumberOfModes) {
+  expect_complaint(complaint(modal_text, {"modal.output=[1, 2, 3]"}), {"3 values for 2 modes"});
+  expect_complaint(complaint(modal_text, {"modal.frequency=[]"}), {"empty"});
+  expect_complaint(complaint(modal_text, {"modal.frequency=[-1, 2]"}), {"negative"});
+  expect_complaint(complaint(modal_text, {"modal.damping_ratio=[0.1, -0.1]"}), {"negative"});
+  expect_complaint(complaint(modal_text, {"modal.angular_frequency=[1, 2]"}), {"not both"});
+  expect_complaint(complaint(replaced(modal_text, "frequency = [15.9, 41.4]\n", "")),
+                   {"angular_frequency"});
+  expect_complaint(complaint(modal_text, {"modal.force_sine=[1, nan]"}), {"finite"});
+  EXPECT_EQ(complaint(modal_text, {"modal.damping_ratio=50 %"}), "");
+}
+
+TEST(BadModalScene, InlinePointsTellTheirLine) {
+  const std::string text(modal_text);
+  const std::string second = "scene.toml:" + std::to_string(line_of(text, "weight = 2"));
+  expect_complaint(complaint(replaced(text, "{ weight = 2", "{ weight = -2")),
+                   {second, "weight", "-2 is negative"});
+  expect_complaint(complaint(replaced(text, "{ weight = 2, ", "{ ")), {second, "no weight"});
+  expect_complaint(complaint(replaced(text, "phi_v_2 = 0.25", "phi_v_3 = 0.25")),
+                   {"unknown column", "phi_v_3", "2 modes"});
+  expect_complaint(complaint(replaced(text, "phi_v_2 = 0.25", "tangential_stiffness_r = 1")),
+                   {"this point has no tangential_stiffness_r"});
+  EXPECT_EQ(complaint(replaced(text, "phi_v_2 = 0.25", "phi_w_2 = 0")), "");
+  expect_complaint(complaint(modal_text, {"modal.points=[5]"}), {"expected tables"});
+  expect_complaint(complaint(modal_text, {"modal.points=5"}), {"CSV file"});
+}
+
+TEST(BadModalScene, BadPointTablesAreToldWithLineAndColumn) {
+  const test::TemporaryFolder folder;
+  const std::string header =
+      "weight,tangential_stiffness,normal_stiffness,friction_coefficient,preload,phi_u_1,phi_u_2\n";
+  const auto told = [&](const std::string& table) {
+    std::ofstream(folder.path() / "p.csv", std::ios::binary) << table;
+    return complaint(modal_text, {"modal.points=" + (folder.path() / "p.csv").string()});
+  };
+  EXPECT_EQ(told(header + "1,1,1,0.3,1,1,1\n"), "");
+  EXPECT_EQ(told("# points\n\n" + header + "\n1,0,0,0,-1,1,1"), "");
+  expect_complaint(told(header + "1,1,1,0.3,1,1,1\n1,-1,1,0.3,1,1,1\n"),
+                   {"p.csv:3: tangential_stiffness: ", "-1 is negative"});
+  expect_complaint(told("# one\n" + header + "1,1,1,0.3,nan,1,1\n"),
+                   {"p.csv:3: preload: ", "finite"});
+  expect_complaint(told(header + "1,1,1,0.3,inf,1,1\n"), {"p.csv:2: preload: ", "finite"});
+  expect_complaint(told(header + "1,1,1,0.3,1 N,1,1\n"), {"p.csv:2: preload: ", "not a number"});
+  expect_complaint(told(header + "1,1,1,0.3,,1,1\n"), {"p.csv:2: preload: "});
+  expect_complaint(told(header + "1,1,1\n"), {"p.csv:2: ", "3 values under 7"});
+  expect_complaint(told(header), {"no contact points"});
+  expect_complaint(told(""), {"empty"});
+  expect_complaint(told("1,1,1,0.3,1,1,1\n1,1,1,0.3,1,1,1\n"), {"p.csv:1: ", "\"1\" stands twice"});
+  expect_complaint(told("# c\nweight,weigth\n1,1\n"),
+                   {"p.csv:2: ", "weigth", "did you mean \"weight\"?"});
+  expect_complaint(told("weight,preload\n1,1\n"),
+                   {"p.csv:1: ", "\"tangential_stiffness\" is missing"});
+  expect_complaint(told(header.substr(0, header.size() - 9) + "\n1,1,1,0.3,1,1\n"), {"phi_u_2"});
+  expect_complaint(complaint(modal_text, {"modal.points=no such.csv"}),
+                   {"/nowhere/no such.csv: no such file"});
+}
+
+// ---- files
+
+std::string reading_complaint(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(read_scene(file));
+    return {};
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+TEST(BadSceneFile, MissingAndUnreadableFilesAreNamed) {
+  const test::TemporaryFolder folder;
+  expect_complaint(reading_complaint(folder.path() / "none.toml"), {"none.toml: no such file"});
+  expect_complaint(reading_complaint(folder.path()), {"not a file"});
+  EXPECT_NE(reading_complaint(""), "");
+  expect_complaint(reading_complaint(std::string(5000, 'x')), {"too long"});
+  std::filesystem::create_symlink(folder.path() / "loop", folder.path() / "loop");
+  EXPECT_NE(reading_complaint(folder.path() / "loop"), "");
+}
+
+TEST(BadSceneFile, AHugeFileIsNotRead) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "huge.toml";
+  std::ofstream(file) << "title = \"x\"\n";
+  std::filesystem::resize_file(file, 1'000'000'000);  // sparse: takes no disk
+  expect_complaint(reading_complaint(file), {"1000000000 bytes", "at most 64000000"});
+}
+
+/// A scene with a few bytes changed, swapped or cut ends in a description or a SceneError.
+TEST(BadSceneFile, AnyMutationEndsInASceneOrAnError) {
+  unsigned state = 7;  // fixed seed of a linear congruence
+  const auto next = [&](std::size_t n) {
+    return ((state = state * 1664525U + 1013904223U) >> 8) % static_cast<unsigned>(n);
+  };
+  constexpr char all_bytes[] =
+      "\"'[]{}=.,#\n\t -+eE019nainf\0\xFF\xC3";  // a zero byte is among them
+  const std::string_view bytes(all_bytes, sizeof(all_bytes) - 1);
+  int n_taken = 0;
+  constexpr int n_trials = 3000;
+  for (int i = 0; i < n_trials; ++i) {
+    std::string text = i % 2 == 0 ? blade_text : modal_text;
+    for (unsigned n = 1 + next(4); n > 0; --n) {
+      switch (next(4)) {
+        case 0:
+          text[next(text.size())] = bytes[next(bytes.size())];
+          break;
+        case 1:
+          text.insert(next(text.size()), 1, bytes[next(bytes.size())]);
+          break;
+        case 2:
+          text.erase(next(text.size()), 1 + next(8));
+          break;
+        default:
+          text.insert(next(text.size()), text.substr(next(text.size()), next(40)));
+      }
+    }
+    n_taken += complaint(text).empty() ? 1 : 0;  // another exception ends the test
+  }
+  EXPECT_GT(n_taken, 0);
+  EXPECT_LT(n_taken, n_trials);
+}
+
+TEST(BadSceneFile, DeepNestingEndsInAnError) {
+  EXPECT_NE(complaint("x = " + std::string(100'000, '[')), "");
+}
+
+}  // namespace
+}  // namespace microslip::pipelines

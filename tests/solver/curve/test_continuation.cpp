@@ -1,0 +1,353 @@
+#include "solver/continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "contact/force/law_patch_force.hpp"
+#include "contact/plane/planar_cycle.hpp"
+#include "tests/solver/duffing.hpp"
+#include "tests/support/curves.hpp"
+#include "tests/support/modal_scenes.hpp"
+#include "tests/support/random_scene.hpp"
+
+namespace microslip::solver {
+namespace {
+
+using tests::Duffing;
+using tests::frequency_range;
+using tests::marked;
+
+TEST(Continuation, EveryPointLiesOnTheClosedFormOfDuffing) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
+  ASSERT_TRUE(curve.complete) << curve.message;
+  EXPECT_EQ(curve.points.front().frequency, 0.5);
+  EXPECT_EQ(curve.points.back().frequency, 2.5);
+  for (const ResponsePoint& point : curve.points) {
+    EXPECT_LT(std::abs(duffing.defect(point.amplitude, point.frequency)), 1e-9);
+  }
+}
+
+TEST(Continuation, SolvesForFoldsWhereTheTangentIsVertical) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
+  const auto folds = marked(curve, PointMark::fold);
+  ASSERT_EQ(folds.size(), 2U);
+  for (const ResponsePoint& fold : folds) {
+    // Relative to the slope a linear response of this amplitude would have.
+    EXPECT_LT(std::abs(duffing.slope(fold.amplitude, fold.frequency)), 1e-6 * 2.0 * fold.amplitude);
+  }
+  EXPECT_GT(folds[0].frequency, folds[1].frequency);
+}
+
+TEST(Continuation, ThePeakIsWhereTheForceMeetsTheDampingAlone) {
+  const Duffing duffing;
+  const auto peaks =
+      marked(trace_response(duffing.scene(), frequency_range(0.5, 2.5)), PointMark::peak);
+  ASSERT_EQ(peaks.size(), 1U);
+  const double A = peaks[0].amplitude;
+  const double omega = peaks[0].frequency;
+  // ∂F²/∂ω = 0: (1 − ω² + ¾αA²) = 2ζ²
+  EXPECT_NEAR(1.0 - omega * omega + 0.75 * duffing.alpha * A * A, 2.0 * duffing.zeta * duffing.zeta,
+              1e-8);
+}
+
+TEST(Continuation, BetweenFoldsAndNowhereElseThePointsAreUnstable) {
+  const auto curve = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5));
+  int folds = 0;
+  for (const ResponsePoint& point : curve.points) {
+    if (point.mark == PointMark::fold) {
+      ++folds;
+      continue;
+    }
+    EXPECT_EQ(point.stability, folds == 1 ? Stability::unstable : Stability::stable)
+        << point.frequency;
+    EXPECT_EQ(point.determinant_sign, folds == 1 ? -1.0 : 1.0);
+  }
+}
+
+TEST(Continuation, FindsPeaksAMillionTimesNarrowerThanTheRange) {
+  Duffing duffing;
+  duffing.alpha = 0.0;
+  duffing.zeta = 1e-6;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 1.5));
+  const auto peaks = marked(curve, PointMark::peak);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_NEAR(peaks[0].amplitude, duffing.force / (2.0 * duffing.zeta), 1e-6 * peaks[0].amplitude);
+}
+
+TEST(Continuation, ReversedAndForwardSweepsMeetTheSameMarks) {
+  const auto up = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5));
+  const auto down = trace_response(Duffing{}.scene(), frequency_range(2.5, 0.5));
+  const auto a = marked(up, PointMark::fold);
+  auto b = marked(down, PointMark::fold);
+  std::reverse(b.begin(), b.end());
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].frequency, b[i].frequency, 1e-9);
+}
+
+TEST(Continuation, WithoutForceNothingMoves) {
+  tests::SinglePoint single;
+  single.force = 0.0;
+  single.point = {2.0, 1.0, 0.3, 1.0};
+  single.phi_v = 0.5;
+  const auto curve = trace_response(tests::single_point_scene(single), frequency_range(0.5, 2.0));
+  ASSERT_TRUE(curve.complete);
+  for (const ResponsePoint& point : curve.points) {
+    EXPECT_EQ(point.amplitude, 0.0);
+    EXPECT_EQ(point.residual, 0.0);
+    EXPECT_EQ(point.energy_imbalance, 0.0);
+  }
+}
+
+TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
+  // Loads of rough cells, summed by quadrature, leave 1e-15 of themselves at rest: no motion to be walked along.
+  constexpr Eigen::Index n = 7;
+  std::vector<std::shared_ptr<const contact::PointLaw>> cells;
+  contact::ModalShapes shapes{Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i) / n;
+    const contact::PointParameters point{3e4, 4e4, 0.5, 17.3 + 5.1 * x};
+    cells.push_back(std::make_shared<contact::PlanarLaw>(
+        contact::SurfaceLaw(point, 3e4, contact::FrictionLaw::constant(0.5),
+                            contact::RoughSurface::cubic(5e-4))));
+    shapes.u.row(i) << 1.0, 0.3 - x, 0.7 * x;
+    shapes.v.row(i) << 0.2 * x, 1.0, x - 0.6;
+    shapes.w.row(i) << 0.5, x * x, 1.1 - x;
+  }
+  Scene scene;
+  scene.natural_frequency = Eigen::Vector3d(120.0, 140.0, 170.0);
+  scene.damping_ratio = Eigen::Vector3d::Constant(0.02);
+  scene.output = Eigen::Vector3d(1.0, 0.4, 0.2);
+  scene.excitation = Harmonics(1, 3);
+  scene.contact = std::make_unique<contact::LawPatchForce>(
+      Eigen::VectorXd::Constant(n, 0.13), std::move(cells), std::move(shapes));
+  const ResponseCurve curve = trace_response(scene, frequency_range(100.0, 400.0));
+  EXPECT_TRUE(curve.complete) << curve.diagnosis << ' ' << curve.message;
+  EXPECT_GE(curve.points.size(), 10U);
+  for (const ResponsePoint& point : curve.points) {
+    EXPECT_EQ(point.amplitude, 0.0);
+    EXPECT_EQ(point.mark, PointMark::none);
+    EXPECT_DOUBLE_EQ(point.report.stick_share, 1.0);
+  }
+}
+
+TEST(Continuation, ALargeForceTendsToTheFreeResponse) {
+  tests::SinglePoint single;
+  single.point = {2.0, 0.0, 0.3, 1.0};
+  single.force = 1e9;
+  const tests::SinglePoint free = single;
+  const auto rubbed = solve_at_frequency(tests::single_point_scene(single), 0.7, {});
+  const double linear = free.force / std::hypot(1.0 - 0.49, 2.0 * 0.01 * 0.7);
+  ASSERT_TRUE(rubbed.complete);
+  EXPECT_NEAR(rubbed.points.front().amplitude, linear, 1e-8 * linear);
+}
+
+TEST(Continuation, APeakAtTheEndOfTheRangeIsSaid) {
+  Duffing duffing;
+  duffing.alpha = 0.0;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 0.95));
+  EXPECT_TRUE(curve.complete);
+  EXPECT_NE(curve.message.find("peak at boundary"), std::string::npos);
+  EXPECT_TRUE(marked(curve, PointMark::peak).empty());
+}
+
+TEST(Continuation, StopsWhenTheObserverSaysSo) {
+  int n = 0;
+  const auto curve = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5),
+                                    [&](const ResponsePoint&) { return ++n < 5; });
+  EXPECT_FALSE(curve.complete);
+  EXPECT_EQ(curve.diagnosis, "interrupted");
+  EXPECT_EQ(curve.points.size(), 5U);
+}
+
+TEST(Continuation, AFrequencyInsideAFoldHasThreeSolutions) {
+  const auto scene = Duffing{}.scene();
+  const auto options = frequency_range(0.5, 2.5);
+  const auto curve = trace_response(scene, options);
+  const auto folds = marked(curve, PointMark::fold);
+  ASSERT_EQ(folds.size(), 2U);
+  const double inside = 0.5 * (folds[0].frequency + folds[1].frequency);
+  const auto points = points_at_frequency(scene, curve, inside, options);
+  ASSERT_EQ(points.size(), 3U);
+  for (const ResponsePoint& point : points) EXPECT_EQ(point.frequency, inside);
+  EXPECT_EQ(points[1].stability, Stability::unstable);
+  EXPECT_TRUE(points_at_frequency(scene, curve, 3.0, options).empty());
+}
+
+TEST(Continuation, AsksForTheResidualItIsTold) {
+  // The corrector polishes as long as that pays; what counts is when it calls a point solved. The
+  // range has steps long enough that a loose tolerance is met one iteration earlier.
+  const Duffing duffing;
+  ContinuationOptions loose = frequency_range(0.5, 2.5);
+  loose.residual_tolerance = 1e-4;
+  ContinuationOptions strict = loose;
+  strict.residual_tolerance = 1e-13;
+  const auto quick = trace_response(duffing.scene(), loose);
+  const auto exact = trace_response(duffing.scene(), strict);
+  ASSERT_TRUE(quick.complete && exact.complete);
+  const auto effort = [](const ResponseCurve& curve) {
+    return static_cast<double>(curve.iterations) / static_cast<double>(curve.points.size());
+  };
+  EXPECT_LT(effort(quick), 0.8 * effort(exact));
+  for (const ResponsePoint& point : quick.points) EXPECT_LE(point.residual, 1e-4);
+  for (const ResponsePoint& point : exact.points) EXPECT_LE(point.residual, 1e-13);
+}
+
+TEST(Continuation, RefusesAResidualToleranceThatIsNone) {
+  const Duffing duffing;
+  for (const double tolerance : {0.0, -1e-11, std::nan("")}) {
+    ContinuationOptions options = frequency_range(0.5, 2.5);
+    options.residual_tolerance = tolerance;
+    EXPECT_THROW((void)trace_response(duffing.scene(), options), std::invalid_argument);
+  }
+}
+
+TEST(Continuation, RefusesFrequenciesThatAreNone) {
+  EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), frequency_range(0.0, 1.0))),
+               std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(trace_response(Duffing{}.scene(), frequency_range(1.0, std::nan("")))),
+      std::invalid_argument);
+}
+
+/// Frequencies where ω(A) turns beyond the peak, ascending: a scan of dω²/dA of the closed form, then
+/// bisection. ω² = p + √(p² − k² + (F/A)²) with k = 1 + ¾αA², p = k − 2ζ².
+std::vector<double> closed_form_folds(const Duffing& d, double highest) {
+  const double drop = 2.0 * d.zeta * d.zeta;
+  const auto k = [&](double A) { return 1.0 + 0.75 * d.alpha * A * A; };
+  const auto root = [&](double A) {
+    return std::sqrt(drop * (drop - 2.0 * k(A)) + std::pow(d.force / A, 2));
+  };
+  const auto slope = [&](double A) {
+    const double dk = 1.5 * d.alpha * A;
+    return dk - (drop * dk + d.force * d.force / (A * A * A)) / root(A);
+  };
+  std::vector<double> folds;
+  constexpr int n = 2000;
+  for (int i = 1; i < n; ++i) {
+    double low = highest * i / n;
+    double high = std::min(highest * (i + 1) / n, highest * (1.0 - 1e-10));
+    const bool rises = slope(low) < 0.0;
+    if (rises == (slope(high) < 0.0)) continue;
+    for (int j = 0; j < 100; ++j) {
+      const double middle = 0.5 * (low + high);
+      ((slope(middle) < 0.0) == rises ? low : high) = middle;
+    }
+    folds.push_back(std::sqrt(k(low) - drop + root(low)));
+  }
+  std::sort(folds.begin(), folds.end());
+  return folds;
+}
+
+TEST(Continuation, FoldsAreThoseOfTheClosedForm) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.5, 2.5));
+  const auto expected = closed_form_folds(duffing, marked(curve, PointMark::peak).at(0).amplitude);
+  const auto folds = marked(curve, PointMark::fold);
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(folds.size(), 2U);
+  // The frequency is flat at a fold: an error of the amplitude counts by its square.
+  EXPECT_NEAR(folds[0].frequency, expected[1], 1e-12);
+  EXPECT_NEAR(folds[1].frequency, expected[0], 1e-12);
+}
+
+TEST(Continuation, NamesACurveThatDoesNotEnd) {
+  ContinuationOptions options = frequency_range(0.5, 2.5);
+  options.max_points = 20;
+  const auto curve = trace_response(Duffing{}.scene(), options);
+  EXPECT_FALSE(curve.complete);
+  EXPECT_EQ(curve.diagnosis, "budget");
+  EXPECT_FALSE(curve.message.empty());
+}
+
+TEST(Continuation, OfARangeWithoutWidthIsTheSolutionThere) {
+  const Duffing duffing;
+  const auto curve = trace_response(duffing.scene(), frequency_range(0.8, 0.8));
+  ASSERT_TRUE(curve.complete);
+  ASSERT_EQ(curve.points.size(), 1U);
+  EXPECT_LT(std::abs(duffing.defect(curve.points[0].amplitude, 0.8)), 1e-12);
+}
+
+TEST(TraceLinear, EndsAtAnUndampedResonanceWithItsName) {
+  tests::SinglePoint single;
+  single.damping_ratio = 0.0;
+  single.point = {3.0, 0.0, 0.5, 1.0};  // k_u, k_v, μ, n₀: stuck at ω = 2
+  const Scene scene = tests::single_point_scene(single);
+  const struct {
+    LinearLimit limit;
+    double begin, end, resonance;
+  } cases[] = {{LinearLimit::free, 0.5, 1.5, 1.0},
+               {LinearLimit::stuck, 1.5, 3.0, 2.0},
+               {LinearLimit::stuck, 3.0, 1.5, 2.0}};
+  for (const auto& c : cases) {
+    const ResponseCurve curve = trace_linear(scene, c.limit, frequency_range(c.begin, c.end));
+    EXPECT_FALSE(curve.complete);
+    EXPECT_EQ(curve.diagnosis, "unbounded");
+    ASSERT_GT(curve.points.size(), 5U);
+    EXPECT_LT(curve.points.size(), 500U);
+    EXPECT_EQ(curve.points.front().frequency, c.begin);
+    EXPECT_NEAR(curve.points.back().frequency, c.resonance, 2e-3 * c.resonance);
+    for (const ResponsePoint& point : curve.points) {
+      const double exact = 1.0 / std::abs(c.resonance * c.resonance - point.frequency * point.frequency);
+      EXPECT_NEAR(point.amplitude, exact, 1e-9 * exact);
+    }
+  }
+  // Beyond the resonance, or where nothing moves it, there is nothing to name.
+  EXPECT_TRUE(trace_linear(scene, LinearLimit::free, frequency_range(1.1, 3.0)).complete);
+  single.force = 0.0;
+  EXPECT_TRUE(trace_linear(tests::single_point_scene(single), LinearLimit::free, frequency_range(0.5, 1.5))
+                  .complete);
+}
+
+// Friction takes 4 μn₀ A a period and the excitation gives π F A: below F = 4 μn₀ / π there is a peak.
+TEST(Continuation, NamesAnUndampedResonanceThatFrictionDoesNotHold) {
+  tests::SinglePoint single;
+  single.damping_ratio = 0.0;
+  single.point = {3.0, 0.0, 0.5, 1.0};
+  single.force = 1.1 * 4.0 * 0.5 / M_PI;
+  const ResponseCurve beyond =
+      trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5));
+  EXPECT_FALSE(beyond.complete);
+  EXPECT_EQ(beyond.diagnosis, "unbounded");
+  single.force = 0.9 * 4.0 * 0.5 / M_PI;
+  EXPECT_TRUE(trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5)).complete);
+}
+
+TEST(TraceLinear, HasTheLimitsOfTheContact) {
+  const Scene scene = tests::chain_scene(30.0);
+  const ContinuationOptions options = frequency_range(2.0 * M_PI * 15.0, 2.0 * M_PI * 80.0);
+  const Eigen::MatrixXd stuck = scene.contact->stuck_stiffness();
+  for (const LinearLimit limit : {LinearLimit::free, LinearLimit::stuck}) {
+    const ResponseCurve curve = trace_linear(scene, limit, options);
+    ASSERT_TRUE(curve.complete);
+    EXPECT_EQ(marked(curve, PointMark::peak).size(), 2U);
+    const double share = limit == LinearLimit::stuck ? 1.0 : 0.0;
+    for (const ResponsePoint& point : curve.points) {
+      Eigen::Matrix2cd matrix = (share * stuck).cast<std::complex<double>>();
+      for (Eigen::Index n = 0; n < 2; ++n) {
+        const double natural = scene.natural_frequency[n];
+        matrix(n, n) +=
+            std::complex<double>(natural * natural - point.frequency * point.frequency,
+                                 2.0 * scene.damping_ratio[n] * natural * point.frequency);
+      }
+      const Eigen::Vector2cd force =
+          scene.excitation.rows().row(1).transpose().cast<std::complex<double>>();
+      const Eigen::Vector2cd motion = matrix.inverse() * force;
+      const std::complex<double> y = motion[0] * scene.output[0] + motion[1] * scene.output[1];
+      EXPECT_NEAR(point.amplitude, std::abs(y), 1e-12 * motion.norm());
+      EXPECT_LT(point.energy_imbalance, 1e-10);
+      EXPECT_EQ(point.report.stick_share, share);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microslip::solver

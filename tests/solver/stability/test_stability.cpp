@@ -1,0 +1,145 @@
+#include "solver/stability/stability.hpp"
+
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/duffing.hpp"
+#include "solver/continuation.hpp"
+#include "solver/balance/linear_force.hpp"
+#include "tests/support/modal_scenes.hpp"
+#include "tests/support/random_scene.hpp"
+
+namespace microslip::solver {
+namespace {
+
+TEST(Stability, SlowFlowOfALinearModeDecaysWithItsDamping) {
+  tests::Duffing duffing;
+  duffing.alpha = 0.0;
+  const Scene scene = duffing.scene();
+  const HarmonicBalance balance(scene, 1);
+  const auto at = balance.evaluate(Eigen::VectorXd::Zero(3), 1.0);
+  const StabilityReport report = assess_stability(balance, at.jacobian, 1.0);
+  EXPECT_EQ(report.stability, Stability::stable);
+  EXPECT_EQ(report.determinant_sign, 1.0);
+  // −ζω to the order of the slow flow, which errs by ζ² itself.
+  EXPECT_NEAR(report.growth, -duffing.zeta, duffing.zeta * duffing.zeta);
+}
+
+TEST(Stability, OfThreeCoexistingSolutionsTheMiddleOneIsUnstable) {
+  // Theory section 20.4: 30 N, inside the jump.
+  const Scene scene = tests::three_dof_scene(30.0);
+  ContinuationOptions options;
+  options.frequency_begin = 2.0 * std::numbers::pi * 18.0;
+  options.frequency_end = 2.0 * std::numbers::pi * 28.0;
+  const auto curve = trace_response(scene, options);
+  std::vector<double> folds;
+  for (const auto& point : curve.points) {
+    if (point.mark == PointMark::fold) folds.push_back(point.frequency);
+  }
+  ASSERT_GE(folds.size(), 2U);
+  const auto points = points_at_frequency(scene, curve, 0.5 * (folds[0] + folds[1]), options);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[0].stability, Stability::stable);
+  EXPECT_EQ(points[1].stability, Stability::unstable);
+  EXPECT_EQ(points[2].stability, Stability::stable);
+  EXPECT_LT(points[1].determinant_sign, 0.0);
+}
+
+TEST(Stability, DeterminantAndGrowthJudgeAlike) {
+  // Theory section 20.4 at all three preloads that jump: each on its own finds the middle motion
+  // unstable.
+  ContinuationOptions options;
+  options.frequency_begin = 2.0 * std::numbers::pi * 18.0;
+  options.frequency_end = 2.0 * std::numbers::pi * 28.0;
+  for (const double preload : {25.0, 30.0, 50.0}) {
+    const Scene scene = tests::three_dof_scene(preload);
+    const HarmonicBalance balance(scene, 1);
+    for (const auto& point : trace_response(scene, options).points) {
+      if (point.mark == PointMark::fold) continue;  // neutral
+      const auto at = balance.evaluate(point.q.vector(), point.frequency);
+      const StabilityReport report = assess_stability(balance, at.jacobian, point.frequency);
+      EXPECT_EQ(report.growth > 0.0, report.determinant_sign < 0.0) << preload;
+    }
+  }
+}
+
+/// Two modes on a spring between them, three harmonics.
+Scene sprung_modes(double damping_ratio) {
+  Scene scene;
+  scene.natural_frequency = Eigen::Vector2d(1.0, 2.2);
+  scene.damping_ratio = Eigen::Vector2d(0.01, damping_ratio);
+  scene.output = Eigen::Vector2d(1.0, 0.5);
+  scene.excitation = contact::Harmonics(3, 2);
+  scene.excitation.rows()(1, 0) = 1.0;
+  scene.excitation.rows()(5, 1) = 0.3;
+  const Eigen::Matrix2d stiffness{{1.0, 0.4}, {0.4, 0.16}};  // of one spring: singular
+  scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+  return scene;
+}
+
+StabilityBasis basis_of(const Scene& scene) {
+  ContinuationOptions options;
+  options.n_harmonics = 3;
+  const auto curve = solve_at_frequency(scene, 0.83, options);
+  EXPECT_TRUE(curve.complete);
+  if (!curve.complete) return StabilityBasis::hill;
+  EXPECT_EQ(curve.points[0].stability, Stability::stable);
+  return curve.points[0].stability_basis;
+}
+
+TEST(Stability, OfADampedLinearStructureIsProvedForAnyNumberOfHarmonics) {
+  EXPECT_EQ(basis_of(sprung_modes(0.02)), StabilityBasis::damped_linear);
+  Scene free = sprung_modes(0.02);
+  free.contact = nullptr;
+  EXPECT_EQ(basis_of(free), StabilityBasis::damped_linear);
+}
+
+TEST(Stability, OfALinearStructureWithAnUndampedModeIsNotProved) {
+  EXPECT_EQ(basis_of(sprung_modes(0.0)), StabilityBasis::hill);
+  Scene free = sprung_modes(0.0);
+  free.contact = nullptr;
+  EXPECT_EQ(basis_of(free), StabilityBasis::hill);
+}
+
+TEST(Stability, OfALinearForceThatIsNoSpringIsNotProved) {
+  // A circulatory or a softening force can make a damped structure unstable.
+  for (const Eigen::Matrix2d& stiffness :
+       {Eigen::Matrix2d{{0.0, 0.01}, {-0.01, 0.0}}, Eigen::Matrix2d{{-0.1, 0.0}, {0.0, 0.0}}}) {
+    Scene scene = sprung_modes(0.02);
+    scene.contact = std::make_unique<LinearForce>(stiffness, contact::CycleReport{1.0, 0.0, 0.0});
+    EXPECT_EQ(basis_of(scene), StabilityBasis::hill);
+  }
+}
+
+TEST(Stability, OfEveryLinearCurveIsProved) {
+  Scene scene = tests::three_dof_scene(1e6);  // sticks: certified
+  tests::use_event_cycles(scene);
+  ContinuationOptions options;
+  options.n_harmonics = 3;
+  options.frequency_begin = 2.0 * std::numbers::pi * 18.0;
+  options.frequency_end = 2.0 * std::numbers::pi * 28.0;
+  for (const auto& curve :
+       {trace_response(scene, options), trace_linear(scene, LinearLimit::free, options),
+        trace_linear(scene, LinearLimit::stuck, options)}) {
+    ASSERT_TRUE(curve.complete) << curve.message;
+    for (const auto& point : curve.points) {
+      EXPECT_EQ(point.stability, Stability::stable) << point.frequency;
+      EXPECT_EQ(point.stability_basis, StabilityBasis::damped_linear) << point.frequency;
+    }
+  }
+}
+
+TEST(Stability, NegativeDampingIsUnstable) {
+  tests::Duffing linear;
+  linear.alpha = 0.0;
+  linear.zeta = -0.01;
+  const auto curve = solve_at_frequency(linear.scene(), 0.9, {});
+  ASSERT_TRUE(curve.complete);
+  EXPECT_EQ(curve.points[0].stability, Stability::unstable);
+}
+
+}  // namespace
+}  // namespace microslip::solver
