@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/model/point_parameters.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"

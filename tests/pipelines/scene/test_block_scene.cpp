@@ -11,6 +11,7 @@
 #include <Eigen/QR>
 
 #include "contact/patch/contact_area.hpp"
+#include "pipelines/model/point_parameters.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/model/contact_effects.hpp"
