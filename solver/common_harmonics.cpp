@@ -1,44 +1,36 @@
 #include "solver/common_harmonics.hpp"
 
-#include <algorithm>
-
-#include "solver/harmonic_choice.hpp"
-#include "solver/start_point.hpp"
+#include "solver/enrichment/curve_harmonics.hpp"
+#include "solver/enrichment/peak_harmonics.hpp"
 
 namespace microslip::solver {
 
 ContinuationOptions with_common_harmonics(const SceneFamily& family,
                                           const std::vector<double>& values,
-                                          const ContinuationOptions& range) {
+                                          const ContinuationOptions& range, PeakWork& work) {
   if (!(range.harmonic_tolerance > 0.0)) return range;
   HarmonicSet set(1);
   for (const double value : values) {
     const Scene scene = family(value);
-    set = set.united(first_harmonics(scene, range).orders());
-    const std::vector<ResponsePoint> points = trace_response(scene, range).points;
-    const auto largest = std::max_element(
-        points.begin(), points.end(),
-        [](const ResponsePoint& a, const ResponsePoint& b) { return a.amplitude < b.amplitude; });
-    for (auto point = points.begin(); point != points.end(); ++point) {
-      if (point == largest || point->mark == PointMark::peak) set = set.united(point->orders);
-    }
+    const HarmonicSet least = least_harmonics(scene);
+    const auto trace = [&](const HarmonicSet& harmonics) {
+      ContinuationOptions given = with_harmonics(range, harmonics);
+      given.search_starts = 0;
+      return trace_response(scene, given);
+    };
+    const ResponseCurve curve = trace(least);
+    const CurveHarmonics chosen = choose_harmonics(scene, range, least, curve, trace);
+    set = set.united(chosen.set.orders());
+    work.iterations += curve.iterations + chosen.iterations;
+    work.contact_evaluations += curve.contact_evaluations + chosen.contact_evaluations;
   }
-  ContinuationOptions common = range;
-  common.harmonic_tolerance = 0.0;
-  common.n_harmonics = set.highest();
-  common.orders = set.orders();
-  return common;
+  return with_harmonics(range, set);
 }
 
 double left_out_at(const Scene& scene, const ResponsePoint& peak, const ContinuationOptions& range) {
-  const HarmonicChoice choice(scene, range.harmonic_tolerance, range.n_harmonics);
-  const HarmonicBalance balance(scene, HarmonicSet(peak.orders));
-  const Eigen::VectorXd x = balance.unknowns(peak.q);
-  Scaling scaling = natural_scaling(balance, x, peak.frequency);
-  scaling.parameter = 0.1 * peak.frequency;  // the widest a resonance is
-  const auto tangent = null_vector(balance.evaluate(x, peak.frequency), scaling, 1.0);
-  const BranchVector hold{Eigen::VectorXd::Zero(x.size()), 1.0};
-  return choice.enlarged(balance, {x, peak.frequency}, tangent.value_or(hold), scaling).missing;
+  const HarmonicSet set(peak.orders);
+  const auto place = local_peak(HarmonicBalance(scene, set), peak);
+  return place ? PeakHarmonicsChoice(scene, range).left_out(set, *place) : 0.0;
 }
 
 }  // namespace microslip::solver
