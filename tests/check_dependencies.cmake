@@ -35,13 +35,14 @@ set(uses_contact_force numerics surface point closed_form line plane sampled pat
 set(uses_contact_map numerics surface point closed_form line plane patch)
 set(uses_contact_transient surface plane patch)
 
-set(drawers_solver balance branch harmonics time stability curve peak enrichment)
+set(drawers_solver balance branch time stability peak enrichment curve optimum)
 set(uses_solver_branch balance)
-set(uses_solver_harmonics balance branch)
 set(uses_solver_time balance)
 set(uses_solver_stability balance time)
-set(uses_solver_curve balance branch harmonics stability)
-set(uses_solver_peak balance branch harmonics stability)
+set(uses_solver_peak balance branch stability)
+set(uses_solver_enrichment balance branch peak)
+set(uses_solver_curve balance branch stability enrichment)
+set(uses_solver_optimum balance branch stability peak enrichment)
 
 set(drawers_pipelines system text scene model response files run cycle command_line)
 set(uses_pipelines_text system)

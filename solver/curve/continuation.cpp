@@ -11,7 +11,8 @@
 
 #include "solver/curve/branch_search.hpp"
 #include "solver/curve/curve_tracer.hpp"
-#include "solver/harmonics/harmonic_choice.hpp"
+#include "solver/enrichment/curve_harmonics.hpp"
+#include "solver/enrichment/peak_harmonics.hpp"
 #include "solver/curve/linear_certificate.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/balance/linear_resonance.hpp"
@@ -97,8 +98,8 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
                                              const PointObserver& observe) {
   if (!options.linear_certificate || !scene.contact) return std::nullopt;
   const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
-  const LinearCertificate proof =
-      certify_linear(HarmonicBalance(scene, first_harmonics(scene, options)), low, high);
+  const HarmonicSet set = first_harmonics(scene, options);
+  const LinearCertificate proof = certify_linear(HarmonicBalance(scene, set), low, high);
   if (proof.state == contact::LinearState::unknown) return std::nullopt;
   const bool stuck = proof.state == contact::LinearState::stuck;
   const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
@@ -147,12 +148,27 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   return curve;
 }
 
+/// A curve, or a solution at one frequency, with harmonics chosen for it.
+ResponseCurve trace_choosing(const Scene& scene, const ContinuationOptions& options,
+                             const PointObserver& observe) {
+  const Stopwatch watch;
+  const auto first = [&](const HarmonicSet& set) {
+    ContinuationOptions given = with_harmonics(options, set);
+    given.search_starts = 0;
+    return trace_response(scene, given);
+  };
+  const auto trace = [&](const HarmonicSet& set) {
+    return trace_response(scene, with_harmonics(options, set), observe);
+  };
+  ResponseCurve curve = trace_with_chosen(scene, options, first, trace);
+  curve.seconds = watch.seconds();
+  return curve;
+}
+
 }  // namespace
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
-  if (options.harmonic_tolerance > 0.0) {
-    return HarmonicChoice(scene, options.harmonic_tolerance, options.n_harmonics).least();
-  }
+  if (options.harmonic_tolerance > 0.0) return least_harmonics(scene);
   return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
 }
 
@@ -165,6 +181,9 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
   if (!certified) certified = trace_at_rest(scene, options, observe);
+  if (!certified && options.harmonic_tolerance > 0.0) {
+    return trace_choosing(scene, options, observe);
+  }
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
@@ -201,15 +220,16 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   ContinuationOptions here = options;
   here.frequency_begin = here.frequency_end = frequency;
   check_range(here);
+  if (options.harmonic_tolerance > 0.0) return trace_choosing(scene, here, {});
   const Stopwatch watch;
-  HarmonicSet set = first_harmonics(scene, options);
+  const HarmonicSet set = first_harmonics(scene, options);
   StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
-    curve.points.push_back(point_with_harmonics(scene, std::move(set), std::move(*start.solution),
-                                                options, curve));
+    const HarmonicBalance balance(scene, set);
+    curve.points.push_back(settled_point(balance, std::move(*start.solution), options, curve));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;

@@ -6,16 +6,18 @@
 
 #include <vector>
 
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 
 namespace microslip::solver {
 
-/// @param values  of the parameter, whose curves are traced with harmonics of their own choice.
+/// @param values  of the parameter, whose peaks choose (enrichment/curve_harmonics.hpp).
+/// @param work    what that costs is added.
 /// @return `range` with the harmonics of all their peaks, and of the largest amplitude where that is at an
 ///         end, given; unchanged where they are given already.
 [[nodiscard]] ContinuationOptions with_common_harmonics(const SceneFamily& family,
                                                         const std::vector<double>& values,
-                                                        const ContinuationOptions& range);
+                                                        const ContinuationOptions& range,
+                                                        PeakWork& work);
 
 /// What the harmonics of a peak leave out, over its amplitude; harmonics are chosen by `range`.
 [[nodiscard]] double left_out_at(const Scene& scene, const ResponsePoint& peak,

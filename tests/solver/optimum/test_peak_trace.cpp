@@ -1,4 +1,4 @@
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/peak/common_harmonics.hpp"
+#include "solver/optimum/common_harmonics.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -59,7 +59,10 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
   std::vector<double> checks;
   for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
-  range_ = with_common_harmonics(family_, checks, choosing_);
+  PeakWork work;
+  range_ = with_common_harmonics(family_, checks, choosing_, work);
+  result_.iterations += work.iterations;
+  result_.contact_evaluations += work.contact_evaluations;
 }
 
 double PeakFamilies::position(double parameter) const {
