@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipelines/contact_effects.hpp"
+#include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/scene_error.hpp"
 #include "pipelines/tilted_area.hpp"
 #include "pipelines/time_response.hpp"
@@ -38,8 +39,14 @@ CurveRequest request_of(const PreloadEntry& entry) {
   if (const auto* limit = std::get_if<LimitName>(&entry)) {
     return {*limit == LimitName::free ? "free" : "stuck", *limit};
   }
+  if (const auto* gap = std::get_if<UniformGap>(&entry)) {
+    return {fmt::format("gap_{:g}um", 1e6 * gap->width), *gap};
+  }
   return {fmt::format("preload_{:g}", std::get<double>(entry)), std::get<double>(entry)};
 }
+
+constexpr const char* gap_without_stiffness =
+    "response.preload: a gap needs a normal contact stiffness, and it is zero";
 
 /// A name twice (preload given twice) gets a number, so that no file overwrites another.
 void make_unique(std::vector<CurveRequest>& requests) {
@@ -79,9 +86,15 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   return map;
 }
 
-solver::Scene integrated_scene(const ReducedModel& model, double load) {
-  solver::Scene problem = solver_scene(model, load);
-  problem.transient = transient_force(model, load);
+Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
+  return slowing(model, two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));
+}
+
+/// Explicit steps need not follow attachment shapes, see slow_attachment.hpp.
+solver::Scene integrated_scene(const ReducedModel& model, const ResponseDescription& response, double load) {
+  const ReducedModel slow = slowed(model, slowing_of(model, response));
+  solver::Scene problem = solver_scene(slow, load);
+  problem.transient = transient_force(slow, load);
   return problem;
 }
 
@@ -104,6 +117,15 @@ std::vector<CurveRequest> curve_requests(const SceneDescription& scene) {
   return requests;
 }
 
+std::variant<double, LimitName> preload_of(const CurveRequest& request, const ReducedModel& model) {
+  if (const auto* limit = std::get_if<LimitName>(&request.preload)) return *limit;
+  const auto* gap = std::get_if<UniformGap>(&request.preload);
+  if (gap == nullptr) return std::get<double>(request.preload);
+  const double total = model.normal_stiffness.dot(model.weights);
+  if (!(total > 0.0)) throw RefusedError(gap_without_stiffness);
+  return -gap->width * total;
+}
+
 std::vector<contact::PointParameters> point_parameters(const ReducedModel& model, double load,
                                                        bool on_vertices) {
   const bool in_newtons = model.load_measure == LoadMeasure::force;
@@ -115,7 +137,7 @@ std::vector<contact::PointParameters> point_parameters(const ReducedModel& model
   const auto& unit = on_vertices ? model.vertex_preload : model.preload;
   const double total = in_newtons ? model.normal_stiffness.dot(model.weights) : 0.0;
   if (in_newtons && load < 0.0 && total <= 0.0) {
-    throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
+    throw RefusedError(gap_without_stiffness);
   }
   Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
   for (const TiltedArea& area : model.tilted_areas) {
@@ -189,7 +211,8 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
   for (const TiltedArea& area : model.tilted_areas) {
     for (const CurveRequest& request : curve_requests(scene)) {
-      const auto* load = std::get_if<double>(&request.preload);
+      const auto preload = preload_of(request, model);
+      const auto* load = std::get_if<double>(&preload);
       if (load != nullptr) static_cast<void>(tilted_pressures(model, area, *load, false));
     }
     const auto& optimum = scene.response->optimum;
@@ -202,10 +225,11 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
 void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   require_finite(model, scene);
   require_loads(model, scene);
-  if (scene.response->method != ResponseDescription::Method::time) return;
+  const bool in_time = scene.response->method == ResponseDescription::Method::time;
   for (const CurveRequest& request : curve_requests(scene)) {
-    if (const auto* load = std::get_if<double>(&request.preload)) {
-      require_steps(integrated_scene(model, *load), *scene.response);
+    const auto preload = preload_of(request, model);
+    if (const auto* load = std::get_if<double>(&preload); load != nullptr && in_time) {
+      require_steps(integrated_scene(model, *scene.response, *load), *scene.response);
     }
   }
 }
@@ -232,17 +256,25 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
   const solver::ContinuationOptions options = continuation_options(*scene.response);
-  CurveResult result{request.name, request.preload, {}, {}};
-  if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
+  CurveResult result{request.name, preload_of(request, model), {}, {}, {}};
+  if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
+  if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
     result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
                                         options);
     return result;
   }
-  const double load = std::get<double>(request.preload);
+  const double load = std::get<double>(result.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    result.curve = integrate_curve(integrated_scene(model, load), *scene.response, observe);
+    const Eigen::VectorXd factors = slowing_of(model, *scene.response);
+    const auto in_modes = [&](solver::ResponsePoint point) {
+      point.q.rows() *= factors.asDiagonal();
+      return point;
+    };
+    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), *scene.response,
+                                   [&](const auto& point) { return observe(in_modes(point)); });
+    for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
     return result;
   }

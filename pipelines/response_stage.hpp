@@ -15,8 +15,13 @@ namespace microslip::pipelines {
 /// limit.
 struct CurveRequest {
   std::string name;                          ///< stem of the CSV
-  std::variant<double, LimitName> preload;   ///< [N], or the scale
+  PreloadEntry preload;  ///< [N], or the scale
 };
+
+/// The preload of a curve under a model: a gap given as a length is −gap·∬k_v dA [N].
+/// @throws RefusedError  a gap where the normal stiffness is zero.
+[[nodiscard]] std::variant<double, LimitName> preload_of(const CurveRequest& request,
+                                                         const ReducedModel& model);
 
 /// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.
 [[nodiscard]] std::vector<CurveRequest> curve_requests(const SceneDescription& scene);

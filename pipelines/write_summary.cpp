@@ -53,7 +53,8 @@ Json to_json(const MeshSummary& mesh) {
 Json to_json(const ModeSummary& mode) {
   Json json{{"frequency_Hz", hertz(mode.frequency)},
             {"damping_ratio", mode.damping_ratio},
-            {"residual", or_null(mode.residual)}};
+            {"residual", or_null(mode.residual)},
+            {"kind", mode.is_attachment ? "attachment" : "free"}};
   if (mode.fit_error) json["fit_error"] = *mode.fit_error;
   return json;
 }
@@ -99,6 +100,7 @@ Json to_json(const CurveSummary& curve) {
   for (const double fold : curve.folds) folds.push_back(hertz(fold));
   return {{"name", curve.name},
           {"preload_N", to_json(curve.preload)},
+          {"gap_m", or_null(curve.gap)},
           {"preload_scale", curve.preload_scale ? Json(*curve.preload_scale) : Json(nullptr)},
           {"preload_carried_N", or_null(curve.preload_carried)},
           {"preload_integral_N", or_null(curve.preload_integral)},
@@ -175,8 +177,8 @@ Json libraries_json(const std::vector<std::pair<std::string, std::string>>& libr
   return json;
 }
 
-std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n_rows) {
-  if (column.size() != n_rows) return std::nullopt;
+std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
+  if (row >= column.size()) return std::nullopt;
   return column[row];
 }
 
@@ -208,6 +210,7 @@ CurveSummary summarise(const CurveResult& result) {
   CurveSummary summary;
   summary.name = result.name;
   summary.preload = result.preload;
+  summary.gap = result.gap;
   summary.complete = result.curve.complete;
   summary.diagnosis = result.curve.diagnosis;
   summary.message = result.curve.message;
@@ -231,12 +234,13 @@ CurveSummary summarise(const CurveResult& result) {
 std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
                                          const Eigen::VectorXd& damping_ratio,
                                          const Eigen::VectorXd& residual,
-                                         const Eigen::VectorXd& fit_error) {
+                                         const Eigen::VectorXd& fit_error,
+                                         Eigen::Index n_attachment) {
   const Eigen::Index n = frequency.size();
   std::vector<ModeSummary> modes;
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    modes.push_back({frequency[mode], entry(damping_ratio, mode, n).value_or(0.0),
-                     entry(residual, mode, n), entry(fit_error, mode, n)});
+    modes.push_back({frequency[mode], entry(damping_ratio, mode).value_or(0.0), entry(residual, mode),
+                     entry(fit_error, mode), mode >= n - n_attachment});
   }
   return modes;
 }
