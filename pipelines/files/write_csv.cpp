@@ -40,8 +40,8 @@ void append_names(std::string& header, const std::string& stem, Eigen::Index n_m
   }
 }
 
-std::string cell(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n_rows) {
-  return column.size() == n_rows ? format_number(column[row]) : std::string();
+std::string cell(const Eigen::VectorXd& column, Eigen::Index row) {
+  return row < column.size() ? format_number(column[row]) : std::string();
 }
 
 }  // namespace
@@ -100,13 +100,13 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
 }
 
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) {
-  std::string table = "mode,frequency_Hz,residual,damping_ratio,fit_error\n";
+  std::string table = "mode,frequency_Hz,residual,damping_ratio,fit_error,kind\n";
   const Eigen::Index n = modes.frequency.size();
   for (Eigen::Index mode = 0; mode < n; ++mode) {
     table +=
-        fmt::format("{},{},{},{},{}\n", mode + 1, format_number(modes.frequency[mode] / two_pi),
-                    cell(modes.residual, mode, n), cell(modes.damping_ratio, mode, n),
-                    cell(modes.fit_error, mode, n));
+        fmt::format("{},{},{},{},{},{}\n", mode + 1, format_number(modes.frequency[mode] / two_pi),
+                    cell(modes.residual, mode), cell(modes.damping_ratio, mode),
+                    cell(modes.fit_error, mode), mode < n - modes.n_attachment ? "free" : "attachment");
   }
   write_whole(file, table);
 }

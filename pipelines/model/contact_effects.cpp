@@ -64,7 +64,7 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   if (effects.second_direction && !(model.second_stiffness.minCoeff() >= 0.0)) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} N/m^3): "
-        "give a finite local stiffness, more modes, or modes.residual = \"none\"",
+        "give a finite local stiffness and modes.residual = \"attachment\", or more modes",
         model.second_stiffness.minCoeff()));
   }
   if (effects.roughness && meshed) {

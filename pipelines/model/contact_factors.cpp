@@ -1,5 +1,6 @@
 #include "pipelines/model/contact_factors.hpp"
 
+#include <array>
 #include <utility>
 #include <variant>
 
@@ -34,10 +35,18 @@ ReducedModel with_point_stiffness(ReducedModel model, double factor, double load
   for (Eigen::Index i = 0; i < model.preload.size(); ++i) {
     if (load * model.preload[i] < 0.0) model.preload[i] *= factor;
   }
-  for (Eigen::VectorXd* stiffness :
-       {&model.tangential_stiffness, &model.second_stiffness, &model.normal_stiffness,
-        &model.vertex_tangential_stiffness, &model.vertex_second_stiffness,
-        &model.vertex_normal_stiffness}) {
+  const std::array<Eigen::VectorXd*, 3> points{&model.tangential_stiffness, &model.normal_stiffness,
+                                               &model.second_stiffness};
+  for (std::size_t axis = 0; axis < points.size(); ++axis) {
+    Eigen::VectorXd& stiffness = *points[axis];
+    for (Eigen::Index i = 0; i < stiffness.size(); ++i) {
+      const double body = model.compliance.rows() > 0 ? model.compliance(i, static_cast<Eigen::Index>(axis)) : 0.0;
+      // 1/k = 1/k_local + c: the factor is that of k_local.
+      stiffness[i] *= factor / (1.0 + (factor - 1.0) * stiffness[i] * body);
+    }
+  }
+  for (Eigen::VectorXd* stiffness : {&model.vertex_tangential_stiffness, &model.vertex_second_stiffness,
+                                     &model.vertex_normal_stiffness}) {
     *stiffness *= factor;
   }
   return model;

@@ -113,8 +113,10 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       constant_load);
   add("separation", normal, "the contact is one-sided", constant_load);
   add("mean_coupling", normal, "the mean approach changes the load", constant_load);
-  add("residual", facts.has_contact && residual == ResidualKind::stiffness,
-      "flexibility of the omitted modes stands in series with the contact stiffness",
+  add("residual", facts.has_contact && residual != ResidualKind::none,
+      residual == ResidualKind::attachment
+          ? "static shapes of the contact and of the forces stand for omitted modes"
+          : "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"
                        : "the given stiffness is used as it is");
   const bool several = scene.response && scene.response->harmonics > 1;

@@ -18,8 +18,9 @@ namespace {
 
 /// Keys behind which mesh, modes or residual flexibility are others.
 bool changes_structure(std::string_view key) {
-  constexpr std::array<std::string_view, 5> structural{"model.", "material.", "supports.",
-                                                       "contact.surface", "contact.slip_direction"};
+  constexpr std::array<std::string_view, 6> structural{
+      "model.", "material.", "supports.", "contact.surface", "contact.slip_direction",
+      "excitation."};  // the forces: static shapes of theirs may stand behind the modes
   return std::any_of(structural.begin(), structural.end(),
                      [&](std::string_view start) { return key.starts_with(start); });
 }

@@ -13,7 +13,19 @@ Eigen::VectorXd pressures(const Eigen::VectorXd& unit, const Eigen::VectorXd& no
   return (load / total_stiffness) * normal_stiffness;
 }
 
+constexpr const char* gap_without_stiffness =
+    "response.preload: a gap needs a normal contact stiffness, and it is zero";
+
 }  // namespace
+
+std::variant<double, LimitName> preload_of(const CurveRequest& request, const ReducedModel& model) {
+  if (const auto* limit = std::get_if<LimitName>(&request.preload)) return *limit;
+  const auto* gap = std::get_if<UniformGap>(&request.preload);
+  if (gap == nullptr) return std::get<double>(request.preload);
+  const double total = model.normal_stiffness.dot(model.weights);
+  if (!(total > 0.0)) throw RefusedError(gap_without_stiffness);
+  return -gap->width * total;
+}
 
 std::vector<contact::PointParameters> point_parameters(const ReducedModel& model, double load,
                                                        bool on_vertices) {
@@ -26,7 +38,7 @@ std::vector<contact::PointParameters> point_parameters(const ReducedModel& model
   const auto& unit = on_vertices ? model.vertex_preload : model.preload;
   const double total = in_newtons ? model.normal_stiffness.dot(model.weights) : 0.0;
   if (in_newtons && load < 0.0 && total <= 0.0) {
-    throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
+    throw RefusedError(gap_without_stiffness);
   }
   Eigen::VectorXd preload = pressures(unit, stiffness, total, load);
   for (const TiltedArea& area : model.tilted_areas) {

@@ -39,6 +39,7 @@ struct ContactEffects {
 /// What the response stage needs, and model.h5 holds. Contact arrays have n_points rows.
 struct ReducedModel {
   Eigen::VectorXd frequency;      ///< ω_n [rad/s], N
+  Eigen::Index n_attachment = 0;  ///< so many of the N, the last, are attachment shapes (theory 14.1)
   Eigen::VectorXd damping_ratio;  ///< N
   Eigen::VectorXd force_sine, force_cosine, force_static;  ///< modal force [N/√kg], N
   Eigen::VectorXd output;         ///< y = output · q [1/√kg], N

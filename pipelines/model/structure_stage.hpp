@@ -26,6 +26,8 @@ struct StructureModes {
   double mass = 0.0;        ///< [kg]
   fem::ModalBasis basis;
   std::optional<fem::ResidualFlexibility> residual;  ///< of the contact surface
+  /// How the attachment shapes of `basis` were chosen, "" without them.
+  std::string attachment_text;
   fem::ModalTimings timings;
 };
 

@@ -11,6 +11,7 @@
 #include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/point_parameters.hpp"
+#include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
@@ -53,9 +54,15 @@ NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double
   return map;
 }
 
-solver::Scene integrated_scene(const ReducedModel& model, double load) {
-  solver::Scene problem = solver_scene(model, load);
-  problem.transient = transient_force(model, load);
+Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
+  return slowing(model, two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));
+}
+
+/// Explicit steps need not follow attachment shapes, see slow_attachment.hpp.
+solver::Scene integrated_scene(const ReducedModel& model, const ResponseDescription& response, double load) {
+  const ReducedModel slow = slowed(model, slowing_of(model, response));
+  solver::Scene problem = solver_scene(slow, load);
+  problem.transient = transient_force(slow, load);
   return problem;
 }
 
@@ -120,7 +127,8 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
   for (const TiltedArea& area : model.tilted_areas) {
     for (const CurveRequest& request : curve_requests(scene)) {
-      const auto* load = std::get_if<double>(&request.preload);
+      const auto preload = preload_of(request, model);
+      const auto* load = std::get_if<double>(&preload);
       if (load != nullptr) static_cast<void>(tilted_pressures(model, area, *load, false));
     }
     const auto& optimum = scene.response->optimum;
@@ -133,10 +141,11 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
 void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   require_finite(model, scene);
   require_loads(model, scene);
-  if (scene.response->method != ResponseDescription::Method::time) return;
+  const bool in_time = scene.response->method == ResponseDescription::Method::time;
   for (const CurveRequest& request : curve_requests(scene)) {
-    if (const auto* load = std::get_if<double>(&request.preload)) {
-      require_steps(integrated_scene(model, *load), *scene.response);
+    const auto preload = preload_of(request, model);
+    if (const auto* load = std::get_if<double>(&preload); load != nullptr && in_time) {
+      require_steps(integrated_scene(model, *scene.response, *load), *scene.response);
     }
   }
 }
@@ -163,17 +172,25 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
   const solver::ContinuationOptions options = continuation_options(*scene.response);
-  CurveResult result{request.name, request.preload, {}, {}};
-  if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
+  CurveResult result{request.name, preload_of(request, model), {}, {}, {}};
+  if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
+  if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
     result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
                                         options);
     return result;
   }
-  const double load = std::get<double>(request.preload);
+  const double load = std::get<double>(result.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    result.curve = integrate_curve(integrated_scene(model, load), *scene.response, observe);
+    const Eigen::VectorXd factors = slowing_of(model, *scene.response);
+    const auto in_modes = [&](solver::ResponsePoint point) {
+      point.q.rows() *= factors.asDiagonal();
+      return point;
+    };
+    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), *scene.response,
+                                   [&](const auto& point) { return observe(in_modes(point)); });
+    for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
     return result;
   }

@@ -105,9 +105,11 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   const SectionReader supports = reading.section("supports", "supports");
   scene.clamped = read_names(supports, "clamped");
   scene.clamped_place = supports.place("clamped");
-  scene.modes = read_modes(reading.section("modes", "modes"));
+  SectionReader modes = reading.section("modes", "modes");
+  scene.modes = read_modes(modes);
   if (reading.given.contains("contact")) {
     scene.contact = read_contact(reading.section("contact", "contact"), reading.folder, scene.laws);
+    settle_residual(modes, scene.modes, *scene.contact);
   }
   SectionReader excitation = reading.section("excitation", "excitation");
   scene.forces = read_forces(excitation);
@@ -120,7 +122,9 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
 
 void read_modal_scene(Reading& reading, SceneDescription& scene) {
   static_cast<void>(reading.section("model", "model.modal"));
-  scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
+  ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
+  scene.modes.residual = model.residual;
+  scene.model = std::move(model);
   scene.laws = read_contact_laws(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
@@ -174,7 +178,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
+  const bool has_residual = scene.modes.residual != ResidualKind::none;
   scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;

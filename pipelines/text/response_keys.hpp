@@ -35,7 +35,8 @@ inline constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, fa
 
 inline constexpr KeySpec preload_key{
     "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
-    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
+    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; { gap = \"8 um\" }: a gap "
+    "that does not depend on stiffness; \"free\", \"stuck\""};
 inline constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
                               "the number whose best value is searched: \"preload\", or any key of the "
                               "scene, e.g. \"contact.friction_coefficient\"", true};

@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "fem/columns.hpp"
-#include "fem/fe_system.hpp"
+#include "fem/petsc/columns.hpp"
+#include "fem/assembly/fe_system.hpp"
 #include "fem/modal_analysis.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
