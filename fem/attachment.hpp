@@ -32,7 +32,9 @@ struct AttachmentOptions {
   std::optional<int> degree;  ///< of the tractions, ≥ 0; without value: chosen
   /// Local contact stiffness along p, q, r [N/m³], ≥ 0: judges which tractions matter.
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
-  double missed_tolerance = 0.01;  ///< largest share s of a chosen degree [-]
+  /// Largest share s of a chosen degree [-]. Peaks err by far less: on the default blade s = 0.23 at degree 0
+  /// goes with 2e-4 of the amplitude (share/doc/truth.md).
+  double missed_tolerance = 0.25;
   int max_degree = 4;              ///< highest that is chosen
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solver/curve/branch_search.hpp"
+#include "solver/curve/chosen_curve.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/peak_harmonics.hpp"
@@ -98,8 +99,8 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
                                              const PointObserver& observe) {
   if (!options.linear_certificate || !scene.contact) return std::nullopt;
   const auto [low, high] = std::minmax(options.frequency_begin, options.frequency_end);
-  const HarmonicSet set = first_harmonics(scene, options);
-  const LinearCertificate proof = certify_linear(HarmonicBalance(scene, set), low, high);
+  const LinearCertificate proof =
+      certify_linear(HarmonicBalance(scene, first_harmonics(scene, options)), low, high);
   if (proof.state == contact::LinearState::unknown) return std::nullopt;
   const bool stuck = proof.state == contact::LinearState::stuck;
   const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
@@ -148,23 +149,6 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   return curve;
 }
 
-/// A curve, or a solution at one frequency, with harmonics chosen for it.
-ResponseCurve trace_choosing(const Scene& scene, const ContinuationOptions& options,
-                             const PointObserver& observe) {
-  const Stopwatch watch;
-  const auto first = [&](const HarmonicSet& set) {
-    ContinuationOptions given = with_harmonics(options, set);
-    given.search_starts = 0;
-    return trace_response(scene, given);
-  };
-  const auto trace = [&](const HarmonicSet& set) {
-    return trace_response(scene, with_harmonics(options, set), observe);
-  };
-  ResponseCurve curve = trace_with_chosen(scene, options, first, trace);
-  curve.seconds = watch.seconds();
-  return curve;
-}
-
 }  // namespace
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
@@ -181,9 +165,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
   if (!certified) certified = trace_at_rest(scene, options, observe);
-  if (!certified && options.harmonic_tolerance > 0.0) {
-    return trace_choosing(scene, options, observe);
-  }
+  if (!certified && options.harmonic_tolerance > 0.0) return trace_choosing(scene, options, observe);
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
@@ -289,6 +271,7 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   }
   const Scene linear = with_force(scene, std::move(force));
   ContinuationOptions alone = options;
+  if (options.harmonic_tolerance > 0.0) alone = with_harmonics(options, least_harmonics(scene));
   alone.search_starts = 0;  // a linear response is the only one
   const std::optional<double> unbounded =
       unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);

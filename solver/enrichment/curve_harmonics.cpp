@@ -113,13 +113,16 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
   for (int traces = 0; traces < most_traces; ++traces) {
     const CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
     add(chosen);
-    if (traces > 0 && chosen.set == set) break;
-    set = chosen.set;
-    curve = trace(set);
+    const bool is_new = chosen.set != set;
+    if (is_new) {
+      set = chosen.set;
+      curve = trace(set);
+      work.iterations += curve.iterations;
+      work.contact_evaluations += curve.contact_evaluations;
+    }
     const CurveHarmonics checked = check_harmonics(scene, range, set, curve);
-    work.iterations += curve.iterations;
-    work.contact_evaluations += curve.contact_evaluations;
     add(checked);
+    if (!is_new) break;
     if (checked.settled || curve.diagnosis == "interrupted") break;
   }
   curve.iterations = work.iterations;

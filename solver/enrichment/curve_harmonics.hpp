@@ -34,7 +34,7 @@ struct CurveHarmonics {
 
 /// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
 /// its own peaks ask for more.
-/// @param first  traces the curve that the choice begins with.
+/// @param first  traces the curve that the choice begins with; it is the result where its set is enough.
 /// @param trace  traces the curve that is given.
 [[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
                                               const CurveOfSet& first, const CurveOfSet& trace);

@@ -192,7 +192,7 @@ TEST(CurveHarmonics, ACurveHasOneSetThatItsPeaksChose) {
 }
 
 TEST(CurveHarmonics, ASingleFrequencyChoosesForItself) {
-  const Scene scene = with_events(tests::three_dof_scene(50.0));
+  const Scene scene = with_events(tests::three_dof_scene(10.0));
   const double frequency = two_pi * 22.0;
   ContinuationOptions many = choosing(0.0);
   many.n_harmonics = 15;
