@@ -9,10 +9,9 @@ void LineBlock::resize(const Instants& of_motion, const Instants& of_force) {
   instants_ = &of_motion;
   const std::size_t size = of_motion.size() * block_size;
   for (auto* values :
-       {&u_, &v_, &rate_, &closeness_, &half_width_, &normal_, &slider_, &friction_}) {
+       {&u_, &v_, &rate_, &closeness_, &half_width_, &normal_, &slider_, &friction_, &state_}) {
     values->resize(size);
   }
-  state_.resize(size);
   coefficients_.resize(2 * of_motion.n_rows() * block_size);
   friction_sums_.resize(of_force.n_rows() * block_size);
   normal_sums_.resize(of_force.n_rows() * block_size);
@@ -162,14 +161,15 @@ double LineBlock::slip_work(std::size_t place) const {
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t now = i * block_size + place;
     const std::size_t before = (i + n - 1) % n * block_size + place;
-    if (state_[now] == InstantState::separated || state_[now] == InstantState::stick) continue;
+    const InstantState state = instant_state(state_[now]);
+    if (state == InstantState::separated || state == InstantState::stick) continue;
     double start = slider_[before];
     double limit = std::abs(friction_[before]);
     if (closeness_[before] <= 0.0) {
       const double x = -closeness_[before] / (closeness_[now] - closeness_[before]);
       start = u_[before] + x * (u_[now] - u_[before]);
       limit = 0.0;
-    } else if (state_[before] == InstantState::stick) {
+    } else if (instant_state(state_[before]) == InstantState::stick) {
       limit = std::abs(friction_[now]);
     }
     work += 0.5 * (limit + std::abs(friction_[now])) * std::abs(slider_[now] - start);

@@ -49,9 +49,8 @@ class LineBlock {
   double frequency_ = 0.0;
   bool simple_ = true;  // smooth surfaces, constant coefficient
   std::vector<double> coefficients_;
-  std::vector<double> u_, v_, rate_, closeness_, half_width_, normal_, slider_, friction_;
+  std::vector<double> u_, v_, rate_, closeness_, half_width_, normal_, slider_, friction_, state_;
   std::vector<double> friction_sums_, normal_sums_;
-  std::vector<InstantState> state_;
   std::array<double, block_size> preload_{}, normal_stiffness_{}, compliant_friction_{},
       stiffness_{}, coefficient_{}, closeness_by_approach_{};
   std::array<std::vector<InstantSlopes>, block_size> slopes_;

@@ -110,11 +110,13 @@ MICROSLIP_INLINE void range_all(std::size_t n, const double* values, double* lea
 
 MICROSLIP_INLINE void keep(const LineArrays& a, std::size_t at, const Pack& before, const Pack& low,
                            const Pack& high, const Pack& r, const Pack& s) {
-  Mask state = before < low ? Mask{} + 1 : Mask{};
-  state = before > high ? Mask{} + 2 : state;
-  state = r > Pack{} ? state : Mask{} + 3;
+  // One condition at a time: masks that are combined are taken apart number by number by the
+  // compiler.
+  const Pack positive = before < low ? Pack{} + 1.0 : Pack{};
+  const Pack negative = before > high ? Pack{} + 2.0 : Pack{};
+  const Pack slip = positive + negative;
+  pack_at(a.state + at) = r > Pack{} ? slip : Pack{} + 3.0;
   pack_at(a.slider + at) = s;
-  *reinterpret_cast<ByteMask*>(a.state + at) = __builtin_convertvector(state, ByteMask);
 }
 
 template <bool touches, bool last>
@@ -132,7 +134,8 @@ MICROSLIP_INLINE void pass(const LineArrays& a, Pack* s) {
         const Pack u0 = pack_at(a.u + then);
         const Pack r0 = pack_at(a.closeness + then);
         const Pack landing = u0 - r0 / (r - r0) * (u - u0);
-        start = ((r0 <= Pack{}) & (r > Pack{})) ? landing : start;
+        const Pack closes = r0 <= Pack{} ? r : Pack{} - 1.0;
+        start = closes > Pack{} ? landing : start;
       }
       const Pack g = pack_at(a.half_width + now);
       const Pack low = u - g;

@@ -18,8 +18,11 @@
 
 namespace microslip::contact::sampled {
 
-/// What happens at one instant, as in ContactState.
+/// What happens at one instant, as in ContactState; in arrays as numbers, like everything in lanes.
 enum class InstantState : std::int8_t { stick, positive_slip, negative_slip, separated };
+[[nodiscard]] constexpr InstantState instant_state(double value) {
+  return static_cast<InstantState>(static_cast<std::int8_t>(value));
+}
 
 /// Borrowed arrays, n × block_size; n_instants of them.
 struct LineArrays {
@@ -28,7 +31,7 @@ struct LineArrays {
   const double* closeness = nullptr;   ///< r: in contact where > 0, any unit
   const double* half_width = nullptr;  ///< g [m], 0 where separated
   double* slider = nullptr;            ///< s [m], written
-  InstantState* state = nullptr;       ///< written
+  double* state = nullptr;             ///< InstantState, written
 };
 
 /// Constants of smooth surfaces, block_size numbers each.

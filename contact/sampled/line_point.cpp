@@ -19,18 +19,17 @@ bool slips(InstantState state) {
 
 }  // namespace
 
-void find_runs(const InstantState* state, std::size_t n, std::size_t stride,
-               std::vector<Run>& runs) {
+void find_runs(const double* state, std::size_t n, std::size_t stride, std::vector<Run>& runs) {
   runs.clear();
   std::size_t first = 1;
   while (first < n && state[first * stride] == state[(first - 1) * stride]) ++first;
   if (first == n) {  // at most one change, and that at 0
-    runs.push_back({state[0], 0, n});
+    runs.push_back({instant_state(state[0]), 0, n});
     return;
   }
   for (std::size_t j = 0; j < n; ++j) {
     const std::size_t i = first + j < n ? first + j : first + j - n;
-    const InstantState now = state[i * stride];
+    const InstantState now = instant_state(state[i * stride]);
     if (runs.empty() || runs.back().state != now) runs.push_back({now, i, 0});
     ++runs.back().length;
   }

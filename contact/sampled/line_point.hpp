@@ -29,8 +29,7 @@ struct Run {
 
 /// Of one point, in order of time, neighbours differ.
 /// @param state  n numbers, `stride` apart.   @param runs  written whole.
-void find_runs(const InstantState* state, std::size_t n, std::size_t stride,
-               std::vector<Run>& runs);
+void find_runs(const double* state, std::size_t n, std::size_t stride, std::vector<Run>& runs);
 
 /// What a step control and a report want to know.
 [[nodiscard]] CycleStates cycle_states(const std::vector<Run>& runs, std::size_t n);

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "contact/sampled/block_size.hpp"
 #include "contact/vector_lanes.hpp"
@@ -15,8 +14,6 @@
 namespace microslip::contact::sampled {
 
 using Pack [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
-using Mask [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = std::int64_t;
-using ByteMask [[gnu::vector_size(8), gnu::aligned(1), gnu::may_alias]] = std::int8_t;
 
 MICROSLIP_INLINE const Pack& pack_at(const double* from) {
   return *reinterpret_cast<const Pack*>(from);
