@@ -24,14 +24,14 @@ set(uses_fem_petsc elements)
 set(uses_fem_assembly elements petsc)
 set(uses_fem_eigen elements petsc assembly)
 
-set(drawers_contact numerics surface point closed_form line plane patch sampled force map transient)
+set(drawers_contact numerics surface point closed_form line plane patch force sampled map transient)
 set(uses_contact_point surface)
 set(uses_contact_closed_form surface point)
 set(uses_contact_line numerics surface point)
 set(uses_contact_plane numerics surface point)
-set(uses_contact_sampled numerics surface point patch)
 set(uses_contact_patch numerics surface point)
-set(uses_contact_force numerics surface point closed_form line plane sampled patch)
+set(uses_contact_force numerics surface point closed_form line plane patch)
+set(uses_contact_sampled numerics surface point patch force)
 set(uses_contact_map numerics surface point closed_form line plane patch)
 set(uses_contact_transient surface plane patch)
 
@@ -57,7 +57,7 @@ set(uses_pipelines_command_line system text cycle)
 # Doors that are still open: drawers of contact/ that drawers of pipelines/ look into.
 set(open_pipelines_scene contact/surface contact/patch)
 set(open_pipelines_model contact/surface contact/point contact/line contact/plane contact/patch
-  contact/force contact/transient)
+  contact/force contact/sampled contact/transient)
 set(open_pipelines_run contact/patch)
 set(open_pipelines_cycle contact/surface contact/point contact/closed_form contact/line contact/plane)
 

@@ -9,6 +9,7 @@
 #include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/sampled/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/planar_transient.hpp"
@@ -22,6 +23,16 @@ namespace {
 
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
+// Fewer points are solved event by event as fast as that matters, and to rounding.
+constexpr Eigen::Index least_points_in_lanes = 48;
+constexpr int instants_per_period = 512;
+
+/// Whole patches under several harmonics go through the period sampled, in lanes.
+bool in_lanes(const ReducedModel& model) {
+  return model.weights.size() >= least_points_in_lanes && !model.effects.closed_form() &&
+         !model.effects.second_direction;
+}
+
 std::string setting_of(const SceneDescription& scene, const char* name) {
   for (const auto& [effect, setting] : scene.effects) {
     if (effect == name) return setting;
@@ -141,6 +152,11 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
 
 std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
+  if (in_lanes(model)) {
+    return std::make_unique<contact::sampled::PatchForce>(
+        model.weights, point_surfaces(model, load, false), simulated_shapes(model, false),
+        contact::sampled::Options{.instants = instants_per_period});
+  }
   if (model.effects.closed_form()) {
     return std::make_unique<contact::PatchForce>(
         contact::ContactPatch(model.weights, point_parameters(model, load, false)),
