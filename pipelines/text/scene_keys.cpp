@@ -111,7 +111,7 @@ constexpr std::array mode_keys{
             "list) | stiffness (in series with the contact, paper A; what a rigid contact takes) | none"},
     KeySpec{"attachment_degree", other, "", "\"auto\"", 0, 0, false,
             "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest that leaves no "
-            "traction of the next degree more than 1 % of its flexibility short"},
+            "traction of the next degree more than 30 % of its residual flexibility short"},
 };
 
 constexpr std::array bar_mode_keys{
