@@ -65,8 +65,8 @@ std::string harmonics_text(const SceneDescription& scene) {
   }
   if (response.harmonic_tolerance > 0.0) {
     return fmt::format(
-        "response.harmonics = \"auto\": those beyond the first while they change the amplitude by more "
-        "than {:.2g} %",
+        "response.harmonics = \"auto\": those beyond the first that change the highest peaks by more than "
+        "{:.2g} %",
         100.0 * response.harmonic_tolerance);
   }
   if (response.harmonic_orders.empty()) {
@@ -181,7 +181,7 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
     if (effect.name != "higher_harmonics") continue;
     effect.simulated = *orders.rbegin() > 1;
     effect.reason = fmt::format(
-        "{}; up to {} at a point, of the orders {}; those left out change it by {:.2g} % at most",
+        "{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
         harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
   }
 }

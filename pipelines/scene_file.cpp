@@ -87,6 +87,16 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
+/// One harmonic is meant by a scene that does not say and asks for what knows no more, or has all of them.
+void complete_harmonics(toml::table& given) {
+  toml::table* response = given["response"].as_table();
+  if (response == nullptr || response->contains("harmonics")) return;
+  const bool in_time = given["response"]["method"].value<std::string>() == "time";
+  const bool fitted = given["contact"]["quadrature"].value<std::string>() == "fitted";
+  const bool off = given["effects"]["higher_harmonics"].value<std::string>() == "off";
+  if (in_time || fitted || off) response->insert("harmonics", 1);
+}
+
 /// Rules fitted to the lines of slip are there for the closed form of one harmonic.
 void check_quadrature(const SceneDescription& scene) {
   if (!scene.contact || !scene.response) return;
@@ -173,6 +183,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   Reading reading{std::move(given), {}, name, folder};
   const std::string kind = kind_of(reading);
   check_sections(reading, kind);
+  complete_harmonics(reading.given);
   SceneDescription scene;
   scene.file = name;
   if (const toml::node* title = reading.given.get("title")) {
