@@ -84,8 +84,8 @@ std::string harmonics_text(const SceneDescription& scene) {
   }
   if (response.harmonic_tolerance > 0.0) {
     return fmt::format(
-        "response.harmonics = \"auto\": those beyond the first while they change the amplitude by more "
-        "than {:.2g} %",
+        "response.harmonics = \"auto\": those beyond the first that change the highest peaks by more than "
+        "{:.2g} %",
         100.0 * response.harmonic_tolerance);
   }
   if (response.harmonic_orders.empty()) {

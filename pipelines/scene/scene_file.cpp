@@ -87,6 +87,15 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
+/// One harmonic is meant by a scene that does not say and asks for what knows no more, or has all of them.
+void complete_harmonics(toml::table& given) {
+  toml::table* response = given["response"].as_table();
+  if (response == nullptr || response->contains("harmonics")) return;
+  const bool in_time = given["response"]["method"].value<std::string>() == "time";
+  const bool off = given["effects"]["higher_harmonics"].value<std::string>() == "off";
+  if (in_time || off) response->insert("harmonics", 1);
+}
+
 /// Without contact there is no preload to set, and none to choose.
 std::string contact_keys_without_contact(const SectionReader& response) {
   for (const char* key : {"preload", "optimum", "maps"}) {
@@ -162,6 +171,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   Reading reading{std::move(given), {}, name, folder};
   const std::string kind = kind_of(reading);
   check_sections(reading, kind);
+  complete_harmonics(reading.given);
   SceneDescription scene;
   scene.file = name;
   if (const toml::node* title = reading.given.get("title")) {

@@ -495,7 +495,7 @@ TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
   EXPECT_EQ(list.harmonics, 5);
   EXPECT_EQ(list.harmonic_tolerance, 0.0);
   const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
-  EXPECT_EQ(chosen.harmonic_tolerance, 1e-3);
+  EXPECT_EQ(chosen.harmonic_tolerance, 1e-2);
   EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
   const auto finer = parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
   EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
@@ -509,6 +509,19 @@ TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
   expect_complaint(complaint(modal_text, {"response.method=time", "response.search_starts=3"}),
                    {"response.search_starts", "harmonic_balance"});
   EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
+}
+
+TEST(SceneFile, HarmonicsAreChosenWhereTheSceneDoesNotSay) {
+  const auto silent = *parse(modal_text).response;
+  EXPECT_EQ(silent.harmonic_tolerance, 1e-2);
+  EXPECT_EQ(silent.harmonics, most_automatic_harmonics);
+  // What knows one harmonic alone, or has all of them, asks for none to be chosen.
+  for (const char* setting : {"response.method=time", "effects.higher_harmonics=off"}) {
+    const SceneDescription scene = parse(modal_text, {setting});
+    EXPECT_EQ(scene.response->harmonics, 1) << setting;
+    EXPECT_EQ(scene.response->harmonic_tolerance, 0.0) << setting;
+    EXPECT_NE(scene.complete_toml.find("harmonics = 1"), std::string::npos) << setting;
+  }
 }
 
 TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
