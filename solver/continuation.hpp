@@ -16,9 +16,9 @@ struct ContinuationOptions {
   double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
   int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
   std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
-  /// Above 0: harmonics are added to 1 and those of the excitation, and dropped again, point by point, so
-  /// that those left out change the amplitude by less than this share of it (harmonic_choice.hpp);
-  /// n_harmonics is the highest that may be added, `orders` is not used.
+  /// Above 0: one set is chosen for the curve, so that those left out change its highest peaks by less than
+  /// this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the highest that may be
+  /// added, `orders` is not used.
   double harmonic_tolerance = 0.0;
   /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
   double residual_tolerance = 1e-11;
@@ -29,7 +29,7 @@ struct ContinuationOptions {
   int search_starts = 0;
 };
 
-/// What a curve, or the points of one that chooses its harmonics, begins with.
+/// What a curve, or the choice of its harmonics, begins with.
 [[nodiscard]] HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options);
 
 /// Called after each accepted point; false stops the curve (diagnosis "interrupted").

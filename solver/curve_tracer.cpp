@@ -159,6 +159,9 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
                       std::move(start), forward, options_.residual_tolerance);
+  walker.economise([this](const Eigen::VectorXd& x, double frequency) {
+    return balance_->residual(x, frequency);
+  });
   if (scene_.contact) {
     walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
       scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
