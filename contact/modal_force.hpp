@@ -42,26 +42,6 @@ struct CycleReport {
 /// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.
 enum class LinearState { unknown, stuck, free };
 
-/// A state of the structure.
-struct Motion {
-  Harmonics q;             ///< [m√kg]
-  double frequency = 0.0;  ///< ω [rad/s]
-};
-
-/// What fitting a discretisation to motions showed.
-struct Refit {
-  enum class Outcome {
-    kept,       ///< the change is within tolerance: the results stand, the rule is as before
-    replaced,   ///< the rule is new: solve again
-    exhausted,  ///< no more refits for this point; `change` estimates the error of the results
-  };
-  Outcome outcome = Outcome::kept;
-  /// ‖G_new − G_old‖ relative to the larger of ‖G_new‖ and the force of the stuck patch ‖K q‖ [-]: the
-  /// largest over the motions.
-  double change = 0.0;
-  Eigen::Index n_points = 0;  ///< of the rule now in use; 0: the force has none
-};
-
 class ModalForce {
  public:
   ModalForce() = default;
@@ -120,16 +100,6 @@ class ModalForce {
   virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) const {
     result.clear();
   }
-
-  // Some forces are discretised to suit the motion. They stay as they are while equations are solved; whoever
-  // has solved them asks, and solves again where the discretisation was replaced. The others keep theirs.
-
-  /// A new solution point: refits are counted from here.
-  virtual void begin_point() {}
-  /// @param motions  results of iterations on the discretisation in use.
-  [[nodiscard]] virtual Refit refit(const std::vector<Motion>& /*motions*/) { return {}; }
-  /// Back to what the last refit replaced, where nothing was solved on the new one.
-  virtual void undo_refit() {}
 };
 
 }  // namespace microslip::contact

@@ -12,7 +12,7 @@
 
 namespace microslip::solver {
 
-/// What a curve, or the points of one that chooses its harmonics, begins with.
+/// What a curve, or the choice of its harmonics, begins with.
 [[nodiscard]] HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options);
 
 /// Called after each accepted point; false stops the curve (diagnosis "interrupted").

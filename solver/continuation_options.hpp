@@ -11,12 +11,15 @@ struct ContinuationOptions {
   double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
   int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
   std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
-  /// Above 0: harmonics are added to 1 and those of the excitation, and dropped again, point by point, so
-  /// that those left out change the amplitude by less than this share of it (harmonic_choice.hpp);
-  /// n_harmonics is the highest that may be added, `orders` is not used.
+  /// Above 0: one set is chosen for the curve, so that those left out change its highest peaks by less than
+  /// this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the highest that may be
+  /// added, `orders` is not used.
   double harmonic_tolerance = 0.0;
   /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
   double residual_tolerance = 1e-11;
+  /// Forces alone may be several times cheaper than with derivatives: then steps are corrected with one Jacobian
+  /// each (balance/few_jacobians.hpp).
+  enum class Corrector { newton, few_jacobians } corrector = Corrector::newton;
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;

@@ -26,7 +26,6 @@ struct ResponsePoint {
   Harmonics q;                    ///< [m√kg]
   std::vector<int> orders;        ///< harmonics that were unknowns beside the mean; empty: all of q
   double harmonics_left_out = 0.0;  ///< what those left out change, over the amplitude; 0: not asked
-  double quadrature_change = 0.0;   ///< what fitting the force to this point last changed; 0: not fitted
   double amplitude = 0.0;         ///< half the peak-to-peak value of the output over the period [m]
   double first_amplitude = 0.0;   ///< first harmonic of the output [m]
   double mean = 0.0;              ///< mean of the output [m]
@@ -50,8 +49,7 @@ struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
   /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
   /// states-at-once: a step that changes more of the contact's states than one should;
-  /// harmonics-kept: the equations with more harmonics were not solved, quadrature-kept: those on points
-  /// fitted to the motion; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
+  /// harmonics-kept: the choice of harmonics did not settle; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
   /// marked, within the step in which it lies
   std::string remedy;
 };

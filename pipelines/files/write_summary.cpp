@@ -121,7 +121,6 @@ Json to_json(const CurveSummary& curve) {
           {"largest_dissipation_mismatch", curve.largest_dissipation_mismatch},
           {"stable_unproved", curve.stable_unproved},
           {"largest_three_states_share", curve.largest_three_states_share},
-          {"largest_quadrature_change", curve.largest_quadrature_change},
           {"harmonics",
            {{"most", curve.most_harmonics},
             {"orders", curve.harmonic_orders},

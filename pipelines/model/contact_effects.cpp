@@ -27,12 +27,6 @@ constexpr double planar_tolerance = 1e-11;
 constexpr Eigen::Index least_points_in_lanes = 48;
 constexpr int instants_per_period = 512;
 
-/// Whole patches under several harmonics go through the period sampled, in lanes.
-bool in_lanes(const ReducedModel& model) {
-  return model.weights.size() >= least_points_in_lanes && !model.effects.closed_form() &&
-         !model.effects.second_direction;
-}
-
 std::string setting_of(const SceneDescription& scene, const char* name) {
   for (const auto& [effect, setting] : scene.effects) {
     if (effect == name) return setting;
@@ -88,6 +82,11 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
     }
   }
   return effects;
+}
+
+bool is_sampled(const ReducedModel& model) {
+  return model.weights.size() >= least_points_in_lanes && !model.effects.closed_form() &&
+         !model.effects.second_direction;
 }
 
 contact::ModalShapes simulated_shapes(const ReducedModel& model, bool on_vertices) {
@@ -152,7 +151,7 @@ std::vector<std::shared_ptr<const contact::PointLaw>> point_laws(const ReducedMo
 
 std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load) {
   if (model.weights.size() == 0) return nullptr;
-  if (in_lanes(model)) {
+  if (is_sampled(model)) {
     return std::make_unique<contact::sampled::PatchForce>(
         model.weights, point_surfaces(model, load, false), simulated_shapes(model, false),
         contact::sampled::Options{.instants = instants_per_period});

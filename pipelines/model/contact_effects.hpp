@@ -19,6 +19,10 @@ namespace microslip::pipelines {
 /// @param model  with its contact arrays.
 [[nodiscard]] ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene);
 
+/// Whether the forces of a whole patch are sampled in time, in lanes (contact/sampled), instead of located event by
+/// event: where several harmonics meet many points.
+[[nodiscard]] bool is_sampled(const ReducedModel& model);
+
 /// The contact of a model under a preload. @param load  as of point_parameters().
 [[nodiscard]] std::unique_ptr<contact::ModalForce> contact_force(const ReducedModel& model, double load);
 

@@ -75,7 +75,7 @@ solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const 
 
 solver::Optimum OptimumSearch::search(const Factors& factors) {
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
-                               continuation_options(*scene_.response), options_for(factors));
+                               continuation_options(*scene_.response, model_), options_for(factors));
 }
 
 std::string OptimumSearch::warning() const {

@@ -20,6 +20,8 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+// Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the last digits dear.
+constexpr double sampled_tolerance = 1e-9;
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
   contact::Harmonics force(n_harmonics, model.frequency.size());
@@ -150,7 +152,8 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   }
 }
 
-solver::ContinuationOptions continuation_options(const ResponseDescription& response) {
+solver::ContinuationOptions continuation_options(const ResponseDescription& response,
+                                                 const ReducedModel& model) {
   solver::ContinuationOptions options;
   options.frequency_begin = two_pi * response.frequency_begin_hz;
   options.frequency_end = two_pi * response.frequency_end_hz;
@@ -158,6 +161,10 @@ solver::ContinuationOptions continuation_options(const ResponseDescription& resp
   options.orders = response.harmonic_orders;
   options.harmonic_tolerance = response.harmonic_tolerance;
   options.search_starts = response.search_starts;
+  if (is_sampled(model)) {
+    options.residual_tolerance = sampled_tolerance;
+    options.corrector = solver::ContinuationOptions::Corrector::few_jacobians;
+  }
   return options;
 }
 
@@ -171,7 +178,7 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
-  const solver::ContinuationOptions options = continuation_options(*scene.response);
+  const solver::ContinuationOptions options = continuation_options(*scene.response, model);
   CurveResult result{request.name, preload_of(request, model), {}, {}, {}};
   if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
   if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
@@ -221,7 +228,7 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
   const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
     maps.push_back(map_of(model, scene, *load, result.name + "_" + suffix, point));
   };
-  const solver::ContinuationOptions options = continuation_options(*scene.response);
+  const solver::ContinuationOptions options = continuation_options(*scene.response, model);
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
       const ResponseDescription& range = *scene.response;

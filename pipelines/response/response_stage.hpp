@@ -29,7 +29,9 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 /// @throws RefusedError, SceneError  as require_loads() and require_steps().
 void require_curves(const ReducedModel& model, const SceneDescription& scene);
 
-[[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response);
+/// @param model  whose contact says how exactly its forces can be balanced.
+[[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response,
+                                                               const ReducedModel& model);
 
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
 /// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.

@@ -24,7 +24,6 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
   raise(summary.largest_dissipation_mismatch, point.dissipation_mismatch);
   raise(summary.largest_three_states_share, point.report.three_states_share);
   raise(summary.largest_left_out, point.harmonics_left_out);
-  raise(summary.largest_quadrature_change, point.quadrature_change);
   const bool unproved = point.stability == solver::Stability::stable &&
                         point.stability_basis == solver::StabilityBasis::hill;
   summary.stable_unproved += unproved ? 1 : 0;

@@ -65,7 +65,6 @@ struct CurveSummary {
   std::set<int> harmonic_orders;    ///< that were unknowns at some point, beside the mean
   std::size_t most_harmonics = 0;   ///< at one point
   double largest_left_out = 0.0;    ///< of the amplitude, where harmonics are chosen: by those left out
-  double largest_quadrature_change = 0.0;  ///< of the force by the last fit of the quadrature to a point
   std::vector<std::string> maps;  ///< stems in maps/
   std::string certificate;        ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;

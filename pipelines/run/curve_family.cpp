@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <numbers>
 #include <thread>
 
 #include "pipelines/system/interrupt.hpp"
@@ -15,9 +16,10 @@ namespace {
 
 /// How far a point has come through the range, 0 … 1; a turn back lowers it.
 double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& point) {
-  const auto range = continuation_options(*scene.response);
-  const double width = range.frequency_end - range.frequency_begin;
-  return width == 0.0 ? 1.0 : (point.frequency - range.frequency_begin) / width;
+  const ResponseDescription& range = *scene.response;
+  const double width = range.frequency_end_hz - range.frequency_begin_hz;
+  const double frequency_hz = point.frequency / (2.0 * std::numbers::pi);
+  return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
 }
 
 /// Runs task(i) for i < n on `jobs` threads; the first exception is thrown on when all have ended.

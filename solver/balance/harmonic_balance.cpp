@@ -87,11 +87,28 @@ contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
   return scene_.contact->evaluate_rows(harmonics(x), frequency, rows_);
 }
 
+void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequency,
+                                          Eigen::VectorXd& residual) const {
+  const Eigen::Index n = scene_.n_modes();
+  residual.head(n) += stiffness_.cwiseProduct(x.head(n));
+  Eigen::Index s = n;
+  for (const int k : set_.orders()) {
+    const Eigen::Index c = s + n;
+    const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
+    const Eigen::ArrayXd viscous = k * frequency * damping_.array();
+    const auto sine = x.segment(s, n).array();
+    const auto cosine = x.segment(c, n).array();
+    residual.segment(s, n).array() += dynamic * sine - viscous * cosine;
+    residual.segment(c, n).array() += dynamic * cosine + viscous * sine;
+    s += 2 * n;
+  }
+}
+
 void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency,
                                       BalanceEvaluation& result) const {
+  add_linear_residual(x, frequency, result.residual);
   const Eigen::Index n = scene_.n_modes();
   auto& J = result.jacobian;
-  result.residual.head(n) += stiffness_.cwiseProduct(x.head(n));
   J.diagonal().head(n) += stiffness_;
   Eigen::Index s = n;
   for (const int k : set_.orders()) {
@@ -100,8 +117,6 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
     const Eigen::ArrayXd viscous = k * frequency * damping_.array();
     const auto sine = x.segment(s, n).array();
     const auto cosine = x.segment(c, n).array();
-    result.residual.segment(s, n).array() += dynamic * sine - viscous * cosine;
-    result.residual.segment(c, n).array() += dynamic * cosine + viscous * sine;
     result.parameter_derivative.segment(s, n).array() +=
         -2.0 * k * k * frequency * sine - k * damping_.array() * cosine;
     result.parameter_derivative.segment(c, n).array() +=
@@ -135,6 +150,20 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
     result.parameter_derivative = Eigen::VectorXd::Zero(size());
   }
   add_linear_part(x, frequency, result);
+  return result;
+}
+
+BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double frequency) const {
+  BalanceEvaluation result;
+  result.contact_force = Eigen::VectorXd::Zero(size());
+  if (scene_.contact) {
+    const contact::ForceAndJacobian contact =
+        scene_.contact->evaluate_rows(harmonics(x), frequency, {});
+    result.contact_force = unknowns(contact.force);
+    result.defect = contact.defect;
+  }
+  result.residual = result.contact_force - excitation_;
+  add_linear_residual(x, frequency, result.residual);
   return result;
 }
 

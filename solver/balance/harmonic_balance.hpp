@@ -46,6 +46,8 @@ class HarmonicBalance {
   [[nodiscard]] Eigen::VectorXd unknowns(const Eigen::VectorXd& full) const;
 
   [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency) const;
+  /// The same without derivatives, which are empty; several times cheaper.
+  [[nodiscard]] BalanceEvaluation residual(const Eigen::VectorXd& x, double frequency) const;
   /// λ of the contact and 1 − λ of a linear stiffness in its place; the parameter is λ:
   ///   R = L x + λ G + (1 − λ) S x − Q
   /// @param stiffness  S on every harmonic [1/s²], n_modes × n_modes; zero: from the free limit.
@@ -67,6 +69,8 @@ class HarmonicBalance {
   [[nodiscard]] double largest_terms(const Eigen::VectorXd& x, double frequency) const;
 
  private:
+  void add_linear_residual(const Eigen::VectorXd& x, double frequency,
+                           Eigen::VectorXd& residual) const;
   void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
   void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                      Eigen::MatrixXd& matrix) const;

@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -78,7 +77,7 @@ class Iteration {
     right.head(n) = -now_.evaluation.residual / scaling_.residual;
     right[n] = 0.0;
     const Eigen::VectorXd y =
-        bordered(now_.evaluation, constraint_, scaling_).partialPivLu().solve(right);
+        contact::solved(bordered(now_.evaluation, constraint_, scaling_), right);
     return {y.head(n) * scaling_.x, y[n] * scaling_.parameter};
   }
 
@@ -160,19 +159,17 @@ std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scali
   const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
   Eigen::MatrixXd square = bordered(at, none, scaling);
   if (!square.allFinite()) return std::nullopt;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(square.topRows(n).transpose());
-  if (factors.rank() < n) return std::nullopt;
-  const Eigen::MatrixXd Q = factors.householderQ();
-  Eigen::VectorXd y = Q.col(n);
-  square.row(n) = y.transpose();
-  if (square.determinant() * orientation < 0.0) y = -y;
-  return BranchVector{y.head(n), y[n]};
+  std::optional<Eigen::VectorXd> y = contact::null_direction(square.topRows(n));
+  if (!y) return std::nullopt;
+  square.row(n) = y->transpose();
+  if (contact::LuFactors(square).sign_of_determinant() * orientation < 0.0) *y = -*y;
+  return BranchVector{y->head(n), (*y)[n]};
 }
 
 Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                        const Scaling& scaling) {
   const Eigen::Index n = at.residual.size();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(at, previous, scaling));
+  const contact::LuFactors factors(bordered(at, previous, scaling));
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 1);
   right[n] = 1.0;
   Eigen::VectorXd y = factors.solve(right);
@@ -184,10 +181,7 @@ Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous
   y.normalize();
   tangent.direction = {y.head(n), y[n]};
   // det [D; tᵀ] has the sign of det [D; previousᵀ] because t·previous > 0.
-  tangent.orientation = static_cast<double>(factors.permutationP().determinant());
-  for (Eigen::Index i = 0; i <= n; ++i) {
-    if (factors.matrixLU()(i, i) < 0.0) tangent.orientation = -tangent.orientation;
-  }
+  tangent.orientation = factors.sign_of_determinant();
   return tangent;
 }
 

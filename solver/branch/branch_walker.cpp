@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/few_jacobians.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -19,6 +21,7 @@ constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look a
 constexpr double angle_wanted = 0.13;  // rad per step
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
+constexpr int wanted_updates = 6;  // of Broyden's method, by forces alone
 
 }  // namespace
 
@@ -42,8 +45,11 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
                                           int max_iterations) const {
   Trial trial;
   const NewtonOptions options{tolerance_, max_iterations};
-  const BranchVector predicted = moved(now_.solution.point, direction, distance, now_.scaling);
-  NewtonResult solution = solve_newton(system_, predicted, direction, now_.scaling, options);
+  const bool along = &direction == &now_.tangent;
+  const BranchVector predicted =
+      along ? predictor_.point(before_, now_, distance)
+            : moved(now_.solution.point, direction, distance, now_.scaling);
+  NewtonResult solution = solved(predicted, direction, options);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   trial.converged = solution.converged;
@@ -56,6 +62,13 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
   trial.orientation = tangent.orientation;
   trial.point = {std::move(solution), tangent.direction, scaling};
   return trial;
+}
+
+NewtonResult BranchWalker::solved(const BranchVector& predicted, const BranchVector& direction,
+                                  const NewtonOptions& options) const {
+  if (!residual_) return solve_newton(system_, predicted, direction, now_.scaling, options);
+  return solve_with_few_jacobians({system_, residual_}, predicted, direction, now_.scaling, options,
+                                  now_.solution.evaluation);
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
@@ -77,13 +90,15 @@ void BranchWalker::accept(Trial trial) {
   } else if (trial.orientation != 0.0) {
     orientation_ = trial.orientation;
   }
+  predictor_.learn(before_, now_, trial.point.solution.point);
   before_ = std::move(now_);
   now_ = std::move(trial.point);
 }
 
 void BranchWalker::choose_step(const Trial& trial) {
-  const double effort = std::sqrt(static_cast<double>(wanted_iterations) /
-                                  std::max(trial.point.solution.iterations, 1));
+  const int wanted = residual_ ? wanted_updates : wanted_iterations;
+  const double effort =
+      std::sqrt(static_cast<double>(wanted) / std::max(trial.point.solution.iterations, 1));
   const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
   const double bend = angle > 0.0 ? angle_wanted / angle : 2.0;
   step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
@@ -125,42 +140,6 @@ bool BranchWalker::advance() {
     step_ *= 0.5;
   }
   return turn_at_kink() || leap();
-}
-
-std::optional<BranchWalker::Trial> BranchWalker::carried(const WalkerPoint& from,
-                                                        const UnknownMap& map) const {
-  constexpr double farthest = 0.5;  // of the amplitude: a harmonic that does more belongs elsewhere
-  BranchVector direction{map(from.tangent.x), from.tangent.parameter};
-  const double size = length(direction);
-  direction.x /= size;
-  direction.parameter /= size;
-  const BranchVector start{map(from.solution.point.x), from.solution.point.parameter};
-  NewtonOptions options;
-  options.tolerance = tolerance_;
-  NewtonResult solution = solve_newton(system_, start, direction, from.scaling, options);
-  evaluations_ += solution.evaluations;
-  iterations_ += solution.iterations;
-  const bool near = length(difference(solution.point, start, from.scaling)) < farthest;
-  if (!solution.converged || !near) return std::nullopt;
-  const Scaling scaling = rule_(solution);
-  const Tangent tangent =
-      branch_tangent(solution.evaluation, rescaled(direction, from.scaling, scaling), scaling);
-  Trial trial;
-  trial.point = {std::move(solution), tangent.direction, scaling};
-  trial.orientation = tangent.orientation;
-  return trial;
-}
-
-bool BranchWalker::change_unknowns(const UnknownMap& map) {
-  std::optional<Trial> before = carried(before_, map);
-  std::optional<Trial> now = before ? carried(now_, map) : std::nullopt;
-  if (!now) return false;
-  before_ = std::move(before->point);
-  now_ = std::move(now->point);
-  before_orientation_ = before->orientation;
-  orientation_ = now->orientation;
-  states_.forget();
-  return true;
 }
 
 Stall BranchWalker::stall() const {

@@ -6,8 +6,10 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "solver/branch/predictor.hpp"
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/balance/newton.hpp"
 #include "solver/branch/step_states.hpp"
@@ -16,9 +18,6 @@ namespace microslip::solver {
 
 /// Scaling for the next step at an accepted point.
 using ScalingRule = std::function<Scaling(const NewtonResult& at)>;
-
-/// Takes a vector of the old unknowns to the new ones.
-using UnknownMap = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
 
 /// A point of the last step.
 struct StepPoint {
@@ -46,6 +45,10 @@ class BranchWalker {
   /// Steps are chosen by what the contact does as well (step_states.hpp).
   void watch(StateReader reader) { states_ = StepStates(std::move(reader)); }
 
+  /// Steps are corrected with one Jacobian each (few_jacobians.hpp).
+  /// @param residual  of the same system, may leave the derivatives empty.
+  void economise(ParametricSystem residual) { residual_ = std::move(residual); }
+
   /// One accepted step. False: no remedy helped; now() is the last good point.
   [[nodiscard]] bool advance();
 
@@ -60,11 +63,6 @@ class BranchWalker {
                                                  double share) const;
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
   [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
-
-  /// Goes on with other unknowns of the same branch: now() and before() are carried over, corrected
-  /// across the branch. The system and the scaling rule must know the new unknowns already.
-  /// @return false: a correction failed or led far away; nothing is changed.
-  [[nodiscard]] bool change_unknowns(const UnknownMap& map);
 
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
@@ -98,9 +96,12 @@ class BranchWalker {
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord) const;
-  [[nodiscard]] std::optional<Trial> carried(const WalkerPoint& from, const UnknownMap& map) const;
+  [[nodiscard]] NewtonResult solved(const BranchVector& predicted, const BranchVector& direction,
+                                    const NewtonOptions& options) const;
 
   ParametricSystem system_;
+  ParametricSystem residual_;  ///< empty: Newton's method all the way
+  BranchPredictor predictor_;
   ScalingRule rule_;
   double tolerance_;
   WalkerPoint now_;

@@ -223,7 +223,7 @@ class Search {
     if (options_.frequency_begin == options_.frequency_end) {
       DetachedBranch branch;
       branch.points.push_back(
-          settled_point(*balance_, std::move(start), options_, curve_));
+          solved_point(*balance_, start));
       curve_.detached.push_back(std::move(branch));
       return;
     }

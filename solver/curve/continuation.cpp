@@ -17,7 +17,6 @@
 #include "solver/curve/linear_certificate.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/balance/linear_resonance.hpp"
-#include "solver/branch/refit.hpp"
 #include "solver/curve/solved_point.hpp"
 #include "solver/branch/start_point.hpp"
 
@@ -211,7 +210,7 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
     const HarmonicBalance balance(scene, set);
-    curve.points.push_back(settled_point(balance, std::move(*start.solution), options, curve));
+    curve.points.push_back(solved_point(balance, *start.solution));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
@@ -238,12 +237,9 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     NewtonOptions newton;
     newton.tolerance = options.residual_tolerance;
     newton.max_iterations = 30;
-    if (scene.contact) scene.contact->begin_point();
-    static_cast<void>(refit_to(*balance, {{guess, frequency}}));
-    NewtonResult solution = solve_at(*balance, guess, frequency, newton);
+    const NewtonResult solution = solve_at(*balance, guess, frequency, newton);
     if (!solution.converged) return;
-    ResponseCurve work;
-    found.push_back(settled_point(*balance, std::move(solution), options, work));
+    found.push_back(solved_point(*balance, solution));
   };
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const ResponsePoint& b = curve.points[i];

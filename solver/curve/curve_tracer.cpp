@@ -6,6 +6,7 @@
 
 #include "solver/balance/linear_resonance.hpp"
 #include "solver/branch/start_point.hpp"
+#include "solver/curve/unmarked_points.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -118,7 +119,6 @@ bool CurveTracer::walk(BranchWalker& walker) {
     const bool stepped = walker.advance();
     take_stock(walker);
     if (!stepped) return true;
-    settle_step(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
       if (reach(walker, options_.frequency_end)) curve_.complete = curve_.diagnosis.empty();
@@ -159,6 +159,11 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
   BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
                       std::move(start), forward, options_.residual_tolerance);
+  if (options_.corrector == ContinuationOptions::Corrector::few_jacobians) {
+    walker.economise([this](const Eigen::VectorXd& x, double frequency) {
+      return balance_->residual(x, frequency);
+    });
+  }
   if (scene_.contact) {
     walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
       scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
@@ -195,9 +200,18 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
   return std::nullopt;
 }
 
+void CurveTracer::use(const HarmonicSet& set) {
+  balance_ = std::make_unique<HarmonicBalance>(scene_, set);
+  last_x_.resize(0);
+}
+
+ResponseCurve CurveTracer::finished() {
+  mark_unsolved(curve_);
+  return std::move(curve_);
+}
+
 ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
   use(set);
-  start = settled(std::move(start));
   entry_ = {balance_->harmonics(start.point.x), start.point.parameter};
   if (!add(start)) return finished();
   BranchWalker walker = walker_from(std::move(start));
@@ -217,7 +231,7 @@ ResponseCurve CurveTracer::run() {
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
     return finished();
   }
-  std::optional<NewtonResult> next = settled(std::move(*start.solution));
+  std::optional<NewtonResult> next = std::move(start.solution);
   for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
     if (!add(*next)) {
       stop("interrupted", at_hertz("stopped", next->point.parameter));
@@ -235,7 +249,6 @@ ResponseCurve CurveTracer::run() {
       curve_.log.push_back({last, "other-branch"});
       entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
     }
-    if (next) next = settled(std::move(*next));
   }
   if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
   return finished();

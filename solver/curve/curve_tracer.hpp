@@ -1,7 +1,6 @@
 /// @file
 /// One sweep along one branch: walks it, certifies every point, solves for peaks and folds between
-/// points, ends exactly at the end of the range. Where the force follows the motion (refit.hpp) it suits both
-/// ends of a step and the peaks and folds between them: none is lost between two discretisations.
+/// points, ends exactly at the end of the range.
 #pragma once
 
 #include <chrono>
@@ -43,13 +42,6 @@ class CurveTracer {
   [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
   void take_stock(const BranchWalker& walker);
   void use(const HarmonicSet& set);
-  /// The solution on a force that suits it, solved for at its frequency.
-  [[nodiscard]] NewtonResult settled(NewtonResult at);
-  /// The last step on a force fitted to its ends and the points between. True: it was solved again.
-  [[nodiscard]] bool refit(BranchWalker& walker, const std::vector<SpecialPoint>& between);
-  void settle_step(BranchWalker& walker);
-  /// Peaks and folds of the last step, on a force that suits them.
-  [[nodiscard]] std::vector<SpecialPoint> settled_specials(BranchWalker& walker);
   [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
@@ -73,7 +65,6 @@ class CurveTracer {
   ContinuationOptions options_;
   std::unique_ptr<HarmonicBalance> balance_;
   std::optional<double> unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
-  double change_ = 0.0;                   ///< by the last refit of the force
   const PointObserver& observe_;
   ResponseCurve curve_;
   double range_;

@@ -30,7 +30,6 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   }
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
-  point.quadrature_change = change_;
   // At a fold a multiplier is 1: on which side it falls is rounding.
   if (mark == PointMark::fold) point.stability = Stability::not_assessed;
   return point;
@@ -47,29 +46,18 @@ bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
   return !observe_ || observe_(curve_.points.back());
 }
 
-std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker) {
-  std::vector<SpecialPoint> found;
-  if (scene_.contact) scene_.contact->begin_point();
-  do {
-    found = special_points(walker, *balance_);
-  } while (!found.empty() && refit(walker, found));
-  return found;
-}
-
 void CurveTracer::note_unsolved(double frequency, PointMark mark) {
   curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
 }
 
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
-  const double change_now = change_;
-  const std::vector<SpecialPoint> found = settled_specials(walker);
+  const std::vector<SpecialPoint> found = special_points(walker, *balance_);
   take_stock(walker);
   for (const SpecialPoint& special : found) {
     if (!(special.share < share_of_segment)) continue;
     if (!special.solved) note_unsolved(special.solution.point.parameter, special.mark);
     if (!add(special.solution, special.mark)) return false;
   }
-  if (found.empty()) change_ = change_now;
   return true;
 }
 
@@ -82,11 +70,7 @@ bool CurveTracer::reach(BranchWalker& walker, double edge) {
     stop("interrupted", at_hertz("stopped", edge));
     return false;
   }
-  if (scene_.contact) scene_.contact->begin_point();
-  NewtonResult last;
-  do {
-    last = walker.at_parameter(edge, share);
-  } while (last.converged && refit(walker, {{share, last, PointMark::none}}));
+  const NewtonResult last = walker.at_parameter(edge, share);
   take_stock(walker);
   if (!last.converged) {
     stop("newton-stall", at_hertz("no solution found", edge));

@@ -14,7 +14,7 @@ constexpr std::size_t close_by = 2;  // rows: peak and fold of one kink follow e
 
 /// Share of its amplitude that a row is known to.
 double uncertainty(const ResponsePoint& point) {
-  return 0.5 * amplitude_resolution + point.quadrature_change + point.harmonics_left_out;
+  return 0.5 * amplitude_resolution + point.harmonics_left_out;
 }
 
 bool is_higher(const ResponsePoint& point, const ResponsePoint& neighbour) {

@@ -7,7 +7,6 @@
 
 #include "solver/branch/branch_walker.hpp"
 #include "solver/balance/output_amplitude.hpp"
-#include "solver/branch/refit.hpp"
 #include "solver/branch/special_points.hpp"
 #include "solver/stability/stability.hpp"
 #include "solver/branch/start_point.hpp"
@@ -83,24 +82,18 @@ LocalPeak made_end(const HarmonicBalance& balance, const NewtonResult& at, Branc
   return end;
 }
 
-/// A solution on the plane of the constraint, on a force that suits it.
+/// A solution on the plane of the constraint.
 NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
                     const BranchVector& constraint, const Scaling& scaling,
                     const ContinuationOptions& range, PeakWork& work) {
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
     return balance.evaluate(x, frequency);
   };
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  static_cast<void>(refit_to(balance, {guess}));
   NewtonOptions newton;
   newton.tolerance = range.residual_tolerance;
-  NewtonResult result;
-  result.point = guess;
-  do {
-    result = solve_newton(system, result.point, constraint, scaling, newton);
-    work.iterations += result.iterations;
-    work.contact_evaluations += result.evaluations;
-  } while (result.converged && refit_to(balance, {result.point}).is_replaced);
+  NewtonResult result = solve_newton(system, guess, constraint, scaling, newton);
+  work.iterations += result.iterations;
+  work.contact_evaluations += result.evaluations;
   return result;
 }
 
@@ -122,8 +115,6 @@ std::optional<LocalPeak> follow_end(const HarmonicBalance& balance, const LocalP
 NewtonResult evaluated(const HarmonicBalance& balance, const ResponsePoint& point) {
   NewtonResult at;
   at.point = {balance.unknowns(point.q), point.frequency};
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  static_cast<void>(refit_to(balance, {at.point}));
   at.evaluation = balance.evaluate(at.point.x, point.frequency);
   return at;
 }
@@ -134,30 +125,17 @@ Scaling widest_scaling(const HarmonicBalance& balance, const BranchVector& at) {
   return scaling;
 }
 
-/// The first peak of the last step, on a force that suits it. A refit may move it out of the step.
+/// The first peak of the last step.
 std::optional<SpecialPoint> peak_of_step(const HarmonicBalance& balance, BranchWalker& walker) {
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  while (true) {
-    std::vector<SpecialPoint> found = peaks_between(walker, balance);
-    if (found.empty()) return std::nullopt;
-    const RefitReport fit = refit_step(walker, balance, {found.front().solution.point});
-    if (!fit.is_replaced) return std::move(found.front());
-  }
-}
-
-/// One step, both its ends on a force that suits them.
-bool settled_step(const HarmonicBalance& balance, BranchWalker& walker) {
-  if (!walker.advance()) return false;
-  if (balance.scene().contact) balance.scene().contact->begin_point();
-  while (refit_step(walker, balance, {}).is_replaced) {
-  }
-  return true;
+  std::vector<SpecialPoint> found = peaks_between(walker, balance);
+  if (found.empty()) return std::nullopt;
+  return std::move(found.front());
 }
 
 /// Uphill from a point of the branch until a peak is passed.
 std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& walker,
                                const BranchVector& guess, const ContinuationOptions& range) {
-  for (int i = 0; i < max_steps && settled_step(balance, walker); ++i) {
+  for (int i = 0; i < max_steps && walker.advance(); ++i) {
     if (const auto peak = peak_of_step(balance, walker)) {
       if (!peak->solved) return std::nullopt;
       const Scaling& scaling = walker.now().scaling;
