@@ -70,9 +70,10 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
     const OutputDescription& output = scene.response->output;
     require_name(output.place, [&] { return mesh.node_set(output.at); });
   }
-  if (!scene.contact) return;
-  require_name(scene.contact->place, [&] { return mesh.surface(scene.contact->surface); });
-  static_cast<void>(contact_frame(mesh, *scene.contact));
+  for (const ContactDescription& contact : scene.contacts) {
+    require_name(contact.place, [&] { return mesh.surface(contact.surface); });
+    static_cast<void>(contact_frame(mesh, contact));
+  }
   require_preload(mesh, scene);
 }
 
@@ -84,9 +85,11 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   fem::ModalOptions options;
   options.n_modes = scene.modes.count;
   result.basis = structure.solve_modes(options);
-  if (scene.contact && scene.modes.residual == ResidualKind::stiffness) {
-    result.residual = structure.residual_flexibility(
-        result.basis, mesh.surface(scene.contact->surface), contact_frame(mesh, *scene.contact));
+  if (scene.modes.residual == ResidualKind::stiffness) {
+    for (const ContactDescription& contact : scene.contacts) {
+      result.residuals.push_back(structure.residual_flexibility(
+          result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact)));
+    }
   }
   result.timings = structure.timings();
   return result;
