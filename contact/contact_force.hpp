@@ -4,7 +4,8 @@
 /// carried at rest. All of them see the same points under the same load with the same effects.
 ///
 ///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
-///   more harmonics, the rest alike                 event by event; the closed form at one harmonic
+///   48 points or more, along p, anything else      the period sampled, all points in lanes (contact/sampled)
+///   more harmonics, plain surfaces                 event by event; the closed form at one harmonic
 ///   rough surfaces, friction by speed, along r     a law per point (contact/line, contact/plane)
 ///
 /// Several patches are one force whose points are those of all patches in order.

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "fem/attachment.hpp"
 #include "fem/elements/element_matrices.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
@@ -57,6 +58,18 @@ class Structure {
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
                                                          const Eigen::Matrix3d& frame);
+  /// The modes of `basis` and attachment shapes behind them (fem/attachment.hpp): one static solve for each
+  /// traction on the surface along the rows of `frame`, and for each column of `forces`.
+  /// @param forces  3 n_nodes × m [N], m ≥ 0: the excitation.
+  /// @note With rigid-body modes: inertia relief, as residual_flexibility().
+  [[nodiscard]] AttachedBasis attach(const ModalBasis& basis, const mesh::Surface& surface,
+                                     const Eigen::Matrix3d& frame, const Eigen::MatrixXd& forces,
+                                     const AttachmentOptions& options = {});
+  /// The same for several faces, tractions of the same degree on all of them; each has its local stiffness.
+  [[nodiscard]] AttachedBasis attach(const ModalBasis& basis,
+                                     const std::vector<AttachmentFace>& faces,
+                                     const Eigen::MatrixXd& forces,
+                                     const AttachmentOptions& options);
   /// Adds springs between a surface and the ground, e.g. a contact that sticks everywhere:
   ///   K += Σ_c w_c Σ_d k_cd (N_c e_d)ᵀ(N_c e_d),   e_d row d of the frame.
   /// Call before modes or solutions are asked for, or ask for them again: factorisations are dropped.

@@ -1,5 +1,7 @@
 /// @file
-/// Mass-normalised modes of a structure without contact: Kφ = ω²Mφ, ΦᵀMΦ = I.
+/// Mass-normalised modes of a structure without contact: Kφ = ω²Mφ, ΦᵀMΦ = I; behind them attachment
+/// shapes, if there are any: the static answer of what the modes leave out (fem/attachment.hpp), diagonal in K
+/// with ω̃² and orthogonal to the modes.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +9,17 @@
 namespace microslip::fem {
 
 struct ModalBasis {
-  Eigen::VectorXd frequency;  ///< ω [rad/s], ascending, n_modes; 0 for rigid-body modes
+  Eigen::VectorXd frequency;  ///< ω [rad/s], n_modes, ascending, 0 for rigid-body modes; then ω̃ of the attachment shapes
   Eigen::MatrixXd shapes;     ///< Φ [1/√kg], (3 · n_nodes) × n_modes, x y z per mesh node, 0 at supports
-  Eigen::VectorXd residual;   ///< ‖Kφ − ω²Mφ‖ / ‖Kφ‖ of each pair (rigid: over ‖K‖‖φ‖) [-]
+  /// ‖Kφ − ω²Mφ‖ / ‖Kφ‖ of each mode (rigid: over ‖K‖‖φ‖) [-], n_free(): attachment shapes are no pairs.
+  Eigen::VectorXd residual;
   Eigen::Index n_rigid_body = 0;
   /// Eigenvalues below a shift just above the last mode, by the inertia of LDLᵀ: equals n_modes (+ a
   /// cluster that straddles the shift), else an eigen-missed-mode error was thrown.
   Eigen::Index inertia_count = 0;
+  Eigen::Index n_attachment = 0;  ///< the last columns are attachment shapes
+
+  [[nodiscard]] Eigen::Index n_free() const { return frequency.size() - n_attachment; }
 };
 
 /// Flexibility on a surface of the modes left out, for uniform traction (theory section 14): row sums

@@ -34,7 +34,9 @@ StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
   record.keep_mesh(mesh, scene.material.density);
   record.stage("modes");
   StructureModes modes = solve_structure(mesh, scene);
-  record.keep_modes(mesh, modes, damping_ratios(scene.modes, modes.basis.frequency));
+  if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
+  record.keep_modes(mesh, modes,
+                    damping_ratios(scene.modes, modes.basis.frequency, modes.basis.n_attachment));
   record.stage("contact");
   return std::make_shared<const SolvedStructure>(SolvedStructure{std::move(mesh), std::move(modes)});
 }

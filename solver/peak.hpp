@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 
 namespace microslip::solver {
 

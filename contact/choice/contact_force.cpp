@@ -13,6 +13,7 @@
 #include "contact/patch/patch_surfaces.hpp"
 #include "contact/patch/preload_field.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "contact/sampled/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
 #include "contact/transient/planar_transient.hpp"
 
@@ -21,24 +22,37 @@ namespace {
 
 // As far as the residual of the balance is driven down: coarser, its noise turns branches back.
 constexpr double planar_tolerance = 1e-11;
+// Fewer points are solved event by event as fast as that matters, and to rounding.
+constexpr Eigen::Index least_points_in_lanes = 48;
+constexpr int instants_per_period = 512;
 
 using PointLaws = std::vector<std::shared_ptr<const PointLaw>>;
 
 /// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition in
 /// method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
-enum class Method { closed_form, any_harmonics, point_laws };
+enum class Method { closed_form, lanes, any_harmonics, point_laws };
 
 /// One direction, constant friction, smooth surfaces.
 bool is_plain(const Patch& patch, const ContactEffects& effects) {
   return !effects.second_direction && patch.rules.plain();
 }
 
+bool are_plain(std::span<const Patch> patches, const ContactEffects& effects) {
+  return std::ranges::all_of(patches, [&](const Patch& patch) { return is_plain(patch, effects); });
+}
+
+Eigen::Index n_points(std::span<const Patch> patches) {
+  Eigen::Index n = 0;
+  for (const Patch& patch : patches) n += patch.cells.size();
+  return n;
+}
+
 /// The switch: which method serves these patches.
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
-  const bool plain =
-      std::ranges::all_of(patches, [&](const Patch& patch) { return is_plain(patch, effects); });
-  if (!plain) return Method::point_laws;
-  return effects.n_harmonics == 1 ? Method::closed_form : Method::any_harmonics;
+  const bool plain = are_plain(patches, effects);
+  if (plain && effects.n_harmonics == 1) return Method::closed_form;
+  if (!effects.second_direction && n_points(patches) >= least_points_in_lanes) return Method::lanes;
+  return plain ? Method::any_harmonics : Method::point_laws;
 }
 
 SurfaceLaw surface_of(const Patch& patch, const PatchSamples& samples,
@@ -90,8 +104,7 @@ struct Stack {
 };
 
 Stack stacked(std::span<const Patch> patches, const ContactEffects& effects) {
-  Eigen::Index n = 0;
-  for (const Patch& patch : patches) n += patch.cells.size();
+  const Eigen::Index n = n_points(patches);
   const auto width = [&](Eigen::MatrixXd ModalShapes::*shape) {
     return (patches.front().cells.shapes.*shape).cols();
   };
@@ -146,6 +159,10 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
     case Method::closed_form:
       return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
                                           std::move(stack.shapes));
+    case Method::lanes:
+      return std::make_unique<sampled::PatchForce>(
+          std::move(stack.weights), surfaces(begin, end), std::move(stack.shapes),
+          sampled::Options{.instants = instants_per_period});
     case Method::any_harmonics:
       return std::make_unique<AnyHarmonicsForce>(ContactPatch(stack.weights, joined(points)),
                                                  stack.shapes);
@@ -172,7 +189,7 @@ std::vector<SurfaceLaw> ContactForce::surfaces(std::size_t begin, std::size_t en
 
 std::unique_ptr<TransientForce> ContactForce::transient_force() const {
   Stack stack = stacked(patches_, effects_);
-  if (method_for(patches_, effects_) == Method::point_laws) {
+  if (!are_plain(patches_, effects_)) {
     return std::make_unique<PlanarTransient>(std::move(stack.weights), surfaces(0, patches_.size()),
                                              std::move(stack.shapes));
   }

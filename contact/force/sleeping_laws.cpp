@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "contact/patch/point_motions.hpp"
 
@@ -50,15 +51,26 @@ SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights,
                            const std::vector<std::shared_ptr<const PointLaw>>& laws,
                            const ModalShapes& shapes)
     : weights_(weights), load_at_rest_(weights.size()) {
-  const Eigen::Index n = weights.size();
   range_.reserve(laws.size());
   for (const auto& law : laws) {
     load_at_rest_[static_cast<Eigen::Index>(range_.size())] = law->load_at_rest();
     range_.push_back(law->linear_range());
   }
+  start(shapes);
+}
+
+SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights, Eigen::VectorXd load_at_rest,
+                           std::vector<std::optional<LinearRange>> ranges,
+                           const ModalShapes& shapes)
+    : weights_(weights), load_at_rest_(std::move(load_at_rest)), range_(std::move(ranges)) {
+  start(shapes);
+}
+
+void SleepingLaws::start(const ModalShapes& shapes) {
+  const Eigen::Index n = weights_.size();
   group_ = std::max(smallest_group, (n + largest_n_groups - 1) / largest_n_groups);
-  state_.assign(laws.size(), SleepState::awake);
-  awake_.resize(laws.size());
+  state_.assign(range_.size(), SleepState::awake);
+  awake_.resize(range_.size());
   std::iota(awake_.begin(), awake_.end(), Eigen::Index{0});
   part_.resize(static_cast<std::size_t>(n_groups(n, group_)));
   rows_.resize(n_point_signals * group_, shapes.u.cols());

@@ -45,6 +45,9 @@ class SleepingLaws {
   /// All of the same size n; see LawPatchForce.
   SleepingLaws(const Eigen::VectorXd& weights,
                const std::vector<std::shared_ptr<const PointLaw>>& laws, const ModalShapes& shapes);
+  /// The same for points known by their constants.
+  SleepingLaws(const Eigen::VectorXd& weights, Eigen::VectorXd load_at_rest,
+               std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
 
   /// What every point is proved to do.
   [[nodiscard]] std::vector<SleepState> states(const PatchMotion& motion, double frequency) const;
@@ -69,6 +72,7 @@ class SleepingLaws {
   }
 
  private:
+  void start(const ModalShapes& shapes);
   void decide(const PatchMotion& motion, double frequency, std::vector<SleepState>& states) const;
   void add_up(Eigen::Index group, const ModalShapes& shapes);
   void add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part);

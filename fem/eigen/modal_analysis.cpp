@@ -11,11 +11,13 @@
 #include <Eigen/Eigenvalues>
 
 #include "fem/petsc/columns.hpp"
+#include "fem/eigen/attachment.hpp"
+#include "fem/elements/polynomial_tractions.hpp"
 #include "fem/eigen/mode_search.hpp"
 #include "fem/elements/number_text.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/eigen/rigid_modes.hpp"
-#include "fem/elements/surface_load.hpp"
+#include "fem/surface_load.hpp"
 #include "fem/assembly/surface_springs.hpp"
 
 namespace microslip::fem {
@@ -71,6 +73,8 @@ struct Structure::Implementation {
   void factorise_shifted();
   [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
   [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& kept) const;
+  [[nodiscard]] Eigen::MatrixXd elastic_modes(const ModalBasis& basis) const;
+  [[nodiscard]] StaticShapes static_shapes(const Eigen::MatrixXd& forces, const Eigen::MatrixXd& kept) const;
   void drop_held_rigid_modes();
   [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
   void check_residuals(const ModalBasis& basis, double tolerance) const;
@@ -175,6 +179,17 @@ Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& 
   return u;
 }
 
+Eigen::MatrixXd Structure::Implementation::elastic_modes(const ModalBasis& basis) const {
+  return system.dofs.to_local(basis.shapes.middleCols(basis.n_rigid_body, basis.n_free() - basis.n_rigid_body));
+}
+
+StaticShapes Structure::Implementation::static_shapes(const Eigen::MatrixXd& forces,
+                                                      const Eigen::MatrixXd& kept) const {
+  StaticShapes result{system.dofs.to_local(forces), {}};
+  result.shapes = solve_elastic(result.loads, kept);
+  return result;
+}
+
 // Springs to ground hold rigid-body modes that were free: keep those they do not strain.
 void Structure::Implementation::drop_held_rigid_modes() {
   if (rigid.cols() == 0) return;
@@ -240,8 +255,7 @@ ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, con
                                                     const Eigen::Matrix3d& frame) {
   Implementation& self = *self_;
   self.factorise();
-  const Eigen::Index n_elastic = basis.frequency.size() - basis.n_rigid_body;
-  const Eigen::MatrixXd kept = self.system.dofs.to_local(basis.shapes.rightCols(n_elastic));
+  const Eigen::MatrixXd kept = self.elastic_modes(basis);
   const Eigen::MatrixXd loads = self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
   const Eigen::MatrixXd u = self.system.dofs.to_mesh(self.solve_elastic(loads, kept));
   ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(surface.nodes), 3)};
@@ -249,6 +263,45 @@ ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, con
     const Eigen::Index node = surface.nodes[static_cast<std::size_t>(i)];
     result.row_sums.row(i) = frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
   }
+  return result;
+}
+
+AttachedBasis Structure::attach(const ModalBasis& basis, const mesh::Surface& surface, const Eigen::Matrix3d& frame,
+                                const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
+  const std::vector<AttachmentFace> faces{{surface, frame, options.local_stiffness}};
+  return attach(basis, faces, forces, options);
+}
+
+AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<AttachmentFace>& faces,
+                                const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
+  Implementation& self = *self_;
+  check_rows(forces, self.nodes.rows());
+  self.factorise();
+  const Eigen::MatrixXd kept = self.elastic_modes(basis);
+  const ShapesOfDegree solve = [&](int degree) {
+    const Eigen::Index n_before = 3 * n_polynomials(degree - 1);
+    StaticShapes shapes;
+    for (const AttachmentFace& face : faces) {
+      const Eigen::MatrixXd loads =
+          polynomial_tractions(self.nodes, face.surface, face.frame, degree);
+      StaticShapes own = self.static_shapes(loads.rightCols(loads.cols() - n_before), kept);
+      own.stiffness = face.local_stiffness.replicate(own.loads.cols() / 3, 1);
+      shapes.append(own);
+    }
+    return shapes;
+  };
+  AttachmentSet set = attachment_set(solve, options);
+  if (forces.cols() > 0) set.shapes.append(self.static_shapes(forces, kept));
+  const Eigen::MatrixXd free = self.system.dofs.to_local(basis.shapes.leftCols(basis.n_free()));
+  const RitzShapes ritz = ritz_shapes(self.system, set.shapes, free);
+  Eigen::MatrixXd shapes = self.system.dofs.to_mesh(ritz.shapes);
+  fix_signs(shapes);
+  AttachedBasis result{basis, set.degree, set.missed_share, set.shapes.shapes.cols() - shapes.cols()};
+  result.basis.n_attachment = shapes.cols();
+  result.basis.frequency.resize(basis.n_free() + shapes.cols());
+  result.basis.frequency << basis.frequency.head(basis.n_free()), ritz.frequency;
+  result.basis.shapes.resize(basis.shapes.rows(), basis.n_free() + shapes.cols());
+  result.basis.shapes << basis.shapes.leftCols(basis.n_free()), shapes;
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "fem/elements/surface_load.hpp"
+#include "fem/surface_load.hpp"
 
 #include <Eigen/Geometry>
 

@@ -71,7 +71,7 @@ constexpr std::array curve_table{
         [](const auto& p) { return format_number(p.residual); }},
     Column<ResponsePoint>{
         "energy_imbalance", "1",
-        "|W_exc - W_damp - W_fric| over max(|W_exc|, W_damp + W_fric) of one period",
+        "abs(W_exc - W_damp - W_fric) over max(abs(W_exc), W_damp + W_fric) of one period",
         [](const auto& p) { return format_number(p.energy_imbalance); }},
     Column<ResponsePoint>{
         "dissipation_mismatch", "1",
@@ -101,13 +101,16 @@ constexpr std::array mode_table{
                     [](const auto& m) { return fmt::format("{}", m.mode); }},
     Column<ModeRow>{"frequency_Hz", "Hz", "natural frequency without contact",
                     [](const auto& m) { return format_number(m.frequency / two_pi); }},
-    Column<ModeRow>{"residual", "1", "of the eigenpair; empty for modes that were given",
+    Column<ModeRow>{"residual", "1", "of the eigenpair; empty for modes that were given and attachment shapes",
                     [](const auto& m) { return or_empty(m.residual); }},
     Column<ModeRow>{"damping_ratio", "1", "of critical damping",
                     [](const auto& m) { return or_empty(m.damping_ratio); }},
     Column<ModeRow>{"fit_error", "1",
                     "of the fitted mode shape on the contact, relative; the largest of the patches",
                     [](const auto& m) { return or_empty(m.fit_error); }},
+    Column<ModeRow>{
+        "kind", "", "free, or attachment (a static shape)",
+        [](const auto& m) { return std::string(m.is_attachment ? "attachment" : "free"); }},
 };
 
 constexpr Column<OptimumRow> preload_column{

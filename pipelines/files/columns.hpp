@@ -38,6 +38,7 @@ struct ModeRow {
   Eigen::Index mode = 1;
   double frequency = 0.0;  ///< ω [rad/s]
   std::optional<double> residual, damping_ratio, fit_error;
+  bool is_attachment = false;
 };
 [[nodiscard]] std::span<const Column<ModeRow>> mode_columns();
 

@@ -24,6 +24,7 @@ void write_structure(Hdf5Writer& out, const ReducedModel& model) {
   out.vector("/frequency_Hz", model.frequency / (2.0 * std::numbers::pi), "Hz");
   out.vector("/angular_frequency", model.frequency, "rad/s");
   out.vector("/damping_ratio", model.damping_ratio, "1");
+  out.vector("/n_attachment", Eigen::VectorXd::Constant(1, static_cast<double>(model.n_attachment)), "1");
   out.vector("/force_sine", model.force_sine, modal_force_unit);
   out.vector("/force_cosine", model.force_cosine, modal_force_unit);
   out.vector("/force_static", model.force_static, modal_force_unit);
@@ -137,6 +138,9 @@ ReducedModel read_model(const std::filesystem::path& file) {
   ReducedModel model;
   model.frequency = in.vector("/angular_frequency");
   model.damping_ratio = in.vector("/damping_ratio");
+  const Eigen::VectorXd n_attachment = in.vector("/n_attachment");
+  check_size(file, "/n_attachment", n_attachment.size(), 1);
+  model.n_attachment = static_cast<Eigen::Index>(n_attachment[0]);
   model.force_sine = in.vector("/force_sine");
   model.force_cosine = in.vector("/force_cosine");
   model.force_static = in.vector("/force_static");

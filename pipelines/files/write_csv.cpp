@@ -19,9 +19,9 @@ void append_names(std::string& header, const std::string& stem, Eigen::Index n_m
   }
 }
 
-/// Row of a column, where there is one.
-std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n_rows) {
-  return column.size() == n_rows ? std::optional(column[row]) : std::nullopt;
+/// Row of a column, where it reaches so far.
+std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
+  return row < column.size() ? std::optional(column[row]) : std::nullopt;
 }
 
 }  // namespace
@@ -80,8 +80,12 @@ void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) 
   std::string table = header_of(mode_columns()) + "\n";
   const Eigen::Index n = modes.frequency.size();
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    const ModeRow row{mode + 1, modes.frequency[mode], entry(modes.residual, mode, n),
-                      entry(modes.damping_ratio, mode, n), entry(modes.fit_error, mode, n)};
+    const ModeRow row{mode + 1,
+                      modes.frequency[mode],
+                      entry(modes.residual, mode),
+                      entry(modes.damping_ratio, mode),
+                      entry(modes.fit_error, mode),
+                      mode >= n - modes.n_attachment};
     table += row_of(mode_columns(), row) + "\n";
   }
   write_whole(file, table);

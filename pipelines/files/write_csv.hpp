@@ -26,15 +26,16 @@ namespace microslip::pipelines {
 void write_curve(const std::filesystem::path& folder, const CurveResult& result,
                  Eigen::Index n_modes);
 
-/// One row per mode. Members of another size than `frequency` leave their column empty.
+/// One row per mode. Members that are shorter than `frequency` leave the rest of their column empty.
 struct ModeTable {
   Eigen::VectorXd frequency;      ///< ω [rad/s], N
-  Eigen::VectorXd residual;       ///< of the eigenpair [-]; none for modes that were given
+  Eigen::VectorXd residual;       ///< of the eigenpair [-]; none for modes that were given, and attachment shapes
   Eigen::VectorXd damping_ratio;  ///< [-]
   Eigen::VectorXd fit_error;      ///< of the fitted contact field, relative [-]
+  Eigen::Index n_attachment = 0;  ///< so many of them, the last, are attachment shapes
 };
 
-/// modes.csv: `mode,frequency_Hz,residual,damping_ratio,fit_error`.
+/// modes.csv: `mode,frequency_Hz,residual,damping_ratio,fit_error,kind`; kind is free or attachment.
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
 

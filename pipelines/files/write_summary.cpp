@@ -53,7 +53,8 @@ Json to_json(const MeshSummary& mesh) {
 Json to_json(const ModeSummary& mode) {
   Json json{{"frequency_Hz", hertz(mode.frequency)},
             {"damping_ratio", mode.damping_ratio},
-            {"residual", or_null(mode.residual)}};
+            {"residual", or_null(mode.residual)},
+            {"kind", mode.is_attachment ? "attachment" : "free"}};
   if (mode.fit_error) json["fit_error"] = *mode.fit_error;
   return json;
 }
@@ -99,6 +100,7 @@ Json to_json(const CurveSummary& curve) {
   for (const double fold : curve.folds) folds.push_back(hertz(fold));
   return {{"name", curve.name},
           {"preload_N", to_json(curve.preload)},
+          {"gap_m", or_null(curve.gap)},
           {"preload_scale", curve.preload_scale ? Json(*curve.preload_scale) : Json(nullptr)},
           {"preload_carried_N", or_null(curve.preload_carried)},
           {"preload_integral_N", or_null(curve.preload_integral)},

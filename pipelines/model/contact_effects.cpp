@@ -28,7 +28,7 @@ void require_stiffness_along_r(const ReducedModel& model) {
   throw RefusedError(fmt::format(
       "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} "
       "N/m^3): "
-      "give a finite local stiffness, more modes, or modes.residual = \"none\"",
+      "give a finite local stiffness and modes.residual = \"attachment\", or more modes",
       smallest));
 }
 

@@ -4,18 +4,22 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/model/preload_of.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-/// Σ∬k_v dA [N/m].
-double total_normal_stiffness(const ReducedModel& model) {
-  double total = 0.0;
-  for (const contact::Patch& patch : model.patches) {
-    total += patch.cells.stiffness.col(1).dot(patch.cells.weights);
+/// 1/k = 1/k_local + c: the factor is that of k_local.
+void multiply_local_stiffness(contact::PatchSamples& samples, double factor) {
+  const bool in_series = samples.compliance.rows() > 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (Eigen::Index i = 0; i < samples.stiffness.rows(); ++i) {
+      double& stiffness = samples.stiffness(i, axis);
+      const double body = in_series ? samples.compliance(i, axis) : 0.0;
+      stiffness *= factor / (1.0 + (factor - 1.0) * stiffness * body);
+    }
   }
-  return total;
 }
 
 }  // namespace
@@ -51,8 +55,8 @@ ReducedModel with_point_stiffness(ReducedModel model, double factor, double load
     for (double& preload : patch.cells.preload) {
       if (load * preload < 0.0) preload *= factor;
     }
-    patch.cells.stiffness *= factor;
-    patch.vertices.stiffness *= factor;
+    multiply_local_stiffness(patch.cells, factor);
+    multiply_local_stiffness(patch.vertices, factor);
   }
   return model;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "contact/patch/modal_contact_field.hpp"
+#include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -31,25 +32,12 @@ Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::In
   return values;
 }
 
-/// Mean over the nodes of a named point or set: the motion a force spread evenly over them works on.
-Eigen::VectorXd mean_motion(const mesh::Mesh& mesh, const Eigen::MatrixXd& shapes,
-                            const std::string& at, const Eigen::Vector3d& direction) {
-  return along(shapes, mesh.node_set(at), direction).colwise().mean().transpose();
-}
-
 void set_excitation(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
                     const Eigen::MatrixXd& shapes) {
-  const Eigen::Index n_modes = shapes.cols();
-  model.force_sine = Eigen::VectorXd::Zero(n_modes);
-  model.force_cosine = Eigen::VectorXd::Zero(n_modes);
-  model.force_static = Eigen::VectorXd::Zero(n_modes);
-  for (const ForceDescription& force : scene.forces) {
-    // F sin(θ + φ) = F cos φ sin θ + F sin φ cos θ
-    const double phase = force.phase_deg * std::numbers::pi / 180.0;
-    const Eigen::VectorXd motion = mean_motion(mesh, shapes, force.at, force.direction);
-    model.force_sine += force.amplitude * std::cos(phase) * motion;
-    if (force.phase_deg != 0.0) model.force_cosine += force.amplitude * std::sin(phase) * motion;
-  }
+  const Eigen::MatrixX2d modal = shapes.transpose() * excitation_loads(mesh, scene.forces);
+  model.force_sine = modal.col(0);
+  model.force_cosine = modal.col(1);
+  model.force_static = Eigen::VectorXd::Zero(shapes.cols());
 }
 
 /// Values at nodes → at cell centres and vertices, by the finite elements or by the fitted field.
@@ -255,8 +243,8 @@ Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen
   if (n_bad > 0 && refuse) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
-        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness, more modes, or "
-        "modes.residual = \"none\"",
+        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness and modes.residual = "
+        "\"attachment\", or more modes",
         direction, n_bad, residual.size(), flexibility.minCoeff()));
   }
   return flexibility.inverse();
@@ -292,12 +280,13 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
                                std::vector<std::string>& warnings) {
   ReducedModel model;
   model.frequency = basis.frequency;
-  model.damping_ratio = damping_ratios(scene.modes, basis.frequency);
+  model.n_attachment = basis.n_attachment;
+  model.damping_ratio = damping_ratios(scene.modes, basis.frequency, basis.n_attachment);
   set_excitation(model, mesh, scene, basis.shapes);
   model.output = Eigen::VectorXd::Zero(basis.frequency.size());
   if (scene.response) {
     const OutputDescription& output = scene.response->output;
-    model.output = mean_motion(mesh, basis.shapes, output.at, output.direction);
+    model.output = basis.shapes.transpose() * unit_load(mesh, output.at, output.direction);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactDescription& contact = scene.contacts[i];
@@ -312,6 +301,7 @@ ReducedModel reduced_model(const SceneDescription& scene) {
   const auto& modal = std::get<ModalModel>(scene.model);
   ReducedModel model;
   model.frequency = 2.0 * std::numbers::pi * modal.frequency_hz;
+  model.n_attachment = modal.n_attachment;
   model.damping_ratio = modal.damping_ratio;
   model.force_sine = modal.force_sine;
   model.force_cosine = modal.force_cosine;
@@ -328,6 +318,7 @@ ReducedModel reduced_model(const SceneDescription& scene) {
   contact::PatchSamples& cells = patch.cells;
   cells.weights = modal.weights;
   cells.shapes = modal.shapes;
+  cells.compliance = modal.compliance;
   cells.points = Eigen::MatrixX3d::Zero(n, 3);
   if (modal.positions.rows() == n) {
     cells.points.col(0) = modal.positions.col(0);  // frame is the identity: p, q, r are x, y, z

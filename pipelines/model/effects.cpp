@@ -86,8 +86,8 @@ std::string harmonics_text(const SceneDescription& scene) {
   }
   if (response.harmonic_tolerance > 0.0) {
     return fmt::format(
-        "response.harmonics = \"auto\": those beyond the first while they change the amplitude by more "
-        "than {:.2g} %",
+        "response.harmonics = \"auto\": those beyond the first that change the highest peaks by more than "
+        "{:.2g} %",
         100.0 * response.harmonic_tolerance);
   }
   if (response.harmonic_orders.empty()) {
@@ -115,8 +115,10 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       constant_load);
   add("separation", normal, "the contact is one-sided", constant_load);
   add("mean_coupling", normal, "the mean approach changes the load", constant_load);
-  add("residual", facts.has_contact && residual == ResidualKind::stiffness,
-      "flexibility of the omitted modes stands in series with the contact stiffness",
+  add("residual", facts.has_contact && residual != ResidualKind::none,
+      residual == ResidualKind::attachment
+          ? "static shapes of the contact and of the forces stand for omitted modes"
+          : "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"
                        : "the given stiffness is used as it is");
   const bool several = scene.response && scene.response->harmonics > 1;

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "contact/dense.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -68,7 +67,7 @@ Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixX
   Eigen::VectorXcd force(model.frequency.size());
   force.real() = model.force_sine;
   force.imag() = model.force_cosine;
-  return dynamic.partialPivLu().solve(force);
+  return contact::solved(dynamic, force);
 }
 
 /// Over the area of all patches.
@@ -104,9 +103,10 @@ std::vector<double> resonances(const ReducedModel& model, const Eigen::MatrixXd&
                                double low, double high) {
   Eigen::MatrixXd total = stiffness;
   total.diagonal() += model.frequency.array().square().matrix();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(total, Eigen::EigenvaluesOnly);
+  const auto squares = contact::symmetric_eigenvalues(total);
   std::vector<double> inside;
-  for (const double square : modes.eigenvalues()) {
+  if (!squares) return inside;
+  for (const double square : *squares) {
     const double resonance = std::sqrt(std::max(0.0, square));
     if (resonance >= low && resonance <= high) inside.push_back(resonance);
   }

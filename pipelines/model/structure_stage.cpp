@@ -1,5 +1,10 @@
 #include "pipelines/model/structure_stage.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,11 +13,52 @@
 #include "mesh/mesher_process.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/system/interrupt.hpp"
+#include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
+
+Eigen::MatrixXd nonzero_columns(const Eigen::MatrixXd& columns) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    if (columns.col(j).squaredNorm() > 0.0) kept.push_back(j);
+  }
+  return columns(Eigen::all, kept);
+}
+
+std::string attachment_text(const fem::AttachedBasis& attached) {
+  const fem::ModalBasis& basis = attached.basis;
+  if (basis.n_attachment == 0) return "attachment: the modes leave nothing out";
+  std::string text = fmt::format(
+      "attachment: {} static shapes of tractions up to degree {} and of the forces, from {:.6g} Hz to {:.6g} Hz",
+      basis.n_attachment, attached.degree, basis.frequency[basis.n_free()] / (2.0 * std::numbers::pi),
+      basis.frequency[basis.frequency.size() - 1] / (2.0 * std::numbers::pi));
+  if (attached.n_dropped > 0) text += fmt::format("; {} that depend on others left out", attached.n_dropped);
+  if (std::isfinite(attached.missed_share)) {
+    text += fmt::format("; tractions of degree {} miss at most {:.2g} % of their flexibility", attached.degree + 1,
+                        100.0 * attached.missed_share);
+  }
+  return text;
+}
+
+/// Attachment shapes of the contacts and of the forces behind the modes.
+void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
+            StructureModes& result) {
+  fem::AttachmentOptions options;
+  options.degree = scene.modes.attachment_degree;
+  std::vector<fem::AttachmentFace> faces;
+  for (const ContactDescription& contact : scene.contacts) {
+    const double tangential = contact.tangential_stiffness.value();  // settle_residual() saw to both
+    const Eigen::Vector3d local(tangential, contact.normal_stiffness.value(), tangential);
+    faces.push_back({mesh.surface(contact.surface), contact_frame(mesh, contact), local});
+  }
+  fem::AttachedBasis attached = structure.attach(
+      result.basis, faces, nonzero_columns(excitation_loads(mesh, scene.forces)), options);
+  result.attachment_text = attachment_text(attached);
+  result.basis = std::move(attached.basis);
+}
 
 /// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
 template <typename LookUp>
@@ -90,6 +136,9 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
       result.residuals.push_back(structure.residual_flexibility(
           result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact)));
     }
+  }
+  if (!scene.contacts.empty() && scene.modes.residual == ResidualKind::attachment) {
+    attach(structure, mesh, scene, result);
   }
   result.timings = structure.timings();
   return result;

@@ -26,6 +26,8 @@ struct StructureModes {
   double mass = 0.0;        ///< [kg]
   fem::ModalBasis basis;
   std::vector<fem::ResidualFlexibility> residuals;  ///< of the contact surfaces, one each; empty: none
+  /// How the attachment shapes of `basis` were chosen, "" without them.
+  std::string attachment_text;
   fem::ModalTimings timings;
 };
 

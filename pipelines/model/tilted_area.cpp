@@ -32,14 +32,13 @@ std::vector<Moments> moments_of(const SceneDescription& scene) {
   return moments;
 }
 
-void require_pressing(const Moments& moments, const std::string& name, double load) {
+void require_pressing(const Moments& moments, const std::string& name, double load, const char* unit = "N") {
   if (load > 0.0) return;
-  throw RefusedError(
-      fmt::format("preload-unbalanced: {} = {:g} N: {} = [{:g}, {:g}] N m turns the contact under "
-                  "every preload, and {} "
-                  "carries no moment; leave this preload out, or the moments",
-                  name, load, moments.key, moments.moment[0], moments.moment[1],
-                  load < 0.0 ? "a gap (a negative preload)" : "a contact without load"));
+  throw RefusedError(fmt::format(
+      "preload-unbalanced: {} = {:g} {}: {} = [{:g}, {:g}] N m turns the contact under every preload, and {} "
+      "carries no moment; leave this preload out, or the moments",
+      name, load, unit, moments.key, moments.moment[0], moments.moment[1],
+      load < 0.0 ? "a gap (a negative preload)" : "a contact without load"));
 }
 
 }  // namespace
@@ -48,7 +47,10 @@ void require_pressing_loads(const SceneDescription& scene) {
   for (const Moments& moments : moments_of(scene)) {
     for (std::size_t i = 0; i < scene.response->preload.size(); ++i) {
       const auto* load = std::get_if<double>(&scene.response->preload[i]);
-      if (load != nullptr) require_pressing(moments, fmt::format("response.preload[{}]", i), *load);
+      const auto* gap = std::get_if<UniformGap>(&scene.response->preload[i]);
+      const std::string place = fmt::format("response.preload[{}]", i);
+      if (load != nullptr) require_pressing(moments, place, *load);
+      if (gap != nullptr) require_pressing(moments, place + ": minus the gap", -gap->width, "m");
     }
     const auto& optimum = scene.response->optimum;
     if (optimum && optimum->of_preload() && optimum->range) {

@@ -26,7 +26,7 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
     if (effect.name != "higher_harmonics") continue;
     effect.simulated = *orders.rbegin() > 1;
     effect.reason = fmt::format(
-        "{}; up to {} at a point, of the orders {}; those left out change it by {:.2g} % at most",
+        "{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
         harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
   }
 }

@@ -6,10 +6,12 @@
 #include <memory>
 #include <numbers>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/preload_of.hpp"
+#include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
@@ -81,9 +83,15 @@ void add_limit_shares(const ReducedModel& model, CurveResult& result) {
   }
 }
 
-solver::Scene integrated_scene(const ReducedModel& model, double load) {
-  solver::Scene problem = solver_scene(model, load);
-  problem.transient = transient_force(model, load);
+Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
+  return slowing(model, two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));
+}
+
+/// Explicit steps need not follow attachment shapes, see slow_attachment.hpp.
+solver::Scene integrated_scene(const ReducedModel& model, const ResponseDescription& response, double load) {
+  const ReducedModel slow = slowed(model, slowing_of(model, response));
+  solver::Scene problem = solver_scene(slow, load);
+  problem.transient = transient_force(slow, load);
   return problem;
 }
 
@@ -139,13 +147,13 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const solver::Scene problem = limit_scene(model);
   Eigen::MatrixXd stuck = model.frequency.array().square().matrix().asDiagonal();
   if (problem.contact) stuck += problem.contact->stuck_stiffness();
-  const Eigen::FullPivLU<Eigen::MatrixXd> factors(stuck);
-  if (factors.isInvertible()) return;
+  const Eigen::Index n_loose = contact::nullity(stuck);
+  if (n_loose == 0) return;
   const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
       "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
       "with every contact point stuck): {}",
-      n_rigid, model.frequency.size(), factors.dimensionOfKernel(),
+      n_rigid, model.frequency.size(), n_loose,
       has_supports ? "name the clamped surfaces in [supports] clamped"
                    : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
 }
@@ -155,7 +163,8 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
       model.patches, [](const contact::Patch& patch) { return !patch.tilted_areas.empty(); });
   if (!tilts) return;
   for (const CurveRequest& request : curve_requests(scene)) {
-    const auto* load = std::get_if<double>(&request.preload);
+    const auto preload = preload_of(request, model);
+    const auto* load = std::get_if<double>(&preload);
     if (load != nullptr) static_cast<void>(contact_of(model, *load));
   }
   const auto& optimum = scene.response->optimum;
@@ -167,10 +176,11 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
 void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   require_finite(model, scene);
   require_loads(model, scene);
-  if (scene.response->method != ResponseDescription::Method::time) return;
+  const bool in_time = scene.response->method == ResponseDescription::Method::time;
   for (const CurveRequest& request : curve_requests(scene)) {
-    if (const auto* load = std::get_if<double>(&request.preload)) {
-      require_steps(integrated_scene(model, *load), *scene.response);
+    const auto preload = preload_of(request, model);
+    if (const auto* load = std::get_if<double>(&preload); load != nullptr && in_time) {
+      require_steps(integrated_scene(model, *scene.response, *load), *scene.response);
     }
   }
 }
@@ -199,8 +209,9 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   const solver::ContinuationOptions options = continuation_options(*scene.response);
   CurveResult result;
   result.name = request.name;
-  result.preload = request.preload;
-  if (const auto* limit = std::get_if<LimitName>(&request.preload)) {
+  result.preload = preload_of(request, model);
+  if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
+  if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
     result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
@@ -208,9 +219,16 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
     add_limit_shares(model, result);
     return result;
   }
-  const double load = std::get<double>(request.preload);
+  const double load = std::get<double>(result.preload);
   if (scene.response->method == ResponseDescription::Method::time) {
-    result.curve = integrate_curve(integrated_scene(model, load), *scene.response, observe);
+    const Eigen::VectorXd factors = slowing_of(model, *scene.response);
+    const auto in_modes = [&](solver::ResponsePoint point) {
+      point.q.rows() *= factors.asDiagonal();
+      return point;
+    };
+    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), *scene.response,
+                                   [&](const auto& point) { return observe(in_modes(point)); });
+    for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
     add_patch_shares(model, load, result);
     return result;

@@ -41,6 +41,7 @@ struct CurveResult {
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
   std::vector<PatchShares> patch_shares;  ///< where there are several patches, else empty
+  std::optional<double> gap;  ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 

@@ -5,8 +5,8 @@
 namespace microslip::pipelines {
 namespace {
 
-std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row, Eigen::Index n_rows) {
-  if (column.size() != n_rows) return std::nullopt;
+std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
+  if (row >= column.size()) return std::nullopt;
   return column[row];
 }
 
@@ -38,6 +38,7 @@ CurveSummary summarise(const CurveResult& result) {
   CurveSummary summary;
   summary.name = result.name;
   summary.preload = result.preload;
+  summary.gap = result.gap;
   summary.complete = result.curve.complete;
   summary.diagnosis = result.curve.diagnosis;
   summary.message = result.curve.message;
@@ -70,12 +71,13 @@ Eigen::VectorXd worst_fit_error(const ReducedModel& model) {
 std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
                                          const Eigen::VectorXd& damping_ratio,
                                          const Eigen::VectorXd& residual,
-                                         const Eigen::VectorXd& fit_error) {
+                                         const Eigen::VectorXd& fit_error,
+                                         Eigen::Index n_attachment) {
   const Eigen::Index n = frequency.size();
   std::vector<ModeSummary> modes;
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    modes.push_back({frequency[mode], entry(damping_ratio, mode, n).value_or(0.0),
-                     entry(residual, mode, n), entry(fit_error, mode, n)});
+    modes.push_back({frequency[mode], entry(damping_ratio, mode).value_or(0.0), entry(residual, mode),
+                     entry(fit_error, mode), mode >= n - n_attachment});
   }
   return modes;
 }

@@ -28,8 +28,9 @@ struct MeshSummary {
 struct ModeSummary {
   double frequency = 0.0;  ///< ω [rad/s]
   double damping_ratio = 0.0;
-  std::optional<double> residual;   ///< none for modes that were given
+  std::optional<double> residual;   ///< none for modes that were given, and attachment shapes
   std::optional<double> fit_error;  ///< none without a fit
+  bool is_attachment = false;       ///< a static shape that stands for omitted modes
 };
 
 struct PeakSummary {
@@ -41,6 +42,7 @@ struct PeakSummary {
 struct CurveSummary {
   std::string name;
   std::variant<double, LimitName> preload;  ///< total [N], or a limit
+  std::optional<double> gap;                ///< the preload was given as this length [m]
   std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
   /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
   std::optional<double> preload_carried, preload_integral;
@@ -101,10 +103,12 @@ struct RunSummary {
 /// Of the fitted mode shapes, per mode the largest over the patches; empty where nothing is fitted.
 [[nodiscard]] Eigen::VectorXd worst_fit_error(const ReducedModel& model);
 
-/// @param residual, fit_error  N, or of another size where they do not exist.
+/// @param residual, fit_error  N, or shorter: the last have none.
+/// @param n_attachment  so many of them, the last, are attachment shapes.
 [[nodiscard]] std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
                                                        const Eigen::VectorXd& damping_ratio,
                                                        const Eigen::VectorXd& residual,
-                                                       const Eigen::VectorXd& fit_error);
+                                                       const Eigen::VectorXd& fit_error,
+                                                       Eigen::Index n_attachment = 0);
 
 }  // namespace microslip::pipelines

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <Eigen/Eigenvalues>
 
+#include "contact/dense.hpp"
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/model/contact_effects.hpp"
@@ -103,8 +104,9 @@ Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
   const solver::Scene scene = limit_scene(model);
   Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
   if (scene.contact) K += scene.contact->stuck_stiffness();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, Eigen::EigenvaluesOnly);
-  return pairs.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+  const auto squares = contact::symmetric_eigenvalues(K);
+  if (!squares) throw std::runtime_error("the eigenvalues of the stuck structure do not converge");
+  return squares->cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
 void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pipelines/system/interrupt.hpp"
+#include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
 
 namespace microslip::pipelines {
@@ -58,7 +59,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
     results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
-      record.note_point(requests[i].name, requests[i].preload, point);
+      record.note_point(requests[i].name, preload_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
       record.progress().point(requests[i].name, point,
                               (static_cast<double>(done) + share) /

@@ -27,12 +27,13 @@ std::vector<std::string> modes_text(const StructureModes& modes) {
     lines.push_back(fmt::format("{} rigid-body modes: nothing holds the structure against them",
                                modes.basis.n_rigid_body));
   }
-  for (Eigen::Index i = 0; i < modes.basis.frequency.size(); ++i) {
+  for (Eigen::Index i = 0; i < modes.basis.n_free(); ++i) {
     lines.push_back(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
                                to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
   }
   lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
-                             modes.basis.inertia_count, modes.basis.frequency.size()));
+                             modes.basis.inertia_count, modes.basis.n_free()));
+  if (!modes.attachment_text.empty()) lines.push_back(modes.attachment_text);
   return lines;
 }
 

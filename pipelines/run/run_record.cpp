@@ -137,10 +137,12 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   const std::lock_guard lock(mutex_);
   summary_.mesh->degrees_of_freedom = modes.n_dofs;
   summary_.mesh->mass = modes.mass;
-  summary_.modes = summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {});
+  const Eigen::Index n_attachment = modes.basis.n_attachment;
+  summary_.modes =
+      summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {}, n_attachment);
   if (!writes_) return;
   write_modes_csv(folder_ / "modes.csv",
-                  {modes.basis.frequency, modes.basis.residual, damping_ratio, {}});
+                  {modes.basis.frequency, modes.basis.residual, damping_ratio, {}, n_attachment});
   write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
 }
 
@@ -159,16 +161,17 @@ void RunRecord::keep_model(const ReducedModel& model) {
   const std::lock_guard lock(mutex_);
   Eigen::VectorXd residual(0);
   if (!summary_.modes.empty() && summary_.modes.front().residual) {
-    residual.resize(static_cast<Eigen::Index>(summary_.modes.size()));
+    residual.resize(model.frequency.size() - model.n_attachment);
     for (Eigen::Index i = 0; i < residual.size(); ++i) {
       residual[i] = *summary_.modes[static_cast<std::size_t>(i)].residual;
     }
   }
   const Eigen::VectorXd fit_error = worst_fit_error(model);
-  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, fit_error);
+  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, fit_error,
+                                   model.n_attachment);
   if (!writes_) return;
   write_modes_csv(folder_ / "modes.csv",
-                  {model.frequency, residual, model.damping_ratio, fit_error});
+                  {model.frequency, residual, model.damping_ratio, fit_error, model.n_attachment});
   write_model(folder_ / "model.h5", model);
 }
 

@@ -8,9 +8,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "contact/dense.hpp"
 #include "pipelines/scene/modes_section.hpp"
 
 namespace microslip::pipelines {
@@ -152,13 +151,12 @@ Eigen::MatrixXd chain_stiffness(Eigen::Index n_masses, const Eigen::VectorXd& sp
 }
 
 ChainSystem modes_of_matrices(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
-  if (M.llt().info() != Eigen::Success) {
+  if (!contact::is_positive_definite(M)) {
     throw std::invalid_argument("the mass matrix is not positive definite");
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pairs(K, M);
-  if (pairs.info() != Eigen::Success)
-    throw std::invalid_argument("the eigenvalues do not converge");
-  Eigen::VectorXd values = pairs.eigenvalues();
+  const auto pairs = contact::symmetric_pairs(K, M);
+  if (!pairs) throw std::invalid_argument("the eigenvalues do not converge");
+  Eigen::VectorXd values = pairs->values;
   const double rounding = 10.0 * static_cast<double>(K.rows()) *
                           std::numeric_limits<double>::epsilon() * values.cwiseAbs().maxCoeff();
   if (values.minCoeff() < -rounding) {
@@ -166,7 +164,7 @@ ChainSystem modes_of_matrices(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M
         fmt::format("the stiffness matrix has the negative eigenvalue {:g}", values.minCoeff()));
   }
   values = (values.array() > rounding).select(values, 0.0);
-  ChainSystem system{{}, values.cwiseSqrt(), pairs.eigenvectors()};
+  ChainSystem system{{}, values.cwiseSqrt(), pairs->vectors};
   for (auto shape : system.shapes.colwise()) {
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);

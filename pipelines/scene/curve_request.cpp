@@ -11,6 +11,9 @@ CurveRequest request_of(const PreloadEntry& entry) {
   if (const auto* limit = std::get_if<LimitName>(&entry)) {
     return {*limit == LimitName::free ? "free" : "stuck", *limit};
   }
+  if (const auto* gap = std::get_if<UniformGap>(&entry)) {
+    return {fmt::format("gap_{:g}um", 1e6 * gap->width), *gap};
+  }
   return {fmt::format("preload_{:g}", std::get<double>(entry)), std::get<double>(entry)};
 }
 

@@ -14,7 +14,7 @@ namespace microslip::pipelines {
 /// limit.
 struct CurveRequest {
   std::string name;                          ///< stem of the CSV
-  std::variant<double, LimitName> preload;   ///< [N], or the scale
+  PreloadEntry preload;  ///< [N], or the scale
 };
 
 /// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.

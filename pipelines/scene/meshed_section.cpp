@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -78,6 +81,23 @@ std::vector<std::string> read_names(const SectionReader& s, std::string_view key
   return names;
 }
 
+namespace {
+
+constexpr int highest_attachment_degree = 12;
+
+std::optional<int> read_attachment_degree(const SectionReader& s) {
+  const toml::node& node = *s.node("attachment_degree");
+  if (node.is_string() && node.value<std::string>() == "auto") return std::nullopt;
+  const auto degree = node.value<std::int64_t>();
+  if (!node.is_integer() || *degree < 0 || *degree > highest_attachment_degree) {
+    s.fail("attachment_degree",
+           fmt::format("expected a degree from 0 to {}, or \"auto\"", highest_attachment_degree), &node);
+  }
+  return static_cast<int>(*degree);
+}
+
+}  // namespace
+
 ModesDescription read_modes(const SectionReader& s) {
   ModesDescription modes;
   modes.count = s.integer("count");
@@ -90,10 +110,39 @@ ModesDescription read_modes(const SectionReader& s) {
         fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
         given);
   }
-  constexpr std::array<std::string_view, 2> residuals{"stiffness", "none"};
-  modes.residual =
-      s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::stiffness;
+  constexpr std::array<std::string_view, 3> residuals{"attachment", "stiffness", "none"};
+  const std::string residual = s.word("residual", residuals);
+  modes.residual = residual == "none"        ? ResidualKind::none
+                   : residual == "stiffness" ? ResidualKind::stiffness
+                                             : ResidualKind::attachment;
+  modes.residual_given = s.given("residual");
+  modes.attachment_degree = read_attachment_degree(s);
+  if (modes.attachment_degree && modes.residual != ResidualKind::attachment) {
+    s.fail("attachment_degree", fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
+           s.node("attachment_degree"));
+  }
   return modes;
+}
+
+void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDescription& contact) {
+  const char* rigid = !contact.normal_stiffness       ? "normal_stiffness"
+                      : !contact.tangential_stiffness ? "tangential_stiffness"
+                                                      : nullptr;
+  if (rigid == nullptr || modes.residual != ResidualKind::attachment) return;
+  if (modes.residual_given || modes.attachment_degree) {
+    const char* key = modes.residual_given ? "residual" : "attachment_degree";
+    s.fail(key,
+           fmt::format("attachment shapes leave the contact its local stiffness alone, and contact.{} = \"rigid\" "
+                       "gives none; give a stiffness in N/m^3, or modes.residual = \"stiffness\"",
+                       rigid),
+           s.node(key));
+  }
+  modes.residual = ResidualKind::stiffness;
+  modes.residual_note = fmt::format(
+      "contact.{} = \"rigid\": modes.residual = \"stiffness\" is used, the omitted modes are all the stiffness "
+      "there is",
+      rigid);
+  s.complete("residual", "stiffness");
 }
 
 std::vector<ForceDescription> read_forces(SectionReader& s) {

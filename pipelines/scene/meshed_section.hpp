@@ -19,6 +19,10 @@ namespace microslip::pipelines {
 [[nodiscard]] fem::Material read_material(const SectionReader& s);
 [[nodiscard]] std::vector<std::string> read_names(const SectionReader& s, std::string_view key);
 [[nodiscard]] ModesDescription read_modes(const SectionReader& s);
+/// Attachment shapes need a local stiffness to stand behind: a rigid contact takes the residual stiffness instead
+/// where the scene does not say. @param s  [modes].
+/// @throws SceneError  it says attachment.
+void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDescription& contact);
 [[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s);
 
 }  // namespace microslip::pipelines

@@ -1,6 +1,7 @@
 #include "pipelines/scene/modal_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -94,7 +95,7 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
   std::vector<std::string> names{
       "id",      "weight", "tangential_stiffness", "tangential_stiffness_r", "normal_stiffness",
-      "friction_coefficient", "preload", "p", "r"};
+      "friction_coefficient", "preload", "residual_p", "residual_q", "residual_r", "p", "r"};
   for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
     for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
   }
@@ -133,6 +134,48 @@ Eigen::MatrixXd shape_columns(const CsvTable& table, const std::string& stem, Ei
   return shapes;
 }
 
+/// 1/k = 1/k_local + c along one direction (theory section 14). @param place  of the column, for messages.
+double in_series(double local, double flexibility, const std::string& place) {
+  if (local == 0.0 || flexibility == 0.0) return local;
+  const double whole = 1.0 / local + flexibility;
+  if (!(whole > 0.0)) {
+    throw SceneError(place + fmt::format("{:g} m^3/N makes the contact stiffness not positive: 1/k_local is {:g}",
+                                         flexibility, 1.0 / local));
+  }
+  return 1.0 / whole;
+}
+
+/// Flexibility of omitted modes at the points, where the table has it, into their stiffness.
+void add_residual(ModalModel& model, const CsvTable& table) {
+  const std::array names{"residual_p", "residual_q", "residual_r"};
+  if (std::none_of(names.begin(), names.end(), [&](const char* name) { return table.find(name).has_value(); })) return;
+  const Eigen::Index n = model.weights.size();
+  model.residual = ResidualKind::stiffness;
+  model.compliance = Eigen::MatrixX3d::Zero(n, 3);
+  if (model.second_stiffness.size() == 0) {
+    model.second_stiffness.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      model.second_stiffness[i] = model.points[static_cast<std::size_t>(i)].tangential_stiffness;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = table.find(names[static_cast<std::size_t>(axis)]);
+    if (!column) continue;
+    for (std::size_t i = 0; i < table.n_rows(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      contact::PointParameters& point = model.points[i];
+      double& stiffness = axis == 0   ? point.tangential_stiffness
+                          : axis == 1 ? point.normal_stiffness
+                                      : model.second_stiffness[row];
+      model.compliance(row, axis) = table.at(i, *column);
+      const double local = stiffness;
+      stiffness = in_series(local, model.compliance(row, axis), table.place(i, *column));
+      // A gap is −preload over the stiffness of its row: the length stays.
+      if (axis == 1 && point.preload < 0.0 && local > 0.0) point.preload *= stiffness / local;
+    }
+  }
+}
+
 }  // namespace
 
 void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) {
@@ -158,6 +201,7 @@ void set_points(ModalModel& model, const CsvTable& table, Eigen::Index n_modes) 
       model.second_stiffness[static_cast<Eigen::Index>(i)] = not_negative(table, i, *second);
     }
   }
+  add_residual(model, table);
   const auto p = table.find("p");
   const auto r = table.find("r");
   if (!p && !r) return;
@@ -179,6 +223,12 @@ ModalModel read_modal(SectionReader section, const std::filesystem::path& folder
   model.force_cosine = per_mode(section, "force_cosine", n);
   model.force_static = per_mode(section, "force_static", n);
   model.output = per_mode(section, "output", n);
+  model.n_attachment = section.integer("attachment");
+  if (model.n_attachment >= n) {
+    section.fail("attachment", fmt::format("{} of {} modes: at least one is free", model.n_attachment, n),
+                 section.node("attachment"));
+  }
+  if (model.n_attachment > 0) model.residual = ResidualKind::attachment;
   const toml::node& points = *section.node("points");
   if (const auto file = points.value<std::string>(); file && points.is_string()) {
     const std::filesystem::path path =

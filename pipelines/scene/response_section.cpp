@@ -133,6 +133,11 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
     if (word == "free") return LimitName::free;
     if (word == "stuck") return LimitName::stuck;
   }
+  if (const toml::table* table = entry.as_table()) {
+    toml::table complete;  // the entry itself says all there is to say
+    const SectionReader gap(table, section_spec("gap"), "response.preload", s.file(), complete);
+    return UniformGap{gap.number("gap")};
+  }
   constexpr std::array<std::string_view, 2> words{"free", "stuck"};
   return s.number_or_word_in(entry, "preload", words);
 }

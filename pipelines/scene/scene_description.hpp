@@ -30,7 +30,7 @@ struct MeshFileModel {
   double length_unit = 1.0;    ///< metres per unit of the file
 };
 
-enum class ResidualKind { none, stiffness };
+enum class ResidualKind { none, stiffness, attachment };
 
 using contact::LoadMeasure;
 using contact::TiltedArea;
@@ -50,6 +50,8 @@ struct ModalModel {
   LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
   std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
   ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
+  Eigen::MatrixX3d compliance;            ///< that residual along p, q, r [m³/N]; 0 rows: not known apart
+  Eigen::Index n_attachment = 0;          ///< so many modes, the last, are attachment shapes
   std::optional<double> local_stiffness;  ///< contact.tangential_stiffness where that is so [N/m²]
 };
 
@@ -61,7 +63,10 @@ struct RayleighDamping {
 struct ModesDescription {
   int count = 10;
   std::variant<std::vector<double>, RayleighDamping> damping;  ///< ratios: one for all, or one per mode
-  ResidualKind residual = ResidualKind::stiffness;
+  ResidualKind residual = ResidualKind::attachment;
+  std::optional<int> attachment_degree;  ///< of the tractions; without value: chosen
+  bool residual_given = false;           ///< the scene says which; else a rigid contact takes `stiffness`
+  std::string residual_note;             ///< that it did so, for the log; else empty
 };
 
 /// One patch of a meshed scene.
@@ -99,7 +104,12 @@ struct OutputDescription {
 };
 
 enum class LimitName { free, stuck };
-using PreloadEntry = std::variant<double, LimitName>;  ///< [N], or a linear limit
+/// A uniform gap given as a length: the same whatever stiffness the contact has.
+struct UniformGap {
+  double width = 0.0;  ///< [m], > 0
+  [[nodiscard]] bool operator==(const UniformGap&) const = default;
+};
+using PreloadEntry = std::variant<double, LimitName, UniformGap>;  ///< [N], a linear limit, or a gap
 enum class MapName { peak, folds };
 using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 

@@ -108,6 +108,15 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
+/// One harmonic is meant by a scene that does not say and asks for what knows no more, or has all of them.
+void complete_harmonics(toml::table& given) {
+  toml::table* response = given["response"].as_table();
+  if (response == nullptr || response->contains("harmonics")) return;
+  const bool in_time = given["response"]["method"].value<std::string>() == "time";
+  const bool off = given["effects"]["higher_harmonics"].value<std::string>() == "off";
+  if (in_time || off) response->insert("harmonics", 1);
+}
+
 /// Without contact there is no preload to set, and none to choose.
 std::string contact_keys_without_contact(const SectionReader& response) {
   for (const char* key : {"preload", "optimum", "maps"}) {
@@ -146,9 +155,11 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   const SectionReader supports = reading.section("supports", "supports");
   scene.clamped = read_names(supports, "clamped");
   scene.clamped_place = supports.place("clamped");
-  scene.modes = read_modes(reading.section("modes", "modes"));
+  SectionReader modes = reading.section("modes", "modes");
+  scene.modes = read_modes(modes);
   for (const SectionReader& section : reading.contacts()) {
     scene.contacts.push_back(read_contact(section, reading.folder));
+    settle_residual(modes, scene.modes, scene.contacts.back());
   }
   require_distinct(scene.contacts);
   SectionReader excitation = reading.section("excitation", "excitation");
@@ -162,7 +173,9 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
 
 void read_modal_scene(Reading& reading, SceneDescription& scene) {
   static_cast<void>(reading.section("model", "model.modal"));
-  scene.model = read_modal(reading.section("modal", "modal"), reading.folder);
+  ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
+  scene.modes.residual = model.residual;
+  scene.model = std::move(model);
   scene.rules = read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
@@ -200,6 +213,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   Reading reading{std::move(given), {}, name, folder};
   const std::string kind = kind_of(reading);
   check_sections(reading, kind);
+  complete_harmonics(reading.given);
   SceneDescription scene;
   scene.file = name;
   if (const toml::node* title = reading.given.get("title")) {
@@ -216,7 +230,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  const bool has_residual = kind != "modal" && scene.modes.residual == ResidualKind::stiffness;
+  const bool has_residual = scene.modes.residual != ResidualKind::none;
   scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;

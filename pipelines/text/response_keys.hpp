@@ -21,11 +21,13 @@ inline constexpr KeySpec time_points_key{"points", integer, "", "40", 2, 100'000
 inline constexpr KeySpec steps_key{
     "steps_per_period", integer, "", "0", 0, 10'000'000, false,
     "of method = \"time\": fixed steps of fourth-order Runge-Kutta as in paper B; 0: every change of contact located"};
-inline constexpr KeySpec harmonics_key{"harmonics", other, "", "1", 1, 99, false,
-                                "highest harmonic, a list such as [1, 3, 5], or \"auto\": chosen point by point"};
+inline constexpr KeySpec harmonics_key{
+    "harmonics", other, "", "\"auto\"", 1, 99, false,
+    "highest harmonic, a list such as [1, 3, 5], or \"auto\": chosen by what they do to the peaks of a curve; 1 "
+    "where that is all a method knows"};
 inline constexpr KeySpec harmonic_tolerance_key{
-    "harmonic_tolerance", number, "1", "0.001", 1e-9, 0.1, false,
-    "of harmonics = \"auto\": share of the amplitude that the harmonics left out may change"};
+    "harmonic_tolerance", number, "1", "0.01", 1e-9, 0.1, false,
+    "of harmonics = \"auto\": share of a peak's amplitude that the harmonics left out may change"};
 inline constexpr KeySpec search_key{"search_starts", integer, "", "0", 0, 1000, false,
                              "starts per frequency of a search for branches detached from the curve, or for other "
                              "solutions at a single frequency; 0: none"};
@@ -35,7 +37,8 @@ inline constexpr KeySpec phases_key{"map_phases", integer, "", "24", 4, 3600, fa
 
 inline constexpr KeySpec preload_key{
     "preload", other, "N", "[\"free\", \"stuck\"]", 0, 0, false,
-    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; \"free\", \"stuck\""};
+    "total normal force carried, one curve each; negative: uniform gap −preload/∬k_v dA; { gap = \"8 um\" }: a gap "
+    "that does not depend on stiffness; \"free\", \"stuck\""};
 inline constexpr KeySpec optimum_key{"optimum", text, "", "", 0, 0, false,
                               "the number whose best value is searched: \"preload\", or any key of the "
                               "scene, e.g. \"contact.friction_coefficient\"", true};

@@ -106,8 +106,12 @@ constexpr KeySpec damping_key{"damping_ratio", other, "1", "0.002", 0, 0, false,
 constexpr std::array mode_keys{
     KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes"},
     damping_key,
-    KeySpec{"residual", text, "", "\"stiffness\"", 0, 0, false,
-            "omitted modes on the contact: stiffness | none"},
+    KeySpec{"residual", text, "", "\"attachment\"", 0, 0, false,
+            "omitted modes on the contact: attachment (static shapes; they take the last damping ratio of a "
+            "list) | stiffness (in series with the contact, paper A; what a rigid contact takes) | none"},
+    KeySpec{"attachment_degree", other, "", "\"auto\"", 0, 0, false,
+            "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest that leaves no "
+            "traction of the next degree more than 30 % of its residual flexibility short"},
 };
 
 constexpr std::array bar_mode_keys{
@@ -244,6 +248,10 @@ constexpr std::array force_keys{
     KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
 };
 
+constexpr std::array gap_keys{
+    KeySpec{"gap", number, "m", "", 0.0, unbounded, true, "uniform gap"},
+};
+
 constexpr std::array output_keys{
     KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface (mean over its nodes)"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
@@ -257,7 +265,11 @@ constexpr std::array modal_keys{
     KeySpec{"force_cosine", other, "N/kg^0.5", "0", 0, 0, false, "of cos θ"},
     KeySpec{"force_static", other, "N/kg^0.5", "0", 0, 0, false, "static modal force"},
     KeySpec{"output", other, "1/kg^0.5", "", 0, 0, false, "y = Σ output_m q_m"},
-    KeySpec{"points", other, "", "[]", 0, 0, false, "contact points: a CSV file, or a list of tables"},
+    KeySpec{"attachment", integer, "", "0", 0, 1000, false,
+            "so many of the modes, the last, are static shapes that stand for omitted modes"},
+    KeySpec{"points", other, "", "[]", 0, 0, false,
+            "contact points: a CSV file, or a list of tables; residual_p, residual_q, residual_r [m^3/N]: flexibility "
+            "of omitted modes in series with the stiffness of a point"},
 };
 
 constexpr std::array effect_keys{
@@ -272,7 +284,7 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
-constexpr std::array<SectionSpec, 34> sections{{
+constexpr std::array<SectionSpec, 35> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -283,6 +295,7 @@ constexpr std::array<SectionSpec, 34> sections{{
     {"contact.modal", modal_contact_keys},
     {"excitation", excitation_keys},
     {"force", force_keys},
+    {"gap", gap_keys},
     {"output", output_keys},
     {"response", response_keys},
     {"response.modal", modal_response_keys},

@@ -18,7 +18,8 @@ import subprocess
 import sys
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SHARE = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+sys.path.insert(0, os.path.join(SHARE, "python"))
 
 
 def arguments():
@@ -29,7 +30,7 @@ def arguments():
     parser.add_argument("--sizes", nargs="+", required=True, metavar="SIZE",
                         help='element sizes, coarse to fine, such as 6mm or "0.004 m"')
     parser.add_argument("-o", "--output", default="runs/mesh_convergence", help="folder for the runs")
-    parser.add_argument("--program", default=os.path.join(ROOT, "build", "bin", "microslip"))
+    parser.add_argument("--program", default=os.path.join(os.path.dirname(SHARE), "build", "bin", "microslip"))
     parser.add_argument("--keep", action="store_true",
                         help="use the runs that are already complete in the output folder")
     return parser.parse_args()
@@ -124,58 +125,12 @@ def curve_table(rows):
     return markdown(" | ".join(header).split(" | "), lines)
 
 
-def deviation(rows, key):
-    """|value − finest| / finest [%] of all sizes but the finest; None where a value is missing."""
-    finest = rows[-1].get(key)
-    if not finest:
-        return None
-    result = [100 * abs(row[key] - finest) / abs(finest) if row.get(key) is not None else None
-              for row in rows[:-1]]
-    return None if None in result else result
-
-
-def draw_deviations(axes, rows, lines):
-    unknowns = [row["degrees_of_freedom"] for row in rows[:-1]]
-    for key, label, colour in lines:
-        values = deviation(rows, key)
-        if values:
-            axes.plot(unknowns, values, marker="o", markersize=4, color=colour, label=label)
-    axes.set_ylabel(f"difference to {rows[-1]['element_size']} [%]")
-
-
 def plot(rows, folder, title):
-    from plot_run import STYLE, log_scale, plt  # beside this script; needs no display
-    names = curve_names(rows)
-    colours = plt.cm.viridis([0.93 * i / max(len(names) - 1, 1) for i in range(len(names))])
-    modes = [(f"frequency_{n}_Hz", f"f{'₁₂₃'[n - 1]}", colour)
-             for n, colour in ((1, "#12355b"), (2, "#f4a259"), (3, "#b23a6f"))]
-    best = [("optimum_preload_N", "best preload", "#c1121f")]
-    with plt.rc_context(STYLE):
-        figure, grid = plt.subplots(2, 2, figsize=(8.6, 5.4), layout="constrained", sharex=True)
-        draw_deviations(grid[0, 0], rows, modes)
-        draw_deviations(grid[0, 1], rows,
-                        [(n + "_peak_Hz", n, colour) for n, colour in zip(names, colours)])
-        draw_deviations(grid[1, 1], rows, best + [
-            (n + "_peak_m", n, colour) for n, colour in zip(names, colours)])
-        unknowns = [row["degrees_of_freedom"] for row in rows]
-        for key, label, style in (("seconds", "time [s]", "o"), ("peak_memory_MB", "memory [MB]", "s")):
-            grid[1, 0].plot(unknowns, [row[key] for row in rows], marker=style, markersize=4,
-                            color="0.2" if style == "o" else "0.6", label=label)
-        for axes, name in zip(grid.flat, ("natural frequencies", "peak frequency", "cost",
-                                          "peak amplitude, best preload")):
-            axes.set_title(name, loc="left")
-            axes.grid(True, which="major", color="0.92", linewidth=0.6)
-            if axes.lines:
-                log_scale(axes.yaxis)
-        log_scale(grid[1, 0].xaxis)
-        for axes in grid[1]:
-            axes.set_xlabel("unknowns")
-        for axes in grid[:, 0]:
-            axes.legend()
-        grid[1, 1].legend(loc="lower left", bbox_to_anchor=(1.0, 0.0))
-        figure.suptitle(title, x=0.01, ha="left", fontsize=9)
-        figure.savefig(os.path.join(folder, "convergence.svg"), metadata={"Date": None})
-        figure.savefig(os.path.join(folder, "convergence.png"), metadata={"Software": None})
+    from matplotlib import rc_context  # here: a study of one size draws nothing
+    from microslip.plots.convergence import plot_convergence
+    from microslip.plots.style import STYLE
+    with rc_context(STYLE):
+        plot_convergence(rows, curve_names(rows), os.path.join(folder, "convergence"), title)
 
 
 def write_whole(path, text):

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/LU>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -181,7 +181,7 @@ Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
       matrix.topRightCorner(n, n).diagonal() -= k * frequency * damping_;
       matrix.bottomLeftCorner(n, n).diagonal() += k * frequency * damping_;
     }
-    x.segment(first, count) = matrix.partialPivLu().solve(excitation_.segment(first, count));
+    x.segment(first, count) = contact::solved(matrix, excitation_.segment(first, count));
   };
   solve(0, 0, n);
   Eigen::Index first = n;

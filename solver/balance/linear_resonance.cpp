@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -25,12 +25,13 @@ std::optional<double> unbounded_resonance(const Scene& scene, const Eigen::Matri
   const Eigen::ArrayXd omega = scene.natural_frequency.array();
   Eigen::MatrixXd total = stiffness;
   total.diagonal() += omega.square().matrix();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(total);
+  const auto modes = contact::symmetric_pairs(total);
+  if (!modes) return std::nullopt;
   const auto [low, high] = std::minmax(begin, end);
   std::optional<double> first;
   for (Eigen::Index i = 0; i < omega.size(); ++i) {
-    const Eigen::VectorXd shape = modes.eigenvectors().col(i);
-    const double resonance = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+    const Eigen::VectorXd shape = modes->vectors.col(i);
+    const double resonance = std::sqrt(std::max(0.0, modes->values[i]));
     const double damping =
         (shape.array().square() * scene.damping_ratio.array() * omega).sum();
     if (damping > rounding * resonance) continue;

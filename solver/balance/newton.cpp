@@ -13,6 +13,7 @@ namespace {
 
 constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
+constexpr double polished_below = 1e-9;  // a tolerance above asks for no more than it says
 // Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
 constexpr double rounding = 1e-16;
 constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
@@ -43,7 +44,7 @@ class Iteration {
       ++now_.iterations;
     }
     now_.converged = now_.residual <= tolerance;
-    if (now_.converged) polish();
+    if (now_.converged && options.tolerance < polished_below) polish();
     return std::move(now_);
   }
 

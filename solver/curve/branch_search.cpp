@@ -223,7 +223,7 @@ class Search {
     if (options_.frequency_begin == options_.frequency_end) {
       DetachedBranch branch;
       branch.points.push_back(
-          point_with_harmonics(scene_, balance_->set(), std::move(start), options_, curve_));
+          settled_point(*balance_, std::move(start), options_, curve_));
       curve_.detached.push_back(std::move(branch));
       return;
     }

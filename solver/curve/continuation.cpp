@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "solver/curve/branch_search.hpp"
+#include "solver/curve/chosen_curve.hpp"
 #include "solver/curve/curve_tracer.hpp"
-#include "solver/harmonics/harmonic_choice.hpp"
+#include "solver/enrichment/curve_harmonics.hpp"
+#include "solver/enrichment/peak_harmonics.hpp"
 #include "solver/curve/linear_certificate.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/balance/linear_resonance.hpp"
@@ -150,9 +152,7 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
 }  // namespace
 
 HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
-  if (options.harmonic_tolerance > 0.0) {
-    return HarmonicChoice(scene, options.harmonic_tolerance, options.n_harmonics).least();
-  }
+  if (options.harmonic_tolerance > 0.0) return least_harmonics(scene);
   return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
 }
 
@@ -165,6 +165,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
   if (!certified) certified = trace_at_rest(scene, options, observe);
+  if (!certified && options.harmonic_tolerance > 0.0) return trace_choosing(scene, options, observe);
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
@@ -201,15 +202,16 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   ContinuationOptions here = options;
   here.frequency_begin = here.frequency_end = frequency;
   check_range(here);
+  if (options.harmonic_tolerance > 0.0) return trace_choosing(scene, here, {});
   const Stopwatch watch;
-  HarmonicSet set = first_harmonics(scene, options);
+  const HarmonicSet set = first_harmonics(scene, options);
   StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
-    curve.points.push_back(point_with_harmonics(scene, std::move(set), std::move(*start.solution),
-                                                options, curve));
+    const HarmonicBalance balance(scene, set);
+    curve.points.push_back(settled_point(balance, std::move(*start.solution), options, curve));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
@@ -269,6 +271,7 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   }
   const Scene linear = with_force(scene, std::move(force));
   ContinuationOptions alone = options;
+  if (options.harmonic_tolerance > 0.0) alone = with_harmonics(options, least_harmonics(scene));
   alone.search_starts = 0;  // a linear response is the only one
   const std::optional<double> unbounded =
       unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);

@@ -47,10 +47,6 @@ CurveTracer::CurveTracer(const Scene& scene, const ContinuationOptions& options,
       range_(std::abs(options.frequency_end - options.frequency_begin)) {
   const Eigen::MatrixXd free = Eigen::MatrixXd::Zero(scene.n_modes(), scene.n_modes());
   unbounded_ = unbounded_resonance(scene, free, options.frequency_begin, options.frequency_end);
-  if (options.harmonic_tolerance > 0.0) {
-    choice_.emplace(scene, options.harmonic_tolerance, options.n_harmonics);
-    screening_.emplace(scene, *choice_);
-  }
 }
 
 double CurveTracer::progress(double frequency) const {
@@ -122,7 +118,6 @@ bool CurveTracer::walk(BranchWalker& walker) {
     const bool stepped = walker.advance();
     take_stock(walker);
     if (!stepped) return true;
-    enlarge(walker);
     settle_step(walker);
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
@@ -148,7 +143,6 @@ bool CurveTracer::walk(BranchWalker& walker) {
       stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
       return false;
     }
-    reduce(walker);
   }
   stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
                      " points");

@@ -1,8 +1,7 @@
 /// @file
 /// One sweep along one branch: walks it, certifies every point, solves for peaks and folds between
-/// points, ends exactly at the end of the range. Where harmonics are chosen, both ends of a step and the
-/// peaks and folds between them have those that any of them needs. Where the force follows the motion
-/// (refit.hpp) it suits all of them as well: no peak or fold is lost between two discretisations.
+/// points, ends exactly at the end of the range. Where the force follows the motion (refit.hpp) it suits both
+/// ends of a step and the peaks and folds between them: none is lost between two discretisations.
 #pragma once
 
 #include <chrono>
@@ -14,8 +13,6 @@
 #include "solver/branch/branch_walker.hpp"
 #include "solver/continuation.hpp"
 #include "solver/balance/harmonic_balance.hpp"
-#include "solver/harmonics/harmonic_choice.hpp"
-#include "solver/harmonics/harmonic_screening.hpp"
 #include "solver/branch/special_points.hpp"
 #include "solver/stability/stability.hpp"
 
@@ -46,21 +43,13 @@ class CurveTracer {
   [[nodiscard]] std::optional<NewtonResult> restart(const BranchWalker& stalled);
   void take_stock(const BranchWalker& walker);
   void use(const HarmonicSet& set);
-  /// The solution with the harmonics it needs, solved for at its frequency.
+  /// The solution on a force that suits it, solved for at its frequency.
   [[nodiscard]] NewtonResult settled(NewtonResult at);
-  [[nodiscard]] bool change_harmonics(BranchWalker& walker, const HarmonicSet& set);
-  /// Harmonics that a point on the last step needs, on the whole step. False: there are none.
-  [[nodiscard]] bool enlarge(BranchWalker& walker, const NewtonResult& at);
-  void enlarge(BranchWalker& walker);
   /// The last step on a force fitted to its ends and the points between. True: it was solved again.
   [[nodiscard]] bool refit(BranchWalker& walker, const std::vector<SpecialPoint>& between);
   void settle_step(BranchWalker& walker);
-  /// Peaks and folds of the last step, with harmonics and a force that suit them.
-  /// @param left_out  of each, by its harmonics.
-  [[nodiscard]] std::vector<SpecialPoint> settled_specials(BranchWalker& walker,
-                                                           std::vector<double>& left_out);
-  void reduce(BranchWalker& walker);
-  /// Brings all points to the same number of harmonics.
+  /// Peaks and folds of the last step, on a force that suits them.
+  [[nodiscard]] std::vector<SpecialPoint> settled_specials(BranchWalker& walker);
   [[nodiscard]] ResponseCurve finished();
   [[nodiscard]] bool endless() const;
   [[nodiscard]] bool closed(const BranchWalker& walker, int n_steps) const;
@@ -84,9 +73,6 @@ class CurveTracer {
   ContinuationOptions options_;
   std::unique_ptr<HarmonicBalance> balance_;
   std::optional<double> unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
-  std::optional<HarmonicChoice> choice_;  ///< empty: the harmonics are given
-  std::optional<HarmonicScreening> screening_;
-  double left_out_ = 0.0;                 ///< by the harmonics now, at the last point asked
   double change_ = 0.0;                   ///< by the last refit of the force
   const PointObserver& observe_;
   ResponseCurve curve_;

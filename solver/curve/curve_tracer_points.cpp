@@ -30,7 +30,6 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
   }
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;
-  point.harmonics_left_out = left_out_;
   point.quadrature_change = change_;
   // At a fold a multiplier is 1: on which side it falls is rounding.
   if (mark == PointMark::fold) point.stability = Stability::not_assessed;
@@ -48,21 +47,12 @@ bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
   return !observe_ || observe_(curve_.points.back());
 }
 
-std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker,
-                                                        std::vector<double>& left_out) {
+std::vector<SpecialPoint> CurveTracer::settled_specials(BranchWalker& walker) {
   std::vector<SpecialPoint> found;
-  const auto any_lacks = [&] {
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (enlarge(walker, found[i].solution)) return true;
-      left_out[i] = left_out_;
-    }
-    return false;
-  };
   if (scene_.contact) scene_.contact->begin_point();
   do {
     found = special_points(walker, *balance_);
-    left_out.assign(found.size(), 0.0);
-  } while ((choice_ && any_lacks()) || (!found.empty() && refit(walker, found)));
+  } while (!found.empty() && refit(walker, found));
   return found;
 }
 
@@ -71,18 +61,14 @@ void CurveTracer::note_unsolved(double frequency, PointMark mark) {
 }
 
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
-  const double left_out_now = left_out_;
   const double change_now = change_;
-  std::vector<double> left_out;
-  const std::vector<SpecialPoint> found = settled_specials(walker, left_out);
+  const std::vector<SpecialPoint> found = settled_specials(walker);
   take_stock(walker);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    left_out_ = left_out[i];
-    if (!(found[i].share < share_of_segment)) continue;
-    if (!found[i].solved) note_unsolved(found[i].solution.point.parameter, found[i].mark);
-    if (!add(found[i].solution, found[i].mark)) return false;
+  for (const SpecialPoint& special : found) {
+    if (!(special.share < share_of_segment)) continue;
+    if (!special.solved) note_unsolved(special.solution.point.parameter, special.mark);
+    if (!add(special.solution, special.mark)) return false;
   }
-  left_out_ = left_out_now;
   if (found.empty()) change_ = change_now;
   return true;
 }

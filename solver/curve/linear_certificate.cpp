@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -48,7 +47,7 @@ class Proof {
     load_ = Q.sine().transpose() + std::complex<double>(0.0, 1.0) * Q.cosine().transpose();
     mean_ = Eigen::VectorXd::Zero(n_);
     if (Q.mean().norm() > 0.0) {
-      const Eigen::MatrixXd inverse = K_.partialPivLu().inverse();
+      const Eigen::MatrixXd inverse = contact::inverted(K_);
       mean_ = inverse * Q.mean().transpose();
       mean_error_ =
           backward_errors(n_) * (inverse.cwiseAbs() * (K_.cwiseAbs() * mean_.cwiseAbs())).norm();
@@ -88,8 +87,9 @@ class Proof {
   /// Frequencies at which amplitudes peak: there a limit that does not hold fails first.
   [[nodiscard]] std::vector<double> resonances(double low, double high) const {
     std::vector<double> list{low, high};
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K_, Eigen::EigenvaluesOnly);
-    for (const double square : solver.eigenvalues()) {
+    const auto values = contact::symmetric_eigenvalues(K_);
+    if (!values) return list;
+    for (const double square : *values) {
       const double frequency = square > 0.0 ? std::sqrt(square) : 0.0;
       if (frequency > low && frequency < high) list.push_back(frequency);
     }
@@ -102,7 +102,7 @@ class Proof {
     Eigen::MatrixXcd D = K_.cast<std::complex<double>>();
     D.diagonal().array() += std::complex<double>(-omega * omega, 0.0);
     D.diagonal() += std::complex<double>(0.0, omega) * damping_.cast<std::complex<double>>();
-    const Eigen::MatrixXcd inverse = D.partialPivLu().inverse();
+    const Eigen::MatrixXcd inverse = contact::inverted(D);
     const Eigen::VectorXcd A = inverse * load_;
     const Eigen::MatrixXd G = inverse.cwiseAbs();
     const Eigen::VectorXd size = A.cwiseAbs();
@@ -121,7 +121,7 @@ class Proof {
     const Eigen::MatrixXd M = G * e.asDiagonal();
     if (!(M.rowwise().sum().maxCoeff() < contraction)) return result;  // NaN as well
     const Eigen::VectorXd spread =
-        (Eigen::MatrixXd::Identity(n_, n_) - M).partialPivLu().solve(M * (size + error));
+        contact::solved(Eigen::MatrixXd::Identity(n_, n_) - M, M * (size + error));
     result.radius = (1.0 + 1e-12) * ((spread + error).norm() +
                                      mean_error_);  // 1e-12: rounding of a sum of n² terms
     return result;

@@ -15,12 +15,4 @@ namespace microslip::solver {
 [[nodiscard]] ResponsePoint settled_point(const HarmonicBalance& balance, NewtonResult solution,
                                           const ContinuationOptions& options, ResponseCurve& curve);
 
-/// The same after more harmonics are added where they are chosen.
-/// @param set    of the unknowns of the solution.
-/// @param curve  as above.
-[[nodiscard]] ResponsePoint point_with_harmonics(const Scene& scene, HarmonicSet set,
-                                                 NewtonResult solution,
-                                                 const ContinuationOptions& options,
-                                                 ResponseCurve& curve);
-
 }  // namespace microslip::solver

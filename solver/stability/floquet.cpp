@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
+#include "contact/dense.hpp"
 #include "solver/time/time_stepper.hpp"
 
 namespace microslip::solver {
@@ -147,8 +146,7 @@ FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q
   result.distance = missed->norm();
   const auto matrix = monodromy(system, at, coordinates);
   if (!matrix || !matrix->allFinite()) return result;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(*matrix, false);
-  if (solver.info() == Eigen::Success) result.multipliers = solver.eigenvalues();
+  if (const auto values = contact::general_eigenvalues(*matrix)) result.multipliers = *values;
   return result;
 }
 

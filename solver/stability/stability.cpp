@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
+#include "contact/dense.hpp"
 #include "solver/stability/floquet.hpp"
 #include "solver/balance/linear_force.hpp"
 
@@ -36,13 +34,7 @@ constexpr Eigen::Index most_points_of_few = 100;
 constexpr double multiplier_tolerance = 1e-4;
 
 double sign_of_determinant(const Eigen::MatrixXd& matrix) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
-  auto sign = static_cast<double>(factors.permutationP().determinant());
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    const double pivot = factors.matrixLU()(i, i);
-    sign *= pivot > 0.0 ? 1.0 : (pivot < 0.0 ? -1.0 : 0.0);
-  }
-  return sign;
+  return contact::LuFactors(matrix).sign_of_determinant();
 }
 
 /// A balance reduced to some of its harmonics: the others follow without inertia or memory of their own,
@@ -85,8 +77,8 @@ Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
   }
   result.jacobian = jacobian(low, low);
   if (!high.empty()) {
-    result.jacobian -= jacobian(low, high) * jacobian(high, high).partialPivLu().solve(
-                                                 Eigen::MatrixXd(jacobian(high, low)));
+    result.jacobian -= jacobian(low, high) *
+                       contact::solved(jacobian(high, high), Eigen::MatrixXd(jacobian(high, low)));
   }
   return result;
 }
@@ -179,8 +171,8 @@ bool is_spring(const Eigen::MatrixXd& stiffness) {
   constexpr double rounding = 1e-12;  // of the norm: sums over some thousand points
   const double least = rounding * stiffness.norm();
   if (!((stiffness - stiffness.transpose()).norm() <= least)) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
-  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -least;
+  const auto values = contact::symmetric_eigenvalues(stiffness);
+  return values && values->minCoeff() >= -least;
 }
 
 /// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0: the energy of a perturbation falls until it is at rest.
@@ -200,11 +192,12 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance,
   report.determinant_sign = sign_of_determinant(jacobian);
   const Eigen::MatrixXd flow = slow_flow(
       balance.scene(), reduced(balance, jacobian, slow_orders(balance, frequency)), frequency);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
-  if (!flow.allFinite() || solver.info() != Eigen::Success) return report;
-  report.nearest = nearest_resonance(solver.eigenvalues());
+  if (!flow.allFinite()) return report;
+  const auto values = contact::general_eigenvalues(flow);
+  if (!values) return report;
+  report.nearest = nearest_resonance(*values);
   report.growth = -std::numeric_limits<double>::infinity();
-  for (const auto& value : solver.eigenvalues()) {
+  for (const auto& value : *values) {
     if (std::abs(value.imag()) < slow_share * frequency) {
       report.growth = std::max(report.growth, value.real());
     }
@@ -230,10 +223,10 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   const Reduced low = reduced(balance, jacobian, low_orders(balance));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
-  if (solver.info() != Eigen::Success) return report;
+  const auto pairs = contact::general_pairs(matrix);
+  if (!pairs) return report;
   const Eigen::Index n = scene.n_modes();
-  const Eigen::MatrixXcd vectors = solver.eigenvectors().topRows(low.jacobian.rows());
+  const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
   std::vector<std::pair<double, Eigen::Index>> centres;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     centres.emplace_back(std::abs(centre_of(vectors.col(i), low.orders, n)), i);
@@ -242,7 +235,7 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   double real_growth = -std::numeric_limits<double>::infinity();
   double growth = real_growth;
   for (std::size_t i = 0; i < static_cast<std::size_t>(2 * n); ++i) {
-    const std::complex<double> value = solver.eigenvalues()[centres[i].second];  // over ω
+    const std::complex<double> value = pairs->values[centres[i].second];  // over ω
     const bool real = std::abs(value.imag() - std::round(value.imag())) < real_tolerance;
     growth = std::max(growth, value.real());
     if (real) real_growth = std::max(real_growth, value.real());

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Eigenvalues>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -43,10 +43,9 @@ double spectral_radius(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
   first_order.topRightCorner(n, n).setIdentity();
   first_order.bottomLeftCorner(n, n) = -stiffness;
   first_order.bottomRightCorner(n, n).diagonal() = -damping;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
+  const auto values = contact::general_eigenvalues(first_order);
+  if (!values) throw std::invalid_argument("the eigenvalues of the linear limit do not converge");
+  return values->cwiseAbs().maxCoeff();
 }
 
 }  // namespace

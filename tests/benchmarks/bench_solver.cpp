@@ -12,7 +12,7 @@
 #include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/patch_force.hpp"
 #include "solver/continuation.hpp"
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 #include "solver/branch/start_point.hpp"
 
 namespace {
@@ -113,8 +113,8 @@ void peak_on_whole_curves(benchmark::State& state) {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The curve with harmonics chosen point by point against the same with all of them that were chosen
-/// anywhere, in processor time; 100 points, preload in hundredths.
+/// The curve with harmonics chosen for it, the choice included, against the same with these given, in
+/// processor time; 100 points, preload in hundredths.
 void chosen_harmonics(benchmark::State& state) {
   solver::Scene scene = strip(100, 0.01 * static_cast<double>(state.range(0)));
   const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);

@@ -152,32 +152,34 @@ class Bar(unittest.TestCase):
         self.assertAlmostEqual(BarCycle("quadratic", 1000, 200, "count=3").preload / exact, 1, delta=2.5e-5)
 
     def test_the_report_draws_the_boundaries(self):
-        sys.path.insert(0, os.path.join(SOURCE, "share", "scripts"))
-        import plot_bar
+        sys.path.insert(0, os.path.join(SOURCE, "share", "python"))
+        from microslip.plots.line_map import POSITIVE, STICK, LineMap, line_positions
         cycle = BarCycle("quadratic", 1000, 150, "count=10", maps="['1000 Hz']")
         self.assertTrue(os.path.exists(os.path.join(cycle.folder, "plots", "map_scale_1_1000Hz_1.png")))
-        position = plot_bar.line_positions(cycle.folder)
-        line_map = plot_bar.LineMap(cycle.folder, "scale_1_1000Hz_1", position)
-        drawn = line_map.transitions(plot_bar.POSITIVE, plot_bar.STICK)
+        position = line_positions(cycle.folder)
+        line_map = LineMap(cycle.folder, "scale_1_1000Hz_1", position)
+        drawn = line_map.transitions(POSITIVE, STICK)
         np.testing.assert_array_equal(~np.isnan(drawn), cycle.slips)
         # Both are the angle of one complex number: rounding of states written with 17 digits, in degrees.
         self.assertLess(np.abs(drawn - cycle.angle)[cycle.slips].max(), 1e-6)
-        begins = line_map.transitions(plot_bar.STICK, plot_bar.POSITIVE)
+        begins = line_map.transitions(STICK, POSITIVE)
         for point in np.flatnonzero(cycle.slips):  # the state written at 90° is the one drawn there
             slipping = begins[point] < 90 < drawn[point]
             self.assertEqual(line_map.state[point, np.argmin(np.abs(line_map.phase - 90))], int(slipping))
 
     def test_field_and_lines_of_a_bar_are_one_drawing(self):
         """What is drawn at an instant of the map is the state written there."""
-        sys.path.insert(0, os.path.join(SOURCE, "share", "scripts"))
-        import plot_bar
+        sys.path.insert(0, os.path.join(SOURCE, "share", "python"))
+        from microslip.plots.line_field import KINDS, Field
+        from microslip.plots.line_map import LineMap, line_positions
+        from microslip.plots.style import STATE_COLOURS
         from matplotlib.path import Path
         cycle = BarCycle("quadratic", 1000, 150, "count=10", maps="['1000 Hz']")
-        line_map = plot_bar.LineMap(cycle.folder, "scale_1_1000Hz_1", plot_bar.line_positions(cycle.folder))
-        field = plot_bar.Field(line_map)
+        line_map = LineMap(cycle.folder, "scale_1_1000Hz_1", line_positions(cycle.folder))
+        field = Field(line_map)
         areas = [(Path(corners), colour) for corners, colour in zip(field.polygons, field.colours)]
         names = {"stick to slip", "slip to stick"}
-        self.assertEqual({plot_bar.KINDS[kind][0] for kind, _, _ in field.lines}, names)
+        self.assertEqual({KINDS[kind][0] for kind, _, _ in field.lines}, names)
         for point in range(0, len(line_map.x), 7):
             for phase in range(0, len(line_map.phase), 5):
                 at = (line_map.x[point] + 1e-6, line_map.phase[phase] + 0.01)  # off the borders of areas
@@ -185,7 +187,7 @@ class Bar(unittest.TestCase):
                 starts = np.array([angle for _, angle in line_map.cycles[point]])
                 if starts.size and np.abs((starts - at[1] + 180) % 360 - 180).min() < 0.5:
                     continue
-                self.assertEqual(colours[-1], plot_bar.COLOURS[line_map.state[point, phase]], at)  # the one on top
+                self.assertEqual(colours[-1], STATE_COLOURS[line_map.state[point, phase]], at)  # the one on top
 
     def test_points_are_certified(self):
         point = BarCycle("quadratic", 3100, 250, "count=10").point

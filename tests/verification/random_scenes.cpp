@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/peak/peak_trace.hpp"
+#include "solver/optimum/peak_trace.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

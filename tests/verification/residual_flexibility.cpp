@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "fem/modal_analysis.hpp"
-#include "fem/elements/surface_load.hpp"
+#include "fem/surface_load.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip {

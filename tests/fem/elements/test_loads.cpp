@@ -10,7 +10,7 @@
 
 #include "fem/modal_analysis.hpp"
 #include "fem/petsc_error.hpp"
-#include "fem/elements/surface_load.hpp"
+#include "fem/surface_load.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 

@@ -124,11 +124,25 @@ TEST(WriteCsv, ModesLeaveUnknownColumnsEmpty) {
                   {model.frequency, {}, model.damping_ratio, model.patches[0].fit_error});
   const auto rows = rows_of(std::ifstream(folder.path() / "modes.csv"));
   ASSERT_EQ(rows.size(), 3U);
-  EXPECT_EQ(rows[0], (Row{"mode", "frequency_Hz", "residual", "damping_ratio", "fit_error"}));
+  EXPECT_EQ(rows[0], (Row{"mode", "frequency_Hz", "residual", "damping_ratio", "fit_error", "kind"}));
   EXPECT_EQ(rows[1][0], "1");
   EXPECT_DOUBLE_EQ(std::stod(rows[1][1]), 296.123456789012);
   EXPECT_EQ(rows[2][2], "");
   EXPECT_EQ(rows[2][3], "0.003");
+}
+
+TEST(WriteCsv, AttachmentShapesAreToldApartAndHaveNoResidual) {
+  const synthetic::Folder folder("write_attachment");
+  write_modes_csv(folder.path() / "modes.csv",
+                  {Eigen::Vector3d(1.0, 2.0, 9.0), Eigen::Vector2d(1e-9, 2e-9),
+                   Eigen::Vector3d(0.1, 0.2, 0.2), {}, 1});
+  const auto rows = rows_of(std::ifstream(folder.path() / "modes.csv"));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[2].back(), "free");
+  EXPECT_EQ(rows[3].back(), "attachment");
+  EXPECT_EQ(rows[2][2], "2e-09");
+  EXPECT_EQ(rows[3][2], "");
+  EXPECT_EQ(rows[3][3], "0.2");
 }
 
 TEST(WriteCsv, OptimumIsMarkedInItsTrace) {

@@ -394,13 +394,47 @@ TEST(BadScene, WordsAmongNumbersAreToldTheWordsThereAre) {
   expect_complaint(complaint(blade_text, {"response.maps=[0]"}), {"above 0"});
 }
 
+TEST(Scene, AttachmentShapesAreTheDefaultWhereTheContactHasAStiffnessOfItsOwn) {
+  const Overrides local{"contact.tangential_stiffness=1e12"};
+  const SceneDescription usual = parse(blade_text, local);
+  EXPECT_EQ(usual.modes.residual, ResidualKind::attachment);
+  EXPECT_FALSE(usual.modes.attachment_degree.has_value());
+  EXPECT_EQ(usual.modes.residual_note, "");
+  const SceneDescription rigid = parse(blade_text, {});
+  EXPECT_EQ(rigid.modes.residual, ResidualKind::stiffness);
+  EXPECT_NE(rigid.modes.residual_note.find("contact.tangential_stiffness"), std::string::npos);
+  const SceneDescription again = parse_scene(rigid.complete_toml, "again.toml", ".", {});
+  EXPECT_EQ(again.modes.residual, ResidualKind::stiffness);
+  EXPECT_EQ(again.modes.residual_note, "") << "the completed scene says it";
+  EXPECT_EQ(parse(blade_text, {local[0], "modes.attachment_degree=2"}).modes.attachment_degree, 2);
+  expect_complaint(complaint(blade_text, {"modes.residual=attachment"}),
+                   {"modes.residual", "contact.tangential_stiffness"});
+  expect_complaint(complaint(blade_text, {local[0], "modes.residual=none", "modes.attachment_degree=1"}),
+                   {"modes.attachment_degree", "\"none\""});
+  for (const char* degree : {"-1", "13", "1.5", "\"many\""}) {
+    expect_complaint(complaint(blade_text, {local[0], std::string("modes.attachment_degree=") + degree}),
+                     {"modes.attachment_degree", "0 to 12", "auto"});
+  }
+  expect_complaint(complaint(blade_text, {local[0], "modes.residual=rigid"}), {"attachment", "stiffness", "none"});
+}
+
+TEST(Scene, AGapMayBeALength) {
+  const auto preload = parse(blade_text, {"response.preload=[{ gap = \"8.4 um\" }, -5]"}).response->preload;
+  ASSERT_EQ(preload.size(), 2U);
+  EXPECT_NEAR(std::get<UniformGap>(preload[0]).width, 8.4e-6, 1e-20);
+  EXPECT_EQ(parse(blade_text, {"response.preload={ gap = 1e-5 }"}).response->preload.front(),
+            PreloadEntry(UniformGap{1e-5}));
+  expect_complaint(complaint(blade_text, {"response.preload=[{ gap = \"5 N\" }]"}), {"gap", "m"});
+  expect_complaint(complaint(blade_text, {"response.preload=[{ gap = 0 }]"}), {"gap", "above 0"});
+  expect_complaint(complaint(blade_text, {"response.preload=[{ width = 1e-5 }]"}), {"width", "gap"});
+}
+
 TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   const auto refused = [](const char* text, const std::string& assignment) {
     const std::string message = complaint(text, {assignment});
     EXPECT_NE(message.find("available"), std::string::npos) << assignment << ": " << message;
   };
   refused(blade_text, "model.kind=step");
-  refused(blade_text, "modes.residual=attachment");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
   for (const char* effect : {"higher_harmonics", "roughness", "rate_dependence"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
@@ -460,7 +494,7 @@ TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
   EXPECT_EQ(list.harmonics, 5);
   EXPECT_EQ(list.harmonic_tolerance, 0.0);
   const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
-  EXPECT_EQ(chosen.harmonic_tolerance, 1e-3);
+  EXPECT_EQ(chosen.harmonic_tolerance, 1e-2);
   EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
   const auto finer = parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
   EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
@@ -474,6 +508,19 @@ TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
   expect_complaint(complaint(modal_text, {"response.method=time", "response.search_starts=3"}),
                    {"response.search_starts", "harmonic_balance"});
   EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
+}
+
+TEST(SceneFile, HarmonicsAreChosenWhereTheSceneDoesNotSay) {
+  const auto silent = *parse(modal_text).response;
+  EXPECT_EQ(silent.harmonic_tolerance, 1e-2);
+  EXPECT_EQ(silent.harmonics, most_automatic_harmonics);
+  // What knows one harmonic alone, or has all of them, asks for none to be chosen.
+  for (const char* setting : {"response.method=time", "effects.higher_harmonics=off"}) {
+    const SceneDescription scene = parse(modal_text, {setting});
+    EXPECT_EQ(scene.response->harmonics, 1) << setting;
+    EXPECT_EQ(scene.response->harmonic_tolerance, 0.0) << setting;
+    EXPECT_NE(scene.complete_toml.find("harmonics = 1"), std::string::npos) << setting;
+  }
 }
 
 TEST(BadScene, LawsOfContactTellWhatTheyMiss) {

@@ -1,0 +1,124 @@
+#include "fem/elements/polynomial_tractions.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "fem/elements/quadrature.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace microslip::fem {
+namespace {
+
+/// Calls visit(x, dA, N, nodes of the face) at every quadrature point of the surface.
+template <typename Visit>
+void for_each_point(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
+                    const Visit& visit) {
+  for (const mesh::FaceBlock& block : surface.faces) {
+    const QuadratureRule rule = face_rule(block.type, degree);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d xi = rule.points.row(q).head<2>().transpose();
+      const auto [N, dN] = mesh::shapes(block.type, xi);
+      for (Eigen::Index face = 0; face < block.connectivity.rows(); ++face) {
+        Eigen::Vector3d x = Eigen::Vector3d::Zero();
+        Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+        for (Eigen::Index i = 0; i < N.size(); ++i) {
+          const Eigen::Vector3d node = nodes.row(block.connectivity(face, i)).transpose();
+          x += N[i] * node;
+          tangents += node * dN.row(i);
+        }
+        visit(x, rule.weights[q] * tangents.col(0).cross(tangents.col(1)).norm(), N,
+              block.connectivity.row(face));
+      }
+    }
+  }
+}
+
+/// Centroid and the two in-plane principal directions, each divided by √3 of its second moment: a
+/// rectangle becomes the square [−1, 1]².
+struct PatchAxes {
+  Eigen::Vector3d centroid;
+  Eigen::Matrix<double, 2, 3> scaled;
+};
+
+PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
+  constexpr int degree = 8;  // as for the areas: exact on flat faces
+  double area = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  for_each_point(nodes, surface, degree, [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&) {
+    area += dA;
+    first += dA * x;
+  });
+  const Eigen::Vector3d centroid = first / area;
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for_each_point(nodes, surface, degree, [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&) {
+    second += dA / area * (x - centroid) * (x - centroid).transpose();
+  });
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
+  if (!(eigen.eigenvalues()[1] > 1e-12 * eigen.eigenvalues()[2])) {
+    throw std::invalid_argument("surface \"" + surface.name + "\" has no area to carry a traction");
+  }
+  const Eigen::Vector2d width = (3.0 * eigen.eigenvalues().tail<2>()).cwiseSqrt();
+  return {centroid,
+          width.cwiseInverse().asDiagonal() * eigen.eigenvectors().rightCols<2>().transpose()};
+}
+
+/// P_0 … P_degree at x.
+Eigen::VectorXd legendre(double x, int degree) {
+  Eigen::VectorXd P(degree + 1);
+  P[0] = 1.0;
+  if (degree > 0) P[1] = x;
+  for (int n = 2; n <= degree; ++n) {
+    P[n] = ((2 * n - 1) * x * P[n - 1] - (n - 1) * P[n - 2]) / n;
+  }
+  return P;
+}
+
+Eigen::VectorXd products_at(const Eigen::Vector2d& xi, int degree) {
+  const Eigen::VectorXd P = legendre(xi[0], degree);
+  const Eigen::VectorXd Q = legendre(xi[1], degree);
+  Eigen::VectorXd values(n_polynomials(degree));
+  Eigen::Index k = 0;
+  for (int total = 0; total <= degree; ++total) {
+    for (int i = 0; i <= total; ++i) values[k++] = P[total - i] * Q[i];
+  }
+  return values;
+}
+
+}  // namespace
+
+Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                     const Eigen::Matrix3d& frame, int degree) {
+  if (degree < 0) {
+    throw std::invalid_argument("degree of the tractions = " + std::to_string(degree) +
+                                ", at least 0");
+  }
+  const PatchAxes axes = patch_axes(nodes, surface);
+  const Eigen::Index n = n_polynomials(degree);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(nodes.rows(), n);  // ∫ N_i P_k dA
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);               // ∫ P_k P_l dA
+  for_each_point(
+      nodes, surface, std::max(8, 2 * degree + 2),
+      [&](const Eigen::Vector3d& x, double dA, const Eigen::VectorXd& N, const auto& face) {
+        const Eigen::VectorXd P = products_at(axes.scaled * (x - axes.centroid), degree);
+        gram += dA * P * P.transpose();
+        for (Eigen::Index i = 0; i < N.size(); ++i)
+          shares.row(face[i]) += dA * N[i] * P.transpose();
+      });
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(
+      gram);  // P = L t, so t = L⁻¹P keeps the order of degree
+  shares = cholesky.matrixL().solve(shares.transpose()).transpose().eval();
+  Eigen::MatrixXd loads(3 * nodes.rows(), 3 * n);
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      loads.block<3, 3>(3 * i, 3 * k) = shares(i, k) * frame.transpose();
+    }
+  }
+  return loads;
+}
+
+}  // namespace microslip::fem

@@ -1,0 +1,33 @@
+/// @file
+/// Consistent loads of polynomial tractions on a surface (theory section 14.1).
+///
+///   t_k(x),  k = 1 … (d+1)(d+2)/2:   ∫ t_i t_j dA = δ_ij,   span = all polynomials of total degree ≤ d
+///   a_ki = ∫ N_i t_k dA                                                   consistent share of node i
+///
+/// Products of Legendre polynomials along the principal axes of the surface, scaled by its second moments,
+/// made orthonormal over the surface in order of degree: well conditioned on any patch, and neither the span
+/// of a degree nor the polynomials themselves (but for their signs) know which way the contact axes point.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mesh/surface.hpp"
+
+namespace microslip::fem {
+
+/// Number of polynomials in two variables of total degree ≤ `degree`; 0 below degree 0.
+[[nodiscard]] constexpr Eigen::Index n_polynomials(int degree) {
+  return degree < 0 ? 0 : static_cast<Eigen::Index>(degree + 1) * (degree + 2) / 2;
+}
+
+/// Load vectors of the orthonormal tractions along each row of `frame`, 3 nodes.rows() ×
+/// 3 n_polynomials(degree) [N for a traction of mean square 1 Pa²/m²]; column 3k + d is polynomial k along
+/// row d. Polynomials are in order of degree: those of a lower degree stand first, unchanged.
+/// @param nodes  all mesh nodes [m].   @param frame  rows p, q, r.   @param degree  ≥ 0.
+/// @throws std::invalid_argument  degree < 0, or a surface without area in two directions.
+/// @note Degree 0 is uniform_tractions() / √area.
+[[nodiscard]] Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes,
+                                                   const mesh::Surface& surface,
+                                                   const Eigen::Matrix3d& frame, int degree);
+
+}  // namespace microslip::fem

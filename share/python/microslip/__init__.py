@@ -1,0 +1,1 @@
+"""microslip in Python: what a run has written, and its plots."""

@@ -1,0 +1,108 @@
+"""Files of a run folder, read with care: whatever is missing or damaged is named by file, line and column."""
+
+import contextlib
+import csv
+import json
+import math
+import os
+import re
+
+import numpy as np
+
+MARKS = ("", "peak", "fold", "optimum", "flat")
+AGAIN = "the file is damaged; run the scene again"
+
+
+class RunError(Exception):
+    """A file of a run is missing, cut off or not what the program wrote, or lacks what is asked: the message says it."""
+
+
+def shown(path):
+    """A file of the run as messages call it: with the folder it stands in."""
+    return os.path.join(*path.split(os.sep)[-2:])
+
+
+def read_summary(path):
+    """summary.json, with what runs of older versions left unsaid."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            summary = json.load(file)
+    except FileNotFoundError:
+        raise RunError(f"{shown(path)} is missing; is this the folder of a run?") from None
+    except (OSError, ValueError):
+        raise RunError(f"{shown(path)}: cannot be read as JSON: {AGAIN}") from None
+    optimum = summary.get("optimum")
+    if optimum:
+        summary["optimum"] = {"found": True, "parameter": "preload",
+                              "value": optimum.get("preload_N"), **optimum}
+    return summary
+
+
+def read_table(path, needed=()):
+    """Columns of a CSV file by name: finite numbers, with `mark` and `at` as text. RunError where a row, a needed
+    column or a number is missing."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            lines = csv.reader(file)
+            names = next(lines, [])
+            rows = [(lines.line_num, row) for row in lines if row]
+    except FileNotFoundError:
+        raise RunError(f"{shown(path)} is missing; run the scene again") from None
+    except (OSError, UnicodeDecodeError, csv.Error):
+        raise RunError(f"{shown(path)}: cannot be read as a table: {AGAIN}") from None
+    for name in needed:
+        if name not in names:
+            raise RunError(f"{shown(path)}:1: column \"{name}\" is missing: {AGAIN}")
+    for line, row in rows:
+        if len(row) != len(names):
+            raise RunError(f"{shown(path)}:{line}: {len(row)} values under {len(names)} column names: {AGAIN}")
+    return {name: column_in([(line, row[i]) for line, row in rows], path, name)
+            for i, name in enumerate(names)}
+
+
+def column_in(cells, path, name):
+    """The cells of one column, each with its line, as numbers or marks."""
+    if name == "at":
+        return [text for _, text in cells]
+    if name != "mark":
+        return np.array([number_in(text, path, line, name) for line, text in cells])
+    for line, text in cells:
+        if text not in MARKS:
+            raise RunError(f"{shown(path)}:{line}: mark: '{text}' is no mark: {AGAIN}")
+    return [text for _, text in cells]
+
+
+def number_in(text, path, line, name):
+    """A finite number; RunError names the cell that holds none."""
+    try:
+        value = float(text)
+        if math.isfinite(value):
+            return value
+        fault = f"'{text}' is not finite"
+    except ValueError:
+        fault = f"'{text}' is no number" if text.strip() else "the value is missing"
+    raise RunError(f"{shown(path)}:{line}: {name}: {fault}: {AGAIN}")
+
+
+@contextlib.contextmanager
+def data_file(path):
+    """An HDF5 file of the run, open for reading. RunError where it, or something in it, is missing or damaged."""
+    import h5py  # runs without maps need none
+    if not os.path.exists(path):
+        raise RunError(f"{shown(path)} is missing; run the scene again")
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except KeyError as error:
+        name = re.search(r"object '([^']*)' doesn't exist", str(error))
+        what = f"\"{name[1]}\" is missing in it" if name else "a part of it cannot be found"
+        raise RunError(f"{shown(path)}: {what}: {AGAIN}") from None
+    except (OSError, RuntimeError):
+        raise RunError(f"{shown(path)}: is cut off or no HDF5 file: {AGAIN}") from None
+
+
+def require_shape(path, name, values, shape):
+    """RunError where an array of a data file does not have its shape."""
+    if values.shape != shape:
+        raise RunError(f"{shown(path)}: \"{name}\" holds {' × '.join(map(str, values.shape))} values where "
+                         f"{' × '.join(map(str, shape))} belong: {AGAIN}")

@@ -1,0 +1,89 @@
+"""Response curves of a run in one figure: stable solid, unstable dashed, peaks and folds marked."""
+
+import numpy as np
+from matplotlib.lines import Line2D
+
+from microslip.plots.numbers import is_number
+from microslip.plots.output import save
+from microslip.plots.run_folder import load_of
+from microslip.plots.style import ACCENT, legend_below, light_grid, log_scale, subplots
+
+DASHED = (0, (2.5, 1.6))
+
+
+def branches(table):
+    """Runs of intervals of one kind: (unstable, slice of points)."""
+    stable, mark = table["stable"], table["mark"]
+    unstable = []
+    for i in range(len(stable) - 1):
+        flags = [stable[k] for k in (i, i + 1) if mark[k] != "fold"]
+        unstable.append(0 in flags or not flags)
+    start = 0
+    for i in range(1, len(unstable) + 1):
+        if i == len(unstable) or unstable[i] != unstable[start]:
+            yield unstable[start], slice(start, i + 1)
+            start = i
+
+
+def line_width(load):
+    """Curves that follow a limit lie on it, and both are seen."""
+    return 1.3 if is_number(load) else 2.4
+
+
+def draw_curve(axes, run, curve, table):
+    load = load_of(curve)
+    colour = run.colour(load)
+    frequency = table["frequency_Hz"]
+    amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
+    for unstable, part in branches(table):
+        axes.plot(frequency[part], amplitude[part], color=colour, zorder=3 if is_number(load) else 2.5,
+                  linewidth=line_width(load), linestyle=DASHED if unstable else "-")
+    marks = np.array(table["mark"])
+    for mark, face, style in (("peak", colour, {"marker": "o", "s": 14}),
+                              ("fold", "white", {"marker": "D", "s": 13})):
+        chosen = marks == mark
+        axes.scatter(frequency[chosen], amplitude[chosen], color=face, edgecolor=colour,
+                     linewidth=0.8, zorder=4, **style)
+    if not curve["complete"]:
+        axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
+
+
+def legend_of_loads(axes, run):
+    """One line per preload, in order, between the limits."""
+    loads = [load_of(curve) for curve, _ in run.curves]
+    order = (["free"] if "free" in loads else []) + list(run.colours) + (
+        ["stuck"] if "stuck" in loads else [])
+    lines = [Line2D([], [], color=run.colour(load), label=run.label(load), linewidth=line_width(load))
+             for load in order]
+    axes.legend(handles=lines, loc="upper left", bbox_to_anchor=(1.0, 1.02), alignment="left",
+                title="preload scale" if run.scaled else "preload")
+
+
+def legend_of_marks(figure, run):
+    grey = {"color": "0.3"}
+    kinds = [Line2D([], [], label="stable", **grey),
+             Line2D([], [], linestyle=DASHED, label="unstable", **grey),
+             Line2D([], [], marker="o", markersize=4, linestyle="", label="peak", **grey),
+             Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
+    if any(not curve["complete"] for curve, _ in run.curves):
+        kinds.append(Line2D([], [], color=ACCENT, marker="x", markersize=5, linestyle="",
+                            label="ends here (incomplete)"))
+    legend_below(figure, kinds)
+
+
+def plot_curves(run, folder):
+    """FOLDER/curves.svg and .png; nothing where there are solutions at one frequency only."""
+    if all(len(np.unique(table["frequency_Hz"])) < 2 for _, table in run.curves):
+        return
+    figure, axes = subplots(1, 1, (7.2, 4.4))
+    for curve, table in run.curves:
+        draw_curve(axes, run, curve, table)
+    log_scale(axes.yaxis)
+    axes.margins(x=0.01)
+    axes.set_xlabel("excitation frequency [Hz]")
+    axes.set_ylabel(f"response amplitude [{run.unit}]")
+    axes.set_title(run.title, loc="left")
+    light_grid(axes)
+    legend_of_loads(axes, run)
+    legend_of_marks(figure, run)
+    save(figure, folder, "curves")

@@ -1,0 +1,56 @@
+"""Contact maps of a run: which there are, how each is drawn, under which title."""
+
+import os
+
+import numpy as np
+
+from microslip.plots.contact_map import ContactMap
+from microslip.plots.line_figure import line_figure
+from microslip.plots.line_map import LineMap, line_positions
+from microslip.plots.numbers import length_unit
+from microslip.plots.output import save
+from microslip.plots.patch_map import patch_figure, row_figure
+from microslip.plots.run_folder import load_of
+from microslip.plots.style import figure_title
+
+
+def place_in_words(suffix):
+    """peak, fold 2, solution 1: the frequency of "315Hz_1" stands in the title anyway."""
+    first, _, rest = suffix.partition("_")
+    return f"solution {rest}" if first.endswith("Hz") else suffix.replace("_", " ")
+
+
+def maps_of(run):
+    """(file, title) of every map the summary names."""
+    for curve, _ in run.curves:
+        for name in curve.get("maps", []):
+            place = place_in_words(name[len(curve["name"]):].strip("_"))
+            word = "preload scale" if run.scaled else "preload"
+            title = f"{run.title}: {word} {run.label(load_of(curve))}, {place}"
+            yield os.path.join(run.folder, "maps", name + ".h5"), title
+
+
+def figure_of(contact, run_folder, name):
+    """A patch of cells as such; points without area over position or number and phase where they lie in a row."""
+    position = line_positions(run_folder) if contact.cells is None else None
+    if position is not None:
+        return line_figure(LineMap(run_folder, name, position))
+    row = contact.cells is None and np.min(contact.high - contact.low) == 0.0
+    return row_figure(contact) if row else patch_figure(contact)
+
+
+def plot_map(path, folder, title):
+    """FOLDER/map_NAME.svg and .png of one file maps/NAME.h5."""
+    contact = ContactMap(path)
+    name = os.path.splitext(os.path.basename(path))[0]
+    figure = figure_of(contact, os.path.dirname(os.path.dirname(path)), name)
+    unit, size = length_unit(contact.amplitude)
+    stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
+    figure_title(figure, f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}")
+    save(figure, folder, "map_" + name)
+
+
+def map_tasks(run, folder):
+    """One call of plot_map per map that is there."""
+    return [lambda path=path, title=title: plot_map(path, folder, title)
+            for path, title in maps_of(run) if os.path.exists(path)]

@@ -1,0 +1,34 @@
+"""Numbers and units as people write them."""
+
+LENGTHS = (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9))
+PRESSURES = (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0))
+
+
+def unit_for(largest, units):
+    """The first unit of which there is at least one, else the last: (name, size in SI)."""
+    return next((unit for unit in units if largest >= unit[1]), units[-1])
+
+
+def length_unit(largest):
+    """Unit in which a length reads well: (name, size in metres)."""
+    return unit_for(largest, LENGTHS)
+
+
+def pressure_unit(largest):
+    """Unit in which a pressure reads well: (name, size in pascal)."""
+    return unit_for(largest, PRESSURES)
+
+
+def is_number(value):
+    """Whether a preload is a number, and not the name of a limit."""
+    return isinstance(value, (int, float))
+
+
+def plain(value):
+    """20000000 as 2·10⁷, 50 as 50; a real minus sign."""
+    text = f"{value:.6g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
+    return text.replace("-", "−")

@@ -1,0 +1,132 @@
+"""Peak against preload, and against any other number of the scene a search has varied."""
+
+import os
+
+import numpy as np
+
+from microslip.files import read_table
+from microslip.plots.numbers import is_number
+from microslip.plots.output import save
+from microslip.plots.run_folder import load_of
+from microslip.plots.style import ACCENT, FREE, STUCK, figure_title, light_grid, log_scale, subplots
+
+
+def peaks_of(run):
+    """(preload, frequency, amplitude) of the curves that have a solved peak, and the limits by name."""
+    family, limits = [], {}
+    for curve, _ in run.curves:
+        peak = curve.get("peak")
+        if peak is None:
+            continue
+        if is_number(load_of(curve)):
+            family.append((load_of(curve), peak["frequency_Hz"], peak["amplitude_m"]))
+        else:
+            limits[load_of(curve)] = (peak["frequency_Hz"], peak["amplitude_m"])
+    return sorted(family), limits
+
+
+def trace_in(path, name):
+    """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
+    if not os.path.exists(path):
+        return np.empty((0, 3))
+    table = read_table(path, (name, "frequency_Hz", "amplitude_m"))
+    return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
+
+
+def draw_peaks(column, run, family, trace, sign):
+    """One pair of axes: amplitude above, frequency below; sign −1 draws the gaps on a mirrored axis."""
+    chosen = [peak for peak in family if sign * peak[0] > 0]
+    for axes, index, scale in ((column[0], 2, run.size), (column[1], 1, 1.0)):
+        if sign > 0 and len(trace):
+            axes.plot(trace[:, 0], trace[:, index] / scale, color="0.35", linewidth=1.1, zorder=2)
+        for peak in chosen:
+            axes.scatter(sign * peak[0], peak[index] / scale, s=26, color=run.colour(peak[0]),
+                         edgecolor="white", linewidth=0.6, zorder=3)
+        log_scale(axes.xaxis)
+        light_grid(axes)
+    log_scale(column[0].yaxis)
+    if sign < 0:
+        column[0].invert_xaxis()  # shared with the axes below
+
+
+def draw_limits(column, run, limits, named):
+    for name, (frequency, amplitude) in limits.items():
+        for axes, value in ((column[0], amplitude / run.size), (column[1], frequency)):
+            axes.axhline(value, color=FREE if name == "free" else STUCK, linewidth=0.9, zorder=1,
+                         linestyle="-" if name == "free" else (0, (6, 2)))
+            if named:
+                above = is_upper(name, limits, 1 if axes is column[0] else 0)
+                axes.annotate(name, (1.0, value), xycoords=("axes fraction", "data"),
+                              va="bottom" if above else "top", xytext=(4, -1 if above else 1),
+                              textcoords="offset points", fontsize=8)
+
+
+def is_upper(name, limits, index):
+    """Whether this limit's label goes above its line: the lines may lie close together."""
+    return all(limits[name][index] >= pair[index] for other, pair in limits.items() if other != name)
+
+
+def star(axes, value, at):
+    axes.scatter(value, at, marker="*", s=90, color=ACCENT, edgecolor="white", linewidth=0.6, zorder=5)
+
+
+def mark_optimum(column, run, optimum, what, unit=""):
+    """The best value on both axes, with its numbers as the title."""
+    value, amplitude = optimum["value"], optimum["amplitude_m"] / run.size
+    star(column[0], value, amplitude)
+    star(column[1], value, optimum["frequency_Hz"])
+    column[0].set_title(f"best {what}{value:.4g}{unit}: {amplitude:.4g} {run.unit} at "
+                        f"{optimum['frequency_Hz']:.4g} Hz", loc="right", color=ACCENT, fontsize=8)
+
+
+def finish(figure, run, column, folder, name):
+    column[0].set_ylabel(f"peak amplitude [{run.unit}]")
+    column[1].set_ylabel("peak frequency [Hz]")
+    figure_title(figure, run.title)
+    save(figure, folder, name)
+
+
+def plot_peaks(run, folder):
+    """FOLDER/peak_against_preload.svg and .png, where there are two peaks; gaps on an axis of their own."""
+    family, limits = peaks_of(run)
+    trace = trace_in(os.path.join(run.folder, "peak_against_preload.csv"), "preload_N")
+    optimum = run.summary.get("optimum")
+    positive = sum(peak[0] > 0 for peak in family)
+    gaps = sum(peak[0] < 0 for peak in family)
+    if positive + gaps + len(trace) < 2:
+        return
+    sides = ([-1] if gaps else []) + ([1] if positive or len(trace) else [])
+    ratios = [max(gaps, 2) if side < 0 else max(positive, 4) for side in sides]
+    figure, grid = subplots(2, len(sides), (6.4, 4.8), sharex="col", sharey="row", squeeze=False,
+                            gridspec_kw={"width_ratios": ratios, "height_ratios": [1.5, 1]})
+    for i, side in enumerate(sides):
+        column = grid[:, i]
+        draw_peaks(column, run, family, trace, side)
+        draw_limits(column, run, limits, named=i == len(sides) - 1)
+        name = "preload scale [–]" if run.scaled else "preload [N]" if side > 0 else "gap: −preload [N]"
+        column[1].set_xlabel(name)
+    if optimum and optimum["found"] and optimum["parameter"] == "preload" and sides[-1] > 0:
+        what, unit = ("preload × ", "") if run.scaled else ("preload ", " N")
+        mark_optimum(grid[:, -1], run, optimum, what, unit)
+        for axes in grid[:, -1]:
+            axes.axvline(optimum["value"], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
+    finish(figure, run, grid[:, 0], folder, "peak_against_preload")
+
+
+def plot_parameter(run, folder):
+    """Peak against a number of the scene that is not the preload: FOLDER/peak_against_parameter.svg and .png."""
+    trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
+    optimum = run.summary.get("optimum")
+    if len(trace) < 2 or not optimum:
+        return
+    figure, column = subplots(2, 1, (6.4, 4.8), sharex=True, height_ratios=[1.5, 1])
+    for axes, values in zip(column, (trace[:, 2] / run.size, trace[:, 1])):
+        axes.plot(trace[:, 0], values, color="0.35", linewidth=1.1, marker=".", markersize=4)
+        light_grid(axes)
+    if trace[0, 0] > 0 and trace[-1, 0] > 5 * trace[0, 0]:
+        log_scale(column[0].xaxis)
+    log_scale(column[0].yaxis)
+    if optimum["found"]:
+        mark_optimum(column, run, optimum, "")
+    column[1].set_xlabel(f"{optimum['parameter']} [SI], preload {optimum['preload_N']:.4g} N")
+    finish(figure, run, column, folder, "peak_against_parameter")

@@ -1,0 +1,47 @@
+"""All plots of a run folder."""
+
+import os
+import sys
+
+from microslip.files import shown
+from microslip.plots.curves import plot_curves
+from microslip.plots.maps import map_tasks, maps_of
+from microslip.plots.output import run_shared
+from microslip.plots.peaks import plot_parameter, plot_peaks
+from microslip.plots.run_folder import Run
+
+
+def missing_files(run):
+    """Files the summary names and the folder lacks."""
+    maps = [path for path, _ in maps_of(run)]
+    names = maps + [path[:-3] + ".pvd" for path in maps]
+    for curve, _ in run.curves:
+        stem = os.path.join(run.folder, "curves", curve["name"])
+        names += [f"{stem}_detached_{i}.csv" for i in range(1, curve.get("detached_branches", 0) + 1)]
+    return [path for path in names if not os.path.exists(path)]
+
+
+def plots_folder(run):
+    folder = os.path.join(run.folder, "plots")
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def plot_run(run_folder):
+    """Curves, peaks and maps into RUN_FOLDER/plots. Whether all was there and is drawn; if not, stderr says what."""
+    run = Run(run_folder)
+    folder = plots_folder(run)
+    figures = [lambda plot=plot: plot(run, folder) for plot in (plot_peaks, plot_parameter, plot_curves)]
+    drawn = run_shared(figures + map_tasks(run, folder))
+    missing = missing_files(run)
+    if missing:  # what is there is drawn: maps are large, and may have been removed
+        print(f"summary.json names files that are missing: {', '.join(map(shown, missing))}; run the scene again",
+              file=sys.stderr)
+    return drawn and not missing
+
+
+def plot_maps(run_folder):
+    """The maps alone."""
+    run = Run(run_folder)
+    for task in map_tasks(run, plots_folder(run)):
+        task()

@@ -1,0 +1,87 @@
+"""How every figure looks: sizes, colours, scales, legends."""
+
+import math
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from microslip.plots.numbers import plain
+
+STYLE = {
+    "svg.hashsalt": "microslip",
+    "figure.dpi": 100,
+    "savefig.dpi": 160,
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "legend.fontsize": 8,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "lines.linewidth": 1.3,
+    "lines.solid_capstyle": "round",
+    "legend.frameon": False,
+}
+FREE, STUCK = "0.1", "0.55"
+ACCENT = "#c1121f"
+# (value in files, name, colour): distinct in hue and in lightness, for colour-blind eyes and grey print
+STATES = [
+    (0, "stick", "#12355b"),
+    (1, "positive slip", "#f4a259"),
+    (2, "negative slip", "#b23a6f"),
+    (3, "separated", "#e9ecef"),
+    (4, "slip in two directions", "#5b9279"),
+]
+STATE_COLOURS = [colour for _, _, colour in STATES]
+
+
+def subplots(n_rows, n_columns, figsize, **grid):
+    """A figure of its own, which no display and no other figure knows of, and its axes."""
+    figure = Figure(figsize=figsize, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure, figure.subplots(n_rows, n_columns, **grid)
+
+
+def light_grid(axes, colour="0.92"):
+    """Lines at the major ticks, below everything."""
+    axes.grid(True, which="major", color=colour, linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def log_scale(axis):
+    """Logarithmic, with plain numbers at 1, 2, 5 where there is room and at powers of ten else."""
+    low, high = axis.get_data_interval()
+    if not high > 0:
+        return  # nothing moves: a logarithm has nothing to show
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
+    few = low > 0 and math.log10(high / low) < 2.2
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def figure_title(figure, text):
+    """Above everything, at the left."""
+    figure.suptitle(text, x=0.01, ha="left", fontsize=9)
+
+
+def legend_below(figure, handles):
+    """One row under everything, two where it would be cut off, in a strip of its own."""
+    rows = 1 if len(handles) <= 6 else 2
+    inches = 0.28 if rows == 1 else 0.44
+    strip = inches / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0),
+                  ncols=-(-len(handles) // rows), borderaxespad=0.4, columnspacing=1.6)
+
+
+def state_legend(figure, states, handles=()):
+    """Colours of the states; of slip in two directions only where there is any."""
+    present = {int(state) for state in states} | {0, 1, 2, 3}
+    patches = [Patch(facecolor=colour, edgecolor="0.6", linewidth=0.4, label=name)
+               for value, name, colour in STATES if value in present]
+    legend_below(figure, patches + list(handles))

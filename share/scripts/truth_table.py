@@ -1,0 +1,239 @@
+#!/usr/bin/python3
+"""Signed errors of the program's choices against the truth of the coarse default blade.
+
+The truth (share/reference/truth_blade_10mm.csv) is printed by build/tests/truth_blade, a program of its
+own that keeps every contact node. Two commands:
+
+  truth_table.py compare RUN_FOLDER …              errors of every curve of given run folders
+  truth_table.py table MICROSLIP [-o FILE.md] [--only WORD,…] [--force x|y] [--work FOLDER] [--limit SECONDS]
+                                                   runs the program over its choices and writes the table
+
+Two errors stand in each row, in per cent of the peak amplitude and of its frequency. "alone" compares with
+the truth of the same harmonics and directions: what the choice of this row does by itself. "in all"
+compares with the truth of the most harmonics and both directions that is stored: what a user gets.
+Runs are kept in the work folder and not repeated; a run that takes longer than the limit is said to.
+"""
+import argparse
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+REFERENCE = os.path.join(ROOT, "share", "reference", "truth_blade_10mm.csv")
+PRELOADS = {"x": [-500, 100, 267, 500, 3000], "y": [-20, 2, 5, 10, 100]}
+SCENES = {"x": "blade_to_ground", "y": "blade_to_ground_y"}
+
+
+def read_truth(path=REFERENCE):
+    """{(force, preload, directions, harmonics): row} of the complete curves."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["complete"] == "1"]
+    return {(r["force"], float(r["preload_N"]), r["directions"], int(r["harmonics"])): r for r in rows}
+
+
+def best_truth(truth, force, preload):
+    """The row of most harmonics; with both directions if that was computed with as many."""
+    keys = [k for k in truth if k[:2] == (force, preload)]
+    return truth[max(keys, key=lambda k: (k[3], k[2] == "pr"))] if keys else None
+
+
+def errors(peak, row):
+    """Signed relative errors (amplitude, frequency), None without a reference."""
+    if row is None or peak is None:
+        return None
+    return (1e6 * peak["amplitude_m"] / float(row["peak_um"]) - 1.0,
+            peak["frequency_Hz"] / float(row["peak_Hz"]) - 1.0)
+
+
+def read_run(folder):
+    """(force, {preload: peak}, harmonics, directions) of a run folder."""
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    with open(os.path.join(folder, "scene.toml"), encoding="utf-8") as file:
+        scene = file.read()
+    found = re.search(r'at = "B", direction = \[([^\]]*)\]', scene)
+    along_y = bool(found) and float(found.group(1).split(",")[1]) != 0.0
+    harmonics = re.search(r"^harmonics = (\d+)", scene, re.M)
+    second = re.search(r'^second_direction = "(\w+)"', scene, re.M)
+    peaks = {float(c["preload_N"]): c.get("peak") for c in summary["curves"]
+             if isinstance(c["preload_N"], (int, float))}
+    return ("y" if along_y else "x", peaks, int(harmonics.group(1)) if harmonics else None,
+            "pr" if second and second.group(1) == "on" else "p")
+
+
+def percent(pair):
+    return "–" if pair is None else f"{100 * pair[0]:+.2f} / {100 * pair[1]:+.3f}"
+
+
+def compare(folders):
+    truth = read_truth()
+    print("run, preload [N]: peak; error of amplitude / frequency [%]: alone; in all")
+    for folder in folders:
+        force, peaks, harmonics, directions = read_run(folder)
+        for preload, peak in sorted(peaks.items()):
+            if peak is None:
+                continue
+            alone = errors(peak, truth.get((force, preload, directions, harmonics)))
+            in_all = errors(peak, best_truth(truth, force, preload))
+            print(f"{folder} {preload:g}: {1e6 * peak['amplitude_m']:.2f} um at "
+                  f"{peak['frequency_Hz']:.3f} Hz; {percent(alone)}; {percent(in_all)}")
+
+
+def cases():
+    """[(group, label, settings)]: what is varied, the rest as in `base`."""
+    result = []
+    for residual in ("none", "stiffness", "attachment"):
+        for count in (5, 10, 20, 40, 80):
+            result.append(("modes", f"{count} modes, {residual}",
+                           {"modes.count": count, "modes.residual": f'"{residual}"'}))
+    for degree in (0, 1, 2, 3):
+        result.append(("degree", f"attachment degree {degree}", {"modes.attachment_degree": degree}))
+    for harmonics in (1, 3, 5, 7, 9, 13):
+        result.append(("harmonics", f"{harmonics} harmonics", {"response.harmonics": harmonics}))
+    for points in (96, 384, 1536, 6144):
+        result.append(("cells", f"at least {points} cells", {"contact.points": points}))
+    for fit in ("none", "auto", 2, 4, 6):
+        value = f'"{fit}"' if isinstance(fit, str) else fit
+        result.append(("fit", f"fit {fit}", {"contact.fit": value}))
+    for harmonics in (1, 9):
+        result.append(("directions", f"both directions, {harmonics} harmonics",
+                       {"effects.second_direction": '"on"', "response.harmonics": harmonics}))
+    for size in ("10 mm", "6 mm"):
+        result.append(("mesh", f"elements of {size}", {"model.element_size": f'"{size}"'}))
+    return result
+
+
+BASE = {"model.element_size": '"10 mm"', "modes.residual": '"attachment"', "modes.count": 10,
+        "response.harmonics": 1, "effects.second_direction": '"off"', "response.maps": "[]"}
+
+
+def scene_text(force):
+    """The scene of the blade without its search of the best preload, with the preloads of the truth."""
+    path = os.path.join(ROOT, "share", "scenes", SCENES[force] + ".toml")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    text = re.sub(r"^(optimum|optimum_range)\s*=.*\n", "", text, flags=re.M)
+    return re.sub(r"^preload\s*=.*$", f"preload = {PRELOADS[force]}", text, flags=re.M)
+
+
+def run_folder(work, force, settings):
+    return os.path.join(work, force + "".join(
+        "_" + re.sub(r"\W", "", f"{k.split('.')[1]}{v}") for k, v in sorted(settings.items())))
+
+
+def run_case(program, work, force, settings, limit):
+    """Folder, seconds and a word on what happened."""
+    folder = run_folder(work, force, settings)
+    note = os.path.join(folder, "truth_note.json")
+    if os.path.exists(note):
+        with open(note, encoding="utf-8") as file:
+            return folder, *json.load(file)
+    os.makedirs(work, exist_ok=True)
+    scene = os.path.join(work, SCENES[force] + ".toml")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(scene_text(force))
+    command = [program, "run", scene, "-q", "-o", folder]
+    for key, value in {**BASE, **settings}.items():
+        command += ["--set", f"{key}={value}"]
+    start = time.monotonic()
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+        lines = ended.stderr.strip().splitlines()
+        word = "" if ended.returncode == 0 else f"exit {ended.returncode}: {lines[-1] if lines else ''}"
+    except subprocess.TimeoutExpired:
+        word = f"stopped after {limit:.0f} s"
+    seconds = time.monotonic() - start
+    os.makedirs(folder, exist_ok=True)
+    with open(note, "w", encoding="utf-8") as file:
+        json.dump([seconds, word], file)
+    return folder, seconds, word
+
+
+def table_rows(folder, label, settings, force, seconds, word, truth):
+    try:
+        _, peaks, _, _ = read_run(folder)
+    except (OSError, ValueError, KeyError):
+        return [f"| {label} | {word or 'no result'} |" + " |" * (2 * len(PRELOADS[force])) + f" {seconds:.0f} |"]
+    merged = {**BASE, **settings}
+    harmonics = merged["response.harmonics"]
+    directions = "pr" if merged["effects.second_direction"] == '"on"' else "p"
+    cells = []
+    for preload in PRELOADS[force]:
+        peak = peaks.get(float(preload))
+        cells.append(percent(errors(peak, truth.get((force, float(preload), directions, harmonics)))))
+    for preload in PRELOADS[force]:
+        cells.append(percent(errors(peaks.get(float(preload)), best_truth(truth, force, float(preload)))))
+    return [f"| {label} | " + " | ".join(cells) + f" | {seconds:.0f} |"]
+
+
+def truth_block(truth, force):
+    lines = ["", f"## Truth, force along {force}", "",
+             "Peak [µm] at [Hz]; p: friction along p alone, pr: along both.", ""]
+    keys = sorted({(k[2], k[3]) for k in truth if k[0] == force})
+    lines.append("| preload [N] | " + " | ".join(f"{d}, {h}" for d, h in keys) + " |")
+    lines.append("|---|" + "---|" * len(keys))
+    for preload in PRELOADS[force]:
+        cells = []
+        for d, h in keys:
+            row = truth.get((force, float(preload), d, h))
+            cells.append(f"{float(row['peak_um']):.1f} at {float(row['peak_Hz']):.2f}" if row else "–")
+        lines.append(f"| {preload} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def table(arguments):
+    truth = read_truth()
+    only = arguments.only.split(",") if arguments.only else None
+    lines = ["# The program against the truth of the coarse default blade", "",
+             "Printed by `share/scripts/truth_table.py table build/bin/microslip`; see its first lines for what",
+             "the columns mean. The truth keeps every contact node (`tests/verification/truth/`). Errors are",
+             "amplitude / frequency in %, unless a row says otherwise with ten modes, attachment shapes, one",
+             "harmonic, friction along p alone, 10 mm."]
+    lines += truth_block(truth, arguments.force)
+    loads = [f"{p} N" for p in PRELOADS[arguments.force]]
+    group = None
+    for group_name, label, settings in cases():
+        if only and group_name not in only:
+            continue
+        if group_name != group:
+            group = group_name
+            lines += ["", f"## {group_name}", "",
+                      "| choice | " + " | ".join(f"{p} alone" for p in loads) + " | " +
+                      " | ".join(f"{p} in all" for p in loads) + " | seconds |",
+                      "|---|" + "---|" * (2 * len(loads) + 1)]
+        folder, seconds, word = run_case(arguments.program, arguments.work, arguments.force, settings,
+                                         arguments.limit)
+        rows = table_rows(folder, label, settings, arguments.force, seconds, word, truth)
+        lines += rows
+        print(rows[0], flush=True)
+        if arguments.output:
+            with open(arguments.output, "w", encoding="utf-8") as file:
+                file.write("\n".join(lines) + "\n")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    one = commands.add_parser("compare")
+    one.add_argument("folders", nargs="+")
+    many = commands.add_parser("table")
+    many.add_argument("program")
+    many.add_argument("-o", "--output")
+    many.add_argument("--only", help="modes, degree, harmonics, cells, fit, directions, mesh")
+    many.add_argument("--force", choices=("x", "y"), default="x")
+    many.add_argument("--work", default=os.path.join(ROOT, "runs", "truth"))
+    many.add_argument("--limit", type=float, default=900.0)
+    arguments = parser.parse_args()
+    if arguments.command == "compare":
+        return compare(arguments.folders)
+    return table(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

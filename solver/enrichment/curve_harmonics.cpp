@@ -1,0 +1,137 @@
+#include "solver/enrichment/curve_harmonics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solver/enrichment/peak_harmonics.hpp"
+#include "solver/peak/high_points.hpp"
+
+namespace microslip::solver {
+namespace {
+
+constexpr std::size_t most_places = 3;  // of a curve, from the highest down
+constexpr double of_interest = 0.3;     // of the highest
+constexpr int most_traces = 3;          // of a curve for the choice, and of the one that is given
+
+struct Place {
+  LocalPeak peak;
+  double frequency = 0.0;
+};
+
+/// What the answer of a curve is read from.
+std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& range,
+                             const HarmonicSet& set, const ResponseCurve& curve) {
+  const ContinuationOptions given = with_harmonics(range, set);
+  const HarmonicBalance balance(scene, set);
+  std::vector<Place> places;
+  double highest = 0.0;
+  for (const HighPoint& high : high_points(scene, curve, given)) {
+    highest = std::max(highest, high.point.amplitude);
+    const bool counts = high.point.amplitude > of_interest * highest && places.size() < most_places;
+    if (!counts) break;
+    auto place = high.place == PeakPlace::peak ? local_peak(balance, high.point)
+                                               : local_end(balance, high.point, given);
+    if (place) places.push_back({std::move(*place), high.point.frequency});
+  }
+  return places;
+}
+
+void count(CurveHarmonics& sum, const PeakWork& work) {
+  sum.iterations += work.iterations;
+  sum.contact_evaluations += work.contact_evaluations;
+}
+
+}  // namespace
+
+ContinuationOptions with_harmonics(const ContinuationOptions& range, const HarmonicSet& set) {
+  ContinuationOptions given = range;
+  given.harmonic_tolerance = 0.0;
+  given.n_harmonics = set.highest();
+  given.orders = set.orders();
+  return given;
+}
+
+CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& range,
+                                const HarmonicSet& set, const ResponseCurve& curve,
+                                const CurveOfSet& trace) {
+  CurveHarmonics chosen{set};
+  const ResponseCurve* now = &curve;
+  ResponseCurve traced;
+  HarmonicSet of_now = set;
+  for (int traces = 0; traces <= most_traces; ++traces) {
+    PeakHarmonicsChoice choice(scene, range);
+    chosen.settled = true;
+    chosen.left_out = 0.0;
+    bool is_lost = false;
+    for (const Place& place : places_of(scene, range, of_now, *now)) {
+      const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
+      chosen.set = chosen.set.united(found.set.orders());
+      chosen.left_out = std::max(chosen.left_out, found.left_out);
+      chosen.settled = chosen.settled && found.settled;
+      is_lost = is_lost || !found.peak;
+    }
+    count(chosen, choice.work());
+    if (!is_lost || traces == most_traces) return chosen;
+    traced = trace(chosen.set);
+    chosen.iterations += traced.iterations;
+    chosen.contact_evaluations += traced.contact_evaluations;
+    now = &traced;
+    of_now = chosen.set;
+  }
+  return chosen;
+}
+
+CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
+                               const HarmonicSet& set, ResponseCurve& curve) {
+  CurveHarmonics checked{set};
+  PeakHarmonicsChoice choice(scene, range);
+  for (const Place& place : places_of(scene, range, set, curve)) {
+    const double left_out = choice.left_out(set, place.peak);
+    checked.left_out = std::max(checked.left_out, left_out);
+    for (ResponsePoint& point : curve.points) {
+      if (point.frequency == place.frequency) point.harmonics_left_out = left_out;
+    }
+  }
+  checked.settled = checked.left_out <= range.harmonic_tolerance;
+  count(checked, choice.work());
+  return checked;
+}
+
+ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
+                                const CurveOfSet& first, const CurveOfSet& trace) {
+  HarmonicSet set = least_harmonics(scene);
+  ResponseCurve curve = first(set);
+  CurveHarmonics work{set, 0.0, true, curve.iterations, curve.contact_evaluations};
+  const auto add = [&](const CurveHarmonics& done) {
+    work.iterations += done.iterations;
+    work.contact_evaluations += done.contact_evaluations;
+    work.settled = done.settled;
+  };
+  for (int traces = 0; traces < most_traces; ++traces) {
+    const CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
+    add(chosen);
+    const bool is_new = chosen.set != set;
+    if (is_new) {
+      set = chosen.set;
+      curve = trace(set);
+      work.iterations += curve.iterations;
+      work.contact_evaluations += curve.contact_evaluations;
+    }
+    const CurveHarmonics checked = check_harmonics(scene, range, set, curve);
+    add(checked);
+    if (!is_new) break;
+    if (checked.settled || curve.diagnosis == "interrupted") break;
+  }
+  curve.iterations = work.iterations;
+  curve.contact_evaluations = work.contact_evaluations;
+  if (!work.settled && !curve.points.empty()) {
+    const auto highest = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
+    curve.log.push_back({highest->frequency, "harmonics-kept"});
+  }
+  return curve;
+}
+
+}  // namespace microslip::solver

@@ -1,0 +1,46 @@
+/// @file
+/// One set of harmonics for a response curve: what its highest points need (peak_harmonics.hpp), found on a curve
+/// with the least set first. Points away from the peaks have the same set; what it leaves out there is not
+/// asked.
+#pragma once
+
+#include <functional>
+
+#include "solver/continuation.hpp"
+
+namespace microslip::solver {
+
+/// The curve of a scene with a given set, or its solution at one frequency.
+using CurveOfSet = std::function<ResponseCurve(const HarmonicSet& set)>;
+
+struct CurveHarmonics {
+  HarmonicSet set{1};
+  double left_out = 0.0;  ///< Σ |δA| / A of harmonics left out, the largest of the high points
+  bool settled = true;    ///< false: a high point may need harmonics beyond those
+  long iterations = 0;
+  long contact_evaluations = 0;
+};
+
+/// @param range  with `harmonic_tolerance` > 0.
+/// @param curve  solved with `set`.
+/// @param trace  where the richer equations are not solved from the peak, its curve is.
+[[nodiscard]] CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& range,
+                                              const HarmonicSet& set, const ResponseCurve& curve,
+                                              const CurveOfSet& trace);
+
+/// What a set leaves out at the high points of its curve; the peaks of the curve keep their own.
+[[nodiscard]] CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
+                                             const HarmonicSet& set, ResponseCurve& curve);
+
+/// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
+/// its own peaks ask for more.
+/// @param first  traces the curve that the choice begins with; it is the result where its set is enough.
+/// @param trace  traces the curve that is given.
+[[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
+                                              const CurveOfSet& first, const CurveOfSet& trace);
+
+/// The options with a set given in the place of the tolerance.
+[[nodiscard]] ContinuationOptions with_harmonics(const ContinuationOptions& range,
+                                                 const HarmonicSet& set);
+
+}  // namespace microslip::solver

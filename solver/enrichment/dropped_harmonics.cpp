@@ -1,0 +1,48 @@
+#include "solver/enrichment/dropped_harmonics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "solver/enrichment/enrichment.hpp"
+#include "solver/balance/output_amplitude.hpp"
+
+namespace microslip::solver {
+
+std::vector<DroppedHarmonic> dropped_harmonics(const HarmonicBalance& balance,
+                                               const LocalPeak& peak) {
+  const BalanceEvaluation at = balance.evaluate(peak.point.x, peak.point.parameter);
+  const Scaling& scaling = peak.scaling;
+  const Eigen::Index n = peak.point.x.size();
+  Eigen::MatrixXd matrix(n + 1, n + 1);
+  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
+  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
+  const BranchVector border = border_of(peak);
+  matrix.row(n) << border.x.transpose(), border.parameter;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
+  const OutputAmplitude output =
+      output_amplitude(balance.harmonics(peak.point.x), balance.scene().output);
+  Eigen::VectorXd goal = Eigen::VectorXd::Zero(n + 1);
+  goal.head(n) = balance.unknowns(output.gradient);
+  const Eigen::VectorXd adjoint = factors.transpose().solve(goal);
+  std::vector<DroppedHarmonic> result;
+  const Eigen::Index size = 2 * balance.scene().n_modes();
+  Eigen::Index first = balance.scene().n_modes();
+  for (const int order : balance.set().orders()) {
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(n + 1, size);
+    unit.middleRows(first, size).setIdentity();
+    const Eigen::MatrixXd own = factors.solve(unit).middleRows(first, size);
+    const Eigen::VectorXd force = own.partialPivLu().solve(-peak.point.x.segment(first, size));
+    const double change = adjoint.segment(first, size).dot(force) / output.half_peak_to_peak;
+    result.push_back(
+        {order, std::isfinite(change) ? change : std::numeric_limits<double>::infinity()});
+    first += size;
+  }
+  std::ranges::stable_sort(result, {},
+                           [](const DroppedHarmonic& one) { return std::abs(one.amplitude); });
+  return result;
+}
+
+}  // namespace microslip::solver

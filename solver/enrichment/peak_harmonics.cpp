@@ -1,0 +1,182 @@
+#include "solver/enrichment/peak_harmonics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "solver/enrichment/dropped_harmonics.hpp"
+#include "solver/enrichment/level_point.hpp"
+#include "solver/enrichment/resonant_orders.hpp"
+
+namespace microslip::solver {
+namespace {
+
+constexpr int highest_probed = 30;  // forces of contact fall with k², motions with k² more
+// Of the force scale: what symmetry leaves of a harmonic is some 1e-15 of it.
+constexpr double silent = 1e-12;
+// Shares of the tolerance.
+constexpr double may_be_left_out = 0.5;
+constexpr double added_down_to = 0.25;
+constexpr double may_be_pruned = 0.2;
+constexpr double of_frequency = 0.1;  // a resonance is narrow: its frequency is asked for closer
+constexpr double idle = 1e-3;         // less than this is not worth a confirmation
+constexpr std::size_t largest_block = 10;  // added at a time: estimates far away rank, no more
+constexpr std::size_t confirming_block = 4;
+constexpr int most_rounds = 15;
+constexpr double farthest = 4.0;  // amplitudes or widths: a set with a resonance moves a peak far
+
+std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double scale) {
+  std::vector<int> orders;
+  for (int k = 1; k <= force.n_harmonics(); ++k) {
+    const double size = std::hypot(force.sine(k).norm(), force.cosine(k).norm());
+    if (size > silent * scale && !set.contains(k)) orders.push_back(k);
+  }
+  return orders;
+}
+
+}  // namespace
+
+HarmonicSet least_harmonics(const Scene& scene) {
+  std::vector<int> orders{1};
+  for (int k = 1; k <= scene.excitation.n_harmonics(); ++k) {
+    const bool excited =
+        scene.excitation.sine(k).norm() > 0.0 || scene.excitation.cosine(k).norm() > 0.0;
+    if (excited) orders.push_back(k);
+  }
+  return HarmonicSet(std::move(orders));
+}
+
+PeakHarmonicsChoice::PeakHarmonicsChoice(const Scene& scene, const ContinuationOptions& range)
+    : scene_(scene), range_(range), least_(least_harmonics(scene)) {
+  if (!(range.harmonic_tolerance > 0.0) || range.n_harmonics < 1) {
+    throw std::invalid_argument("harmonics: tolerance " + std::to_string(range.harmonic_tolerance) +
+                                " and highest " + std::to_string(range.n_harmonics) +
+                                "; needs a tolerance above 0 and at least one harmonic");
+  }
+}
+
+PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& set,
+                                                            const LocalPeak& peak) {
+  Estimate result;
+  if (!scene_.contact) return result;
+  const HarmonicBalance coarse(scene_, set);
+  const int highest = std::max(set.highest(), std::min(highest_probed, range_.n_harmonics));
+  const Harmonics force =
+      scene_.contact->force_up_to(coarse.harmonics(peak.point.x), peak.point.parameter, highest);
+  const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
+  if (orders.empty()) return result;
+  const HarmonicBalance richer(scene_, set.united(orders));
+  const Enrichment step = enrich(richer, embedded(peak, coarse, richer), FrequencyStep::none);
+  const BalanceEvaluation at = coarse.evaluate(peak.point.x, peak.point.parameter);
+  work_.contact_evaluations += step.evaluations + 2;
+  for (const RicherShare& share : step.shares) {
+    if (share.order == 0 || set.contains(share.order)) continue;
+    result.shares.push_back(share);
+    result.sum += std::abs(share.amplitude);
+  }
+  std::ranges::stable_sort(result.shares, std::ranges::greater{},
+                           [](const RicherShare& share) { return std::abs(share.amplitude); });
+  for (const int k :
+       resonant_orders(coarse, peak.point, at.jacobian, force, range_.harmonic_tolerance)) {
+    if (std::ranges::count(orders, k) > 0) result.resonant.push_back(k);
+  }
+  return result;
+}
+
+std::vector<int> PeakHarmonicsChoice::wanted(const Estimate& estimate) const {
+  std::vector<int> orders = estimate.resonant;
+  double rest = estimate.sum;
+  for (const RicherShare& share : estimate.shares) {
+    if (rest <= added_down_to * range_.harmonic_tolerance || orders.size() >= largest_block) break;
+    orders.push_back(share.order);
+    rest -= std::abs(share.amplitude);
+  }
+  return orders;
+}
+
+std::vector<int> PeakHarmonicsChoice::block(const Estimate& estimate) const {
+  std::vector<int> orders;
+  for (const RicherShare& share : estimate.shares) {
+    const bool counts = std::abs(share.amplitude) > idle * range_.harmonic_tolerance;
+    if (counts && orders.size() < confirming_block) orders.push_back(share.order);
+  }
+  return orders;
+}
+
+bool PeakHarmonicsChoice::same(const LocalPeak& a, const LocalPeak& b, double tolerance) const {
+  return std::abs(a.amplitude - b.amplitude) <= tolerance * b.amplitude &&
+         std::abs(a.point.parameter - b.point.parameter) <=
+             of_frequency * tolerance * b.point.parameter;
+}
+
+std::optional<LocalPeak> PeakHarmonicsChoice::solved(const HarmonicSet& from, const LocalPeak& peak,
+                                                     const HarmonicSet& to) {
+  const HarmonicBalance coarse(scene_, from);
+  const HarmonicBalance richer(scene_, to);
+  const LocalPeak start = embedded(peak, coarse, richer);
+  return level_point(richer, start, range_, work_, farthest);
+}
+
+PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPeak& peak,
+                                          const HarmonicSet& more) {
+  PeakHarmonics result{set.united(more.orders()), peak};
+  if (result.set != set) result.peak = solved(set, peak, result.set);
+  settle(result);
+  if (result.settled) prune(result, more);
+  return result;
+}
+
+/// Adds harmonics until what is left out does little and a block of it, solved for, confirms this.
+void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
+  const double tolerance = range_.harmonic_tolerance;
+  for (int round = 0; result.peak && round < most_rounds; ++round) {
+    const Estimate now = estimate(result.set, *result.peak);
+    result.left_out = now.sum;
+    const bool small = now.sum <= may_be_left_out * tolerance && now.resonant.empty();
+    const std::vector<int> orders = small ? block(now) : wanted(now);
+    if (orders.empty()) {
+      result.settled = true;
+      return;
+    }
+    HarmonicSet larger = result.set.united(orders);
+    std::optional<LocalPeak> next = solved(result.set, *result.peak, larger);
+    if (next && small) {
+      result.confirmed = std::abs(next->amplitude - result.peak->amplitude) / next->amplitude;
+      result.settled = same(*result.peak, *next, tolerance);
+      if (result.settled) return;
+    }
+    result.set = std::move(larger);
+    result.peak = std::move(next);
+  }
+}
+
+/// Takes out what does next to nothing, as long as the peak stays.
+void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least) {
+  const double allowed = may_be_pruned * range_.harmonic_tolerance;
+  const HarmonicBalance balance(scene_, result.set);
+  const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *result.peak);
+  ++work_.contact_evaluations;
+  std::vector<int> kept = least_.orders();
+  double sum = 0.0;
+  for (const DroppedHarmonic& one : dropped) {  // the least first
+    sum += std::abs(one.amplitude);
+    if (sum > allowed || least.contains(one.order)) kept.push_back(one.order);
+  }
+  const HarmonicSet fewer{std::move(kept)};
+  if (fewer == result.set) return;
+  std::optional<LocalPeak> peak = solved(result.set, *result.peak, fewer);
+  if (!peak || !same(*result.peak, *peak, 2.0 * allowed)) return;
+  result.left_out += std::abs(peak->amplitude - result.peak->amplitude) / peak->amplitude;
+  result.set = fewer;
+  result.peak = std::move(peak);
+}
+
+double PeakHarmonicsChoice::left_out(const HarmonicSet& set, const LocalPeak& peak) {
+  return estimate(set, peak).sum;
+}
+
+}  // namespace microslip::solver

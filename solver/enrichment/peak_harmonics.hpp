@@ -1,0 +1,74 @@
+/// @file
+/// One set of harmonics for a peak, chosen by what leaving harmonics out does to it.
+///
+///   estimate   all harmonics k ≤ 30 that the set lacks, by one step in the model that has them
+///              (enrichment.hpp): their effects are added up by size, no sign may hide another
+///   add        those whose effects together pass a quarter of the tolerance, and all that may resonate:
+///              kω within a few half bandwidths of a mode, free, stuck or held as at the peak, whose response to
+///              the force already there would be more than the tolerance. They are solved for together: next
+///              to a resonance one harmonic alone tells nothing of its neighbours
+///   solve      the peak again, by Newton's method from the embedding; then estimate anew
+///   confirm    once what is left out does less than half the tolerance, the largest few of it are solved for
+///              too. Only a peak that stays where it was, to the tolerance, is believed
+///   prune      what does next to nothing goes again, and the peak is solved once more
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/enrichment/enrichment.hpp"
+#include "solver/peak/local_peak.hpp"
+
+namespace microslip::solver {
+
+/// What every motion has: the first harmonic and those of the excitation.
+[[nodiscard]] HarmonicSet least_harmonics(const Scene& scene);
+
+struct PeakHarmonics {
+  HarmonicSet set{1};
+  /// Solved with the set, in its unknowns. Empty: it was not found there by Newton's method.
+  std::optional<LocalPeak> peak;
+  double left_out = 0.0;   ///< Σ |δA| / A of harmonics that the set lacks, estimated
+  double confirmed = 0.0;  ///< |δA| / A by the block that was solved for last
+  bool settled = false;  ///< false: the peak is not found, or the highest order allowed is reached
+};
+
+class PeakHarmonicsChoice {
+ public:
+  /// @param scene  borrowed.
+  /// @param range  `harmonic_tolerance` > 0 and `n_harmonics`, the highest that may be added; borrowed.
+  /// @throws std::invalid_argument  tolerance or highest out of range.
+  PeakHarmonicsChoice(const Scene& scene, const ContinuationOptions& range);
+
+  /// @param peak  solved with `set`.
+  /// @param more  orders that the result is to have at least.
+  [[nodiscard]] PeakHarmonics choose(const HarmonicSet& set, const LocalPeak& peak,
+                                     const HarmonicSet& more);
+  /// Σ |δA| / A of harmonics that a set lacks.
+  [[nodiscard]] double left_out(const HarmonicSet& set, const LocalPeak& peak);
+
+  [[nodiscard]] const PeakWork& work() const { return work_; }
+
+ private:
+  struct Estimate {
+    std::vector<RicherShare> shares;  ///< of orders left out, the largest first
+    double sum = 0.0;                 ///< of their sizes
+    std::vector<int> resonant;
+  };
+
+  [[nodiscard]] Estimate estimate(const HarmonicSet& set, const LocalPeak& peak);
+  [[nodiscard]] std::vector<int> wanted(const Estimate& estimate) const;
+  [[nodiscard]] std::vector<int> block(const Estimate& estimate) const;
+  [[nodiscard]] bool same(const LocalPeak& a, const LocalPeak& b, double tolerance) const;
+  [[nodiscard]] std::optional<LocalPeak> solved(const HarmonicSet& from, const LocalPeak& peak,
+                                                const HarmonicSet& to);
+  void settle(PeakHarmonics& result);
+  void prune(PeakHarmonics& result, const HarmonicSet& least);
+
+  const Scene& scene_;
+  const ContinuationOptions& range_;
+  HarmonicSet least_;
+  PeakWork work_;
+};
+
+}  // namespace microslip::solver

@@ -1,0 +1,394 @@
+#include "solver/optimum/peak_trace.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/optimum/common_harmonics.hpp"
+
+namespace microslip::solver {
+namespace {
+
+// The same peak, solved for twice: amplitudes agree to rounding, frequencies of a flat top to its
+// root.
+constexpr double same_amplitude = 1e-7;  // relative
+constexpr double same_frequency = 1e-4;  // of the resonance width
+// Between two values the step is halved down to this share of their distance.
+constexpr double finest = 1.0 / 64.0;
+// A pair of peaks closer than this share of the step ahead tells rounding errors, not a direction.
+constexpr double shortest_base = 0.05;
+constexpr std::size_t most_seeds =
+    4;  // peaks and ends of one curve that are followed, from the highest down
+// A peak lost below this share of the highest cannot become the highest within one step.
+constexpr double of_interest = 0.5;
+
+bool same(const LocalPeak& a, const ResponsePoint& b) {
+  return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
+         std::abs(a.point.parameter - b.frequency) <= same_frequency * a.scaling.parameter;
+}
+
+bool same(const LocalPeak& a, const LocalPeak& b) {
+  return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
+         std::abs(a.point.parameter - b.point.parameter) <= same_frequency * a.scaling.parameter;
+}
+
+void check(const PeakTraceOptions& options) {
+  const bool positive = options.scale == ParameterScale::linear || options.lower > 0.0;
+  const bool finite = std::isfinite(options.lower) && std::isfinite(options.upper);
+  if (!positive || !finite || !(options.upper > options.lower) || options.n_values < 2 ||
+      options.n_checks < 2) {
+    throw std::invalid_argument(
+        "peak trace: bounds " + std::to_string(options.lower) + " to " +
+        std::to_string(options.upper) + " with " + std::to_string(options.n_values) +
+        " values and " + std::to_string(options.n_checks) +
+        " checks; needs lower < upper, 0 < lower on the logarithmic scale, and at least 2 of each");
+  }
+}
+
+}  // namespace
+
+PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions& range,
+                           const PeakTraceOptions& options)
+    : family_(family), choosing_(range), range_(range), options_(options) {
+  check(options);
+  options_.n_checks = std::min(options.n_checks, options.n_values);
+  spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
+  std::vector<double> checks;
+  for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
+  PeakWork work;
+  range_ = with_common_harmonics(family_, checks, choosing_, work);
+  result_.iterations += work.iterations;
+  result_.contact_evaluations += work.contact_evaluations;
+}
+
+double PeakFamilies::position(double parameter) const {
+  return options_.scale == ParameterScale::logarithmic ? std::log(parameter) : parameter;
+}
+
+/// The position asked for before, where exp and log have only rounded it.
+double PeakFamilies::known_position(double parameter) const {
+  const double here = position(parameter);
+  const double rounding = 1e-9 * spacing_;
+  const auto nearest = asked_.lower_bound(here - rounding);
+  return nearest != asked_.end() && *nearest <= here + rounding ? *nearest : here;
+}
+
+double PeakFamilies::parameter(double position) const {
+  return options_.scale == ParameterScale::logarithmic ? std::exp(position) : position;
+}
+
+double PeakFamilies::value_position(int index) const {
+  return position(options_.lower) + spacing_ * index;
+}
+
+double PeakFamilies::check_position(int index) const {
+  const double last = options_.n_values - 1;
+  return value_position(static_cast<int>(std::lround(index * last / (options_.n_checks - 1))));
+}
+
+void PeakFamilies::note(const std::string& text, double position) {
+  std::ostringstream stream;
+  stream.precision(6);
+  stream << text << " at " << parameter(position);
+  result_.notes.push_back(stream.str());
+}
+
+void PeakFamilies::warn(const std::string& text, double position) {
+  note(text, position);
+  result_.warnings.push_back(result_.notes.back());
+}
+
+const LocalPeak* PeakFamilies::highest_followed(double position) const {
+  const LocalPeak* best = nullptr;
+  for (const Peaks& peaks : families_) {
+    const auto peak = peaks.find(position);
+    if (peak == peaks.end()) continue;
+    if (best == nullptr || peak->second.amplitude > best->amplitude) best = &peak->second;
+  }
+  return best;
+}
+
+PeakOfParameter PeakFamilies::highest_at(double position) const {
+  PeakOfParameter best{parameter(position), 0.0, std::numeric_limits<double>::infinity()};
+  const LocalPeak* followed = highest_followed(position);
+  if (followed != nullptr) {
+    best.amplitude = followed->amplitude;
+    best.frequency = followed->point.parameter;
+    best.place = followed->place;
+  }
+  const auto curve = curves_.find(position);
+  if (curve == curves_.end()) return best;
+  best.whole_curve = curve->second.complete;
+  if (curve->second.high.empty()) return best;
+  const HighPoint& solved = curve->second.high.front();
+  if (followed == nullptr || solved.point.amplitude > (1.0 + same_amplitude) * best.amplitude) {
+    best.amplitude = solved.point.amplitude;
+    best.frequency = solved.point.frequency;
+    best.place = solved.place;
+  }
+  best.detached = is_detached(curve->second, best.amplitude);
+  return best;
+}
+
+/// The highest point of a curve is the amplitude's, and stands beside the curve.
+bool PeakFamilies::is_detached(const Curve& curve, double amplitude) {
+  const HighPoint& highest = curve.high.front();
+  const double solved = highest.point.amplitude;
+  return highest.detached && std::abs(amplitude - solved) <= same_amplitude * solved;
+}
+
+/// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
+bool PeakFamilies::needs_curve(double position) const {
+  if (curves_.contains(position)) return false;
+  const LocalPeak* followed = highest_followed(position);
+  return followed == nullptr || followed->rises;
+}
+
+const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
+  const auto known = curves_.find(position);
+  if (known != curves_.end()) return known->second;
+  const Scene scene = family_(parameter(position));
+  const ResponseCurve curve = trace_response(scene, range_);
+  ++result_.n_curves;
+  result_.iterations += curve.iterations;
+  result_.contact_evaluations += curve.contact_evaluations;
+  if (!curve.complete) note("curve incomplete (" + curve.diagnosis + ")", position);
+  Curve kept{high_points(scene, curve, range_), curve.complete};
+  if (std::any_of(kept.high.begin(), kept.high.end(), [](const auto& one) { return one.climbed; })) {
+    note("a peak that the curve passes was solved for from the points beside it", position);
+  }
+  if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
+    note("the highest point of the curve is not a solved peak: the peak may be higher", position);
+  }
+  if (!kept.high.empty() && kept.high.front().detached) {
+    warn("the highest peak stands on a branch detached from the curve: no sweep meets it", position);
+  }
+  if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
+      left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {
+    note("the highest peak lacks harmonics that the checks did not need", position);
+  }
+  return curves_.emplace(position, std::move(kept)).first->second;
+}
+
+bool PeakFamilies::agrees(const Peaks& peaks, double position) const {
+  const LocalPeak& here = peaks.at(position);
+  const std::vector<HighPoint>& solved = curves_.at(position).high;
+  return std::any_of(solved.begin(), solved.end(),
+                     [&](const HighPoint& peak) { return same(here, peak.point); });
+}
+
+bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
+  const LocalPeak& here = families_[family].at(position);
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const auto other = families_[i].find(position);
+    if (i != family && other != families_[i].end() && same(here, other->second)) return true;
+  }
+  return false;
+}
+
+/// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
+/// that had it.
+void PeakFamilies::cut(Peaks& peaks, double position) {
+  const std::vector<HighPoint>& solved = curves_.at(position).high;
+  const bool higher =
+      solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude;
+  const std::string found =
+      " is not on the curve (its branch is detached, or another peak), curves traced whole";
+  if (higher) {
+    warn("a followed peak, higher than all of the curve," + found, position);
+  } else {
+    note("a followed peak" + found, position);
+  }
+  const auto agreed = [&](const auto& curve) {
+    return curve.second.complete && peaks.contains(curve.first) && agrees(peaks, curve.first);
+  };
+  const auto here = curves_.find(position);
+  const auto above = std::find_if(here, curves_.end(), agreed);
+  const auto below = std::find_if(std::make_reverse_iterator(here), curves_.rend(), agreed);
+  const double high =
+      above == curves_.end() ? std::numeric_limits<double>::infinity() : above->first;
+  const double low = below == curves_.rend() ? -high : below->first;
+  for (auto peak = peaks.upper_bound(low); peak != peaks.end() && peak->first < high;) {
+    if (asked_.contains(peak->first)) pending_.insert(peak->first);
+    peak = peaks.erase(peak);
+  }
+}
+
+std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const_iterator nearest,
+                                                double target) {
+  const LocalPeak& a = nearest->second;
+  BranchVector guess = a.point;
+  const auto after = std::next(nearest);
+  auto other = after != peaks.end() ? after : nearest;
+  if (nearest != peaks.begin() && (other == nearest || target > nearest->first)) {
+    other = std::prev(nearest);
+  }
+  // Toward a value between two known ones, interpolate; beyond the last one, extrapolate.
+  if (target > nearest->first && after != peaks.end()) other = after;
+  const double base = other->first - nearest->first;
+  const double ahead = target - nearest->first;
+  if (std::abs(base) > shortest_base * std::abs(ahead)) {
+    guess.x += ahead / base * (other->second.point.x - a.point.x);
+    guess.parameter += ahead / base * (other->second.point.parameter - a.point.parameter);
+  }
+  const Scene scene = family_(parameter(target));
+  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
+  PeakWork work;
+  std::optional<LocalPeak> peak = follow_peak(balance, a, guess, range_, work);
+  if (!peak) peak = follow_peak(balance, a, a.point, range_, work);
+  result_.iterations += work.iterations;
+  result_.contact_evaluations += work.contact_evaluations;
+  return peak;
+}
+
+bool PeakFamilies::follow_to(Peaks& peaks, double target) {
+  auto nearest = peaks.lower_bound(target);
+  if (nearest == peaks.end() ||
+      (nearest != peaks.begin() && target - std::prev(nearest)->first < nearest->first - target)) {
+    nearest = std::prev(nearest);
+  }
+  double step = target - nearest->first;
+  while (nearest->first != target) {
+    const double rest = target - nearest->first;
+    const double next = std::abs(rest) <= std::abs(step) ? target : nearest->first + step;
+    std::optional<LocalPeak> peak = followed(peaks, nearest, next);
+    if (peak) {
+      nearest = peaks.emplace(next, std::move(*peak)).first;
+      step *= 2.0;
+    } else {
+      step = 0.5 * (next - nearest->first);
+      if (std::abs(step) < finest * spacing_) return false;
+    }
+  }
+  return true;
+}
+
+/// From a known peak over all values up or down, until it is lost or met by another family.
+void PeakFamilies::follow_values(std::size_t family, double from, double direction) {
+  for (int i = 0; i < options_.n_values; ++i) {
+    const double target = value_position(direction > 0.0 ? i : options_.n_values - 1 - i);
+    if ((target - from) * direction <= 0.0) continue;
+    Peaks& peaks = families_[family];
+    if (!follow_to(peaks, target)) {
+      const auto last = direction > 0.0 ? std::prev(peaks.end()) : peaks.begin();
+      const double before = target - direction * spacing_;
+      if (last->second.amplitude < of_interest * highest_at(before).amplitude) return;
+      if (!curves_.contains(target)) {
+        note("a peak was lost (vanished, jumped or left the range), curve traced whole", target);
+        pending_.insert(target);
+      }
+      return;
+    }
+    if (known_elsewhere(family, target)) {
+      peaks.erase(target);
+      return;
+    }
+    const auto curve = curves_.find(target);
+    if (curve != curves_.end() && curve->second.complete && !agrees(peaks, target)) {
+      cut(peaks, target);
+      return;
+    }
+  }
+}
+
+void PeakFamilies::seed(double position) {
+  asked_.insert(position);
+  const Curve& curve = curve_at(position);
+  if (curve.complete) {
+    for (Peaks& peaks : families_) {
+      if (peaks.contains(position) && !agrees(peaks, position)) cut(peaks, position);
+    }
+  }
+  const Scene scene = family_(parameter(position));
+  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
+  for (std::size_t i = 0; i < std::min(most_seeds, curve.high.size()); ++i) {
+    const HighPoint& high = curve.high[i];
+    const bool known = std::any_of(families_.begin(), families_.end(), [&](const Peaks& peaks) {
+      const auto here = peaks.find(position);
+      return here != peaks.end() && same(here->second, high.point);
+    });
+    if (known || high.place == PeakPlace::unsolved) continue;
+    std::optional<LocalPeak> peak = high.place == PeakPlace::peak
+                                        ? local_peak(balance, high.point)
+                                        : local_end(balance, high.point, range_);
+    if (!peak) continue;
+    families_.push_back({{position, std::move(*peak)}});
+    follow_values(families_.size() - 1, position, 1.0);
+    // What was cut or met by another family need not reach back.
+    if (families_.back().contains(position)) follow_values(families_.size() - 1, position, -1.0);
+  }
+}
+
+void PeakFamilies::settle() {
+  while (!pending_.empty()) {
+    const double next = *pending_.begin();
+    pending_.erase(pending_.begin());
+    seed(next);
+  }
+}
+
+void PeakFamilies::trace() {
+  const int last = options_.n_values - 1;
+  for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
+  for (int i = 0; i < options_.n_checks; ++i) seed(check_position(i));
+  settle();
+  for (int i = 0; i <= last; ++i) {
+    const double here = value_position(i);
+    if (!needs_curve(here)) continue;
+    seed(here);
+    settle();
+  }
+}
+
+PeakOfParameter PeakFamilies::highest(double parameter) {
+  const double here = known_position(parameter);
+  asked_.insert(here);
+  for (Peaks& peaks : families_) {
+    const auto above = peaks.lower_bound(here - spacing_);
+    const bool near = above != peaks.end() && above->first <= here + spacing_;
+    if (near) static_cast<void>(follow_to(peaks, here));
+  }
+  PeakOfParameter best = highest_at(here);
+  best.parameter = parameter;
+  return best;
+}
+
+bool PeakFamilies::confirm(double parameter) {
+  const double followed = highest(parameter).amplitude;
+  const double here = known_position(parameter);
+  seed(here);
+  settle();
+  const Curve& curve = curve_at(here);
+  if (!curve.complete || curve.high.empty())
+    return true;  // named in the notes; nothing better is known
+  const double solved = curve.high.front().point.amplitude;
+  const bool confirmed = std::abs(followed - solved) <= same_amplitude * solved;
+  if (!confirmed) note("the curve has another highest peak than those followed", here);
+  return confirmed;
+}
+
+PeakTrace PeakFamilies::result() const {
+  PeakTrace result = result_;
+  for (const double position : asked_) {
+    const PeakOfParameter peak = highest_at(position);
+    if (std::isfinite(peak.amplitude)) result.peaks.push_back(peak);
+  }
+  return result;
+}
+
+PeakTrace trace_peaks(const SceneFamily& family, const ContinuationOptions& range,
+                      const PeakTraceOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  PeakFamilies families(family, range, options);
+  families.trace();
+  PeakTrace trace = families.result();
+  trace.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return trace;
+}
+
+}  // namespace microslip::solver

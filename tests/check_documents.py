@@ -1,0 +1,90 @@
+"""The documents hold together: links lead somewhere, citations of the theory have their section, the README is short.
+
+usage: check_documents.py SOURCE_FOLDER
+"""
+import os
+import re
+import sys
+import unittest
+
+SOURCE = sys.argv[1]
+CODE = (".hpp", ".cpp", ".py", ".cmake", ".toml", ".sh", "CMakeLists.txt")
+
+
+def files(ending):
+    for folder, inside, names in os.walk(SOURCE):
+        inside[:] = [d for d in inside if not d.startswith(".") and d not in ("build", "runs")]
+        yield from (os.path.join(folder, name) for name in names if name.endswith(ending))
+
+
+def text(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def pages():
+    """The README and every page of share/doc."""
+    return [os.path.join(SOURCE, "README.md"), *files(".md")]
+
+
+def anchors(page):
+    """Names under which the headings of a page can be linked to, as GitHub forms them."""
+    headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text(page), flags=re.S), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def document(name):
+    return text(os.path.join(SOURCE, "share", "doc", name))
+
+
+def sections_of(page):
+    """Numbers of its headings."""
+    return set(re.findall(r"^#+ (\d+(?:\.\d+)?)\.? ", page, re.M))
+
+
+def theory_sections():
+    """The numbered checks of section 15 are cited as 15.1, 15.2, …"""
+    theory = document("theory.md")
+    sections = sections_of(theory)
+    checks = theory[theory.index("\n## 15."):theory.index("\n## 16.")]
+    return sections | {f"15.{number}" for number in re.findall(r"^(\d)\. ", checks, re.M)}
+
+
+class Documents(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        for page in pages():
+            for link in re.findall(r"\]\(([^)\s]+)\)", text(page)):
+                if link.startswith(("http:", "https:")):
+                    continue
+                name, _, anchor = link.partition("#")
+                target = os.path.normpath(os.path.join(os.path.dirname(page), name)) if name else page
+                with self.subTest(page=page, link=link):
+                    self.assertTrue(os.path.exists(target))
+                    self.assertTrue(not anchor or anchor in anchors(target))
+
+    def find_citations(self, pattern, known):
+        """Asserts that the numbers cited are known; returns how many there are."""
+        cited = 0
+        for path in files(CODE):
+            plain = re.sub(r"\n\s*(///|//|#)\s*", " ", text(path))  # a citation may run over a line
+            for numbers in re.findall(pattern + r" (\d[\d., to–and]*)", plain):
+                for number in re.findall(r"\d+(?:\.\d+)?", numbers):
+                    cited += 1
+                    with self.subTest(path=path):
+                        self.assertIn(number, known)
+        return cited
+
+    def test_cited_sections_exist(self):
+        pattern = r"[Tt]heory,?(?: sections?)?"
+        self.assertGreater(self.find_citations(pattern, theory_sections()), 100)  # 244 when this was written
+        pattern = r"interfaces\.md sections?"
+        self.assertGreater(self.find_citations(pattern, sections_of(document("interfaces.md"))), 0)
+
+    def test_readme_is_short(self):
+        readme = text(os.path.join(SOURCE, "README.md"))
+        self.assertLessEqual(len(readme.splitlines()), 150)
+        self.assertLessEqual(len(readme.split()), 1500)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,1 @@
+// The headers precompiled for all tests need one unit of their own to be compiled with.
