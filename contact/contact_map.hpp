@@ -9,8 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
-#include "contact/closed_form/friction_cycle.hpp"
+#include "contact/patch.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/point/point_law.hpp"
 #include "contact/surface/surface_law.hpp"
@@ -39,6 +38,7 @@ struct ContactMap {
   /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another kind are their zero
   /// lines. Empty where laws alone were given, until add_guards().
   Eigen::VectorXd slip_guard, smallest_load, largest_load;
+  Eigen::VectorXd friction_coefficient;   ///< of the points at rest [-], n; empty where it was not told
   Eigen::VectorXd slip_duration;          ///< share of the period in slip [-], n
   Eigen::VectorXd separation_duration;    ///< share of the period without contact [-], n
   Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n

@@ -1,14 +1,12 @@
 /// @file
-/// A contact patch as the contact room knows it: points with area weights in a frame (p, q, r),
-/// local constants of every point, and the relative mode shapes there. Plain arrays; where they come
-/// from (finite elements, another code, a formula) is not known here.
+/// The contact points of one or several patches under a load: area weights and constants, checked.
 #pragma once
 
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "contact/surface/point_parameters.hpp"
+#include "contact/patch.hpp"
 
 namespace microslip::contact {
 
@@ -28,14 +26,6 @@ class ContactPatch {
  private:
   Eigen::VectorXd weights_;
   std::vector<PointParameters> points_;
-};
-
-/// Relative mode shapes (A minus B) at points of a patch in its frame, each n_points × n_modes
-/// [1/√kg]: u along p, v along q (positive approach), w along r. `w` may be empty (no motion).
-struct ModalShapes {
-  Eigen::MatrixXd u;
-  Eigen::MatrixXd v;
-  Eigen::MatrixXd w;
 };
 
 }  // namespace microslip::contact

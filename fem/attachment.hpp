@@ -32,6 +32,7 @@
 #include <Eigen/Core>
 
 #include "fem/modal_basis.hpp"
+#include "mesh/surface.hpp"
 
 namespace microslip::fem {
 
@@ -41,6 +42,13 @@ struct AttachmentOptions {
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
   double missed_tolerance = 0.3;  ///< largest share s of a chosen degree [-]
   int max_degree = 4;              ///< highest that is chosen
+};
+
+/// A contact face that takes tractions.
+struct AttachmentFace {
+  const mesh::Surface& surface;  ///< of the mesh, borrowed
+  Eigen::Matrix3d frame;         ///< rows p, q, r
+  Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();  ///< as in AttachmentOptions
 };
 
 /// Modes with attachment shapes behind them.

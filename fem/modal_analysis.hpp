@@ -65,6 +65,11 @@ class Structure {
   [[nodiscard]] AttachedBasis attach(const ModalBasis& basis, const mesh::Surface& surface,
                                      const Eigen::Matrix3d& frame, const Eigen::MatrixXd& forces,
                                      const AttachmentOptions& options = {});
+  /// The same for several faces, tractions of the same degree on all of them; each has its local stiffness.
+  [[nodiscard]] AttachedBasis attach(const ModalBasis& basis,
+                                     const std::vector<AttachmentFace>& faces,
+                                     const Eigen::MatrixXd& forces,
+                                     const AttachmentOptions& options);
   /// Adds springs between a surface and the ground, e.g. a contact that sticks everywhere:
   ///   K += Σ_c w_c Σ_d k_cd (N_c e_d)ᵀ(N_c e_d),   e_d row d of the frame.
   /// Call before modes or solutions are asked for, or ask for them again: factorisations are dropped.

@@ -12,6 +12,7 @@
 #include "fem/slepc_session.hpp"
 #include "pipelines/cycle/cycle_plot.hpp"
 #include "pipelines/cycle/cycle_table.hpp"
+#include "pipelines/files/columns.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
@@ -61,11 +62,13 @@ void refuse_idle_options(const Arguments& arguments) {
   refuse_later(!arguments.tolerance.empty(), "--tolerance");
   refuse_later(!arguments.budget.empty(), "--budget");
   const bool reads_scene =
-      arguments.command != "init" && arguments.command != "cycle" && arguments.command != "report";
+      arguments.command != "init" && arguments.command != "cycle" &&
+                           arguments.command != "report" && arguments.command != "columns";
   if (!reads_scene && !arguments.overrides.empty()) {
     throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
   }
-  if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report")) {
+  if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report" ||
+                            arguments.command == "columns")) {
     throw SceneError(fmt::format("--dry-run: {} has nothing to leave out", arguments.command));
   }
 }
@@ -126,6 +129,11 @@ int mesh(Arguments& arguments) {
   require_writable(file.parent_path());  // before the mesher works for nothing
   watch_for_interrupts();
   return mesh_study(scene, options_of(arguments, arguments.output));
+}
+
+int columns(const Arguments& arguments) {
+  put_out(arguments, columns_text());
+  return static_cast<int>(ExitCode::complete);
 }
 
 int init(const Arguments& arguments) {

@@ -43,6 +43,8 @@ int check(Arguments& arguments);
 int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&));
 int mesh(Arguments& arguments);
 int init(const Arguments& arguments);
+/// Every column and array of the files, as Markdown.
+int columns(const Arguments& arguments);
 int cycle(const Arguments& arguments);
 
 }  // namespace microslip::pipelines

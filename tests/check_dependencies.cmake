@@ -24,7 +24,8 @@ set(uses_fem_petsc elements)
 set(uses_fem_assembly elements petsc)
 set(uses_fem_eigen elements petsc assembly)
 
-set(drawers_contact numerics surface point closed_form line plane patch force sampled map transient)
+set(drawers_contact numerics surface point closed_form line plane patch force sampled map transient
+  choice)
 set(uses_contact_point surface)
 set(uses_contact_closed_form surface point)
 set(uses_contact_line numerics surface point)
@@ -34,6 +35,7 @@ set(uses_contact_force numerics surface point closed_form line plane patch)
 set(uses_contact_sampled numerics surface point patch force)
 set(uses_contact_map numerics surface point closed_form line plane patch)
 set(uses_contact_transient surface plane patch)
+set(uses_contact_choice surface point closed_form line plane sampled patch force transient map)
 
 set(drawers_solver balance branch time stability peak enrichment curve optimum)
 set(uses_solver_branch balance)
@@ -54,12 +56,10 @@ set(uses_pipelines_run system scene model response files)
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_command_line system text cycle)
 
-# Doors that are still open: drawers of contact/ that drawers of pipelines/ look into.
-set(open_pipelines_scene contact/surface contact/patch)
-set(open_pipelines_model contact/surface contact/point contact/line contact/plane contact/patch
-  contact/force contact/sampled contact/transient)
-set(open_pipelines_run contact/patch)
-set(open_pipelines_cycle contact/surface contact/point contact/closed_form contact/line contact/plane)
+# Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that
+# can be balanced) becomes arrays with the tools of contact/patch. Everything else of contact/ is its face.
+set(open_pipelines_scene contact/patch)
+set(open_pipelines_model contact/patch)
 
 # Splits a path into its room and its drawer ("" at the root of the room).
 macro(place path room drawer)

@@ -80,7 +80,9 @@ ForceAndJacobian LawPatchForce::evaluate_rows(const Harmonics& q, double frequen
     law.traction(point_motion_, frequency, traction_);
     sum_.add(i, weights_[i], law.load_at_rest(), traction_);
     const CycleStates cycle{traction_.regime, traction_.period};
-    const bool frictionless = sleep_.range(i).has_value() && !sleep_.range(i)->rubs();
+    // Of rough surfaces the range tells where they are open alone, nothing of friction.
+    const std::optional<LinearRange>& range = sleep_.range(i);
+    const bool frictionless = range && range->sticks_linearly && !range->rubs();
     all_states_[static_cast<std::size_t>(i)].cycle = frictionless ? cycle.without_slip() : cycle;
   }
   ForceAndJacobian result = sum_.take();

@@ -125,4 +125,10 @@ Eigen::Vector3d SurfaceEventLaw::stuck_stiffness() const {
   return {rubs ? law_.first_stiffness() * rest.stiffness_ratio : 0.0, normal, 0.0};
 }
 
+std::optional<LinearRange> SurfaceEventLaw::linear_range() const {
+  std::optional<LinearRange> range = law_.linear_range();
+  if (range) range->stiffness[2] = 0.0;
+  return range;
+}
+
 }  // namespace microslip::contact

@@ -21,6 +21,8 @@
 /// Source: theory sections 3–8, 10, 11.
 #pragma once
 
+#include <optional>
+
 #include "contact/point/point_law.hpp"
 #include "contact/surface/surface_law.hpp"
 
@@ -36,6 +38,8 @@ class SurfaceEventLaw final : public PointLaw {
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
   [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
+  /// That of the surfaces, without motion along r. Rough surfaces: only where open.
+  [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 
  private:
   SurfaceLaw law_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/point_motions.hpp"
 #include "contact/map/transition_guards.hpp"
 

@@ -58,6 +58,9 @@ Eigen::MatrixXd independent_columns(Eigen::MatrixXd X, Mat K, double tolerance) 
 void StaticShapes::append(const StaticShapes& more) {
   loads = beside(loads, more.loads);
   shapes = beside(shapes, more.shapes);
+  const Eigen::Index n = stiffness.size();
+  stiffness.conservativeResize(n + more.stiffness.size());
+  stiffness.tail(more.stiffness.size()) = more.stiffness;
 }
 
 RitzShapes ritz_shapes(const FeSystem& system, const StaticShapes& set,
@@ -77,11 +80,11 @@ RitzShapes ritz_shapes(const FeSystem& system, const StaticShapes& set,
 }
 
 double missed_share(const Eigen::MatrixXd& flexibility, Eigen::Index n_lower,
-                    const Eigen::Vector3d& local_stiffness) {
+                    const Eigen::VectorXd& local_stiffness) {
   const Eigen::Index n_last = flexibility.rows() - n_lower;
   if (n_last == 0) return 0.0;
   // In tractions of unit energy in the local springs: t = √k s. Then E = I + √k C √k.
-  const Eigen::VectorXd root = local_stiffness.cwiseSqrt().replicate(flexibility.rows() / 3, 1);
+  const Eigen::VectorXd root = local_stiffness.cwiseSqrt();
   const Eigen::MatrixXd C = symmetric(root.asDiagonal() * flexibility * root.asDiagonal());
   const auto B = C.bottomRightCorner(n_last, n_last);
   Eigen::MatrixXd missed = B;
@@ -119,7 +122,7 @@ AttachmentSet attachment_set(const ShapesOfDegree& solve, const AttachmentOption
     StaticShapes next = set.shapes;
     next.append(solve(set.degree + 1));
     const Eigen::MatrixXd flexibility = inner_products(next.loads, next.shapes);
-    set.missed_share = missed_share(flexibility, set.shapes.loads.cols(), options.local_stiffness);
+    set.missed_share = missed_share(flexibility, set.shapes.loads.cols(), next.stiffness);
     if (set.missed_share <= options.missed_tolerance || set.degree >= options.max_degree)
       return set;
     set.shapes = std::move(next);

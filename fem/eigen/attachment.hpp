@@ -17,6 +17,8 @@ namespace microslip::fem {
 struct StaticShapes {
   Eigen::MatrixXd loads;   ///< F, local rows × m
   Eigen::MatrixXd shapes;  ///< Ψ, local rows × m, M-orthogonal to the modes
+  /// Local contact stiffness along each traction [N/m³], m; none for other loads.
+  Eigen::VectorXd stiffness{};
 
   void append(const StaticShapes& more);
 };
@@ -34,11 +36,11 @@ struct RitzShapes {
                                      const Eigen::MatrixXd& modes, double tolerance = 1e-6);
 
 /// Largest share of the flexibility of the last tractions that the others miss (fem/attachment.hpp).
-/// @param flexibility  C = FᵀΨ [m³/N], (n_lower + n_last)², orthonormal tractions along p, q, r in turn.
-/// @param local_stiffness  along p, q, r [N/m³]; 0: no force can arise there, which misses nothing.
+/// @param flexibility  C = FᵀΨ [m³/N], (n_lower + n_last)², orthonormal tractions.
+/// @param local_stiffness  along each [N/m³]; 0: no force can arise there, which misses nothing.
 /// @return s, 0 … 1.
 [[nodiscard]] double missed_share(const Eigen::MatrixXd& flexibility, Eigen::Index n_lower,
-                                  const Eigen::Vector3d& local_stiffness);
+                                  const Eigen::VectorXd& local_stiffness);
 
 /// Solves for the tractions of exactly one degree.
 using ShapesOfDegree = std::function<StaticShapes(int degree)>;

@@ -268,14 +268,27 @@ ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, con
 
 AttachedBasis Structure::attach(const ModalBasis& basis, const mesh::Surface& surface, const Eigen::Matrix3d& frame,
                                 const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
+  const std::vector<AttachmentFace> faces{{surface, frame, options.local_stiffness}};
+  return attach(basis, faces, forces, options);
+}
+
+AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<AttachmentFace>& faces,
+                                const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
   Implementation& self = *self_;
   check_rows(forces, self.nodes.rows());
   self.factorise();
   const Eigen::MatrixXd kept = self.elastic_modes(basis);
   const ShapesOfDegree solve = [&](int degree) {
     const Eigen::Index n_before = 3 * n_polynomials(degree - 1);
-    const Eigen::MatrixXd loads = polynomial_tractions(self.nodes, surface, frame, degree);
-    return self.static_shapes(loads.rightCols(loads.cols() - n_before), kept);
+    StaticShapes shapes;
+    for (const AttachmentFace& face : faces) {
+      const Eigen::MatrixXd loads =
+          polynomial_tractions(self.nodes, face.surface, face.frame, degree);
+      StaticShapes own = self.static_shapes(loads.rightCols(loads.cols() - n_before), kept);
+      own.stiffness = face.local_stiffness.replicate(own.loads.cols() / 3, 1);
+      shapes.append(own);
+    }
+    return shapes;
   };
   AttachmentSet set = attachment_set(solve, options);
   if (forces.cols() > 0) set.shapes.append(self.static_shapes(forces, kept));

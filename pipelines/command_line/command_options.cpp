@@ -101,6 +101,10 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                                "converge is not available in this version; "
                                "share/scripts/mesh_convergence.py varies the mesh");
                          }));
+  with_output(add_command(app, a, chosen, "columns",
+                          "print every column and array of the files a run writes, with units",
+                          [&] { return columns(a); }),
+              "file to write; default standard output");
   auto* report_command =
       add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
                   [&] { return report_study(a.input); });

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "contact/point/point_law.hpp"
+#include "contact/point_cycle.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/surface/point_parameters.hpp"
+#include "contact/patch.hpp"
 #include "contact/harmonics.hpp"
 #include "pipelines/text/csv_table.hpp"
 

@@ -2,57 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "contact/line/event_law.hpp"
-#include "contact/plane/planar_cycle.hpp"
+#include "contact/point_cycle.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-/// Of planar cycles, relative to their force scale: near the tightest there is, a table is no hot path.
-constexpr double planar_tolerance = 1e-12;
-
-bool has_higher_harmonics(const contact::Harmonics& motion) {
-  return (motion.rows().bottomRows(motion.rows().rows() - 3).array() != 0.0).any();
-}
-
-/// Regime, segments, first harmonic and Jacobian in closed form.
-void use_closed_form(const contact::PointParameters& point, const contact::Harmonics& motion,
-                     CycleRow& row) {
-  const auto& y = motion.rows();
-  const contact::FrictionCycle cycle =
-      friction_cycle(point, {y(0, 0), y(1, 0), y(2, 0), y(0, 1), y(1, 1), y(2, 1)});
-  const auto segments = cycle.segments();
-  row.history.regime = cycle.regime;
-  row.history.segments.assign(segments.begin(), segments.end());
-  row.history.force.rows().topRows(3) << cycle.friction.mean, cycle.normal.mean, 0.0,  //
-      cycle.friction.sin, cycle.normal.sin, 0.0,                                       //
-      cycle.friction.cos, cycle.normal.cos, 0.0;
-  row.history.dissipated_energy = cycle.dissipated_energy;
-  row.history.slip_distance = cycle.slip_distance;
-  row.history.normal_slip = cycle.normal_slip;
-  row.jacobian = cycle.jacobian;
-}
-
-bool has_second_direction(const contact::Harmonics& motion) {
-  return (motion.rows().col(2).array() != 0.0).any();
-}
-
-/// Where the law is chosen.
-CycleRow solve(const contact::PointParameters& point, double second_stiffness,
-               const contact::Harmonics& motion, int n_harmonics, const Eigen::VectorXd& phases) {
-  if (has_second_direction(motion)) {
-    const contact::PlanarLaw law(contact::SurfaceLaw(point, second_stiffness), planar_tolerance);
-    return {"", law.history(motion, 0.0, phases, n_harmonics), std::nullopt};
-  }
-  CycleRow row{"", contact::EventLaw(point).history(motion, 0.0, phases, n_harmonics),
-               std::nullopt};
-  if (!has_higher_harmonics(motion)) use_closed_form(point, motion, row);
-  return row;
-}
 
 bool is_finite(const CycleRow& row) {
   const auto& instants = row.history.instants;
@@ -96,12 +54,12 @@ CycleRow solve_row(const CsvTable& table, const CycleColumns& columns, std::size
   const std::string id = table.id(row).empty() ? std::to_string(row + 1) : table.id(row);
   const std::string place = table.row_place(row) + ": ";
   if (!is_utf8(id)) throw SceneError(place + "id: not a text in UTF-8");
-  CycleRow cycle = solve(columns.point(row), columns.second_stiffness(row), columns.motion(row),
-                         n_harmonics, phases);
+  contact::PointCycle solved = contact::point_cycle(
+      columns.point(row), columns.second_stiffness(row), columns.motion(row), n_harmonics, phases);
+  CycleRow cycle{id, std::move(solved.history), solved.jacobian};
   if (!is_finite(cycle)) {
     throw SceneError(place + "forces or energy beyond the range of double precision");
   }
-  cycle.id = id;
   return cycle;
 }
 

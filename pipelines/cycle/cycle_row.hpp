@@ -1,10 +1,6 @@
 /// @file
-/// One row of a table of contact points solved: the one place where its law is chosen, so that every
-/// output of the command `cycle` shows the same cycle.
-///
-/// One harmonic: closed form (friction_cycle.hpp) with its Jacobian, instants by the event law. More:
-/// event by event (event_law.hpp). Motion along r as well: the planar law (planar_cycle.hpp), to 1e-12 of
-/// its force scale.
+/// One row of a table of contact points solved (contact/point_cycle.hpp chooses how), so that every output of
+/// the command `cycle` shows the same cycle.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/closed_form/friction_cycle.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point_cycle.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
 

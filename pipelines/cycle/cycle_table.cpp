@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "contact/closed_form/friction_cycle.hpp"
+#include "contact/point_cycle.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
 #include "pipelines/cycle/cycle_row.hpp"
 

@@ -157,6 +157,14 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file) {
 
 Hdf5Reader::~Hdf5Reader() { H5Fclose(file_); }
 
+bool Hdf5Reader::has(const std::string& name) const {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    if (H5Lexists(static_cast<hid_t>(file_), part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
 Eigen::VectorXd Hdf5Reader::vector(const std::string& name) const {
   return read_matrix<double>(file_, path_, name, H5T_NATIVE_DOUBLE, 1).col(0);
 }

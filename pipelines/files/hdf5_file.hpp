@@ -52,6 +52,8 @@ class Hdf5Reader {
   Hdf5Reader& operator=(Hdf5Reader&&) = delete;
   ~Hdf5Reader();
 
+  /// Whether there is a dataset of this name. @param name  "/FOLDER/NAME".
+  [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] Eigen::VectorXd vector(const std::string& name) const;
   [[nodiscard]] Eigen::MatrixXd matrix(const std::string& name) const;
   [[nodiscard]] Hdf5Integers integers(const std::string& name) const;

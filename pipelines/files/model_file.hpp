@@ -5,13 +5,13 @@
 ///   /frequency_Hz  /angular_frequency  /damping_ratio  /force_sine  /force_cosine  /force_static
 ///   /output                                                                    N modes each
 ///   /contact/points (n × 3)  weights  frame (rows p, q, r)  phi_u  phi_v  phi_w (n × N)
-///   /contact/tangential_stiffness  normal_stiffness  friction_coefficient  preload         n
+///   /contact/NAME                     n each: sample_arrays() of columns.hpp
 ///   /contact/fit_degree (1)  fit_error (N, or none)
 ///   /contact/vertices (m × 3)  cells (n × 3 or 4)  vertex_phi_u  vertex_phi_v  vertex_phi_w
-///   /contact/vertex_tangential_stiffness  vertex_normal_stiffness  vertex_friction_coefficient
-///   /contact/vertex_preload                                                              m
+///   /contact/vertex_NAME              m each
 ///
-/// An array the model does not have is a dataset without elements.
+/// A second patch is in /contact_2/, a third in /contact_3/, and so on; the attributes contact, contact_2, … of the file
+/// are their names then. An array the model does not have is a dataset without elements.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace microslip::pipelines {
 /// @throws ExhaustedError  cannot be written; nothing half-written is left.
 void write_model(const std::filesystem::path& file, const ReducedModel& model);
 
-/// What write_model wrote, bit for bit.
+/// What write_model wrote, bit for bit; patches are called by the folder they were in.
 /// @throws SceneError  file missing or truncated, a dataset missing or of another size; named.
 [[nodiscard]] ReducedModel read_model(const std::filesystem::path& file);
 

@@ -2,37 +2,16 @@
 
 #include <fmt/core.h>
 
-#include <initializer_list>
 #include <numbers>
+#include <optional>
 
+#include "pipelines/files/columns.hpp"
 #include "pipelines/system/output_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-constexpr double degrees = 180.0 / std::numbers::pi;
-
-const char* mark_name(solver::PointMark mark) {
-  switch (mark) {
-    case solver::PointMark::peak:
-      return "peak";
-    case solver::PointMark::fold:
-      return "fold";
-    case solver::PointMark::none:
-      break;
-  }
-  return "";
-}
-
-void append_row(std::string& table, std::initializer_list<double> numbers) {
-  const char* separator = "";
-  for (const double number : numbers) {
-    table += separator;
-    table += format_number(number);
-    separator = ",";
-  }
-}
 
 void append_names(std::string& header, const std::string& stem, Eigen::Index n_modes) {
   for (Eigen::Index mode = 1; mode <= n_modes; ++mode) {
@@ -40,30 +19,28 @@ void append_names(std::string& header, const std::string& stem, Eigen::Index n_m
   }
 }
 
-std::string cell(const Eigen::VectorXd& column, Eigen::Index row) {
-  return row < column.size() ? format_number(column[row]) : std::string();
+/// Row of a column, where it reaches so far.
+std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
+  return row < column.size() ? std::optional(column[row]) : std::nullopt;
 }
 
 }  // namespace
 
-std::string curve_table(const solver::ResponseCurve& curve) {
-  std::string table =
-      "frequency_Hz,amplitude_m,amplitude_1_m,mean_m,phase_deg,stable,stick_share,slip_share,"
-      "separated_share,three_states_share,residual,energy_imbalance,dissipation_mismatch,mark,"
-      "awake_share,iterations,harmonics\n";
-  for (const solver::ResponsePoint& point : curve.points) {
-    append_row(table, {point.frequency / two_pi, point.amplitude, point.first_amplitude, point.mean,
-                       point.phase * degrees});
-    table += fmt::format(",{},", static_cast<int>(point.stability));
-    append_row(table, {point.report.stick_share, point.report.slip_share,
-                       point.report.separated_share, point.report.three_states_share,
-                       point.residual, point.energy_imbalance, point.dissipation_mismatch});
-    table += ",";
-    table += mark_name(point.mark);
-    const std::size_t harmonics =
-        point.orders.empty() ? static_cast<std::size_t>(point.q.n_harmonics()) : point.orders.size();
-    table += fmt::format(",{},{},{}\n", format_number(point.report.awake_share), point.iterations,
-                         harmonics);
+std::string curve_table(const solver::ResponseCurve& curve,
+                        const std::vector<PatchShares>& patches) {
+  std::string table = header_of(curve_columns());
+  for (const PatchShares& patch : patches) {
+    for (const auto& column : patch_columns()) {
+      table += fmt::format(",{}.{}", patch.patch, column.name);
+    }
+  }
+  table += "\n";
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    table += row_of(curve_columns(), curve.points[i]);
+    for (const PatchShares& patch : patches) {
+      table.append(",").append(row_of(patch_columns(), patch.reports[i]));
+    }
+    table += "\n";
   }
   return table;
 }
@@ -89,7 +66,7 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
                  Eigen::Index n_modes) {
   const std::filesystem::path curves = folder / "curves";
   make_folder(curves);
-  write_whole(curves / (result.name + ".csv"), curve_table(result.curve));
+  write_whole(curves / (result.name + ".csv"), curve_table(result.curve, result.patch_shares));
   write_whole(curves / (result.name + ".states.csv"), states_table(result.curve, n_modes));
   int number = 0;
   for (const solver::DetachedBranch& branch : result.curve.detached) {
@@ -100,36 +77,26 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
 }
 
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes) {
-  std::string table = "mode,frequency_Hz,residual,damping_ratio,fit_error,kind\n";
+  std::string table = header_of(mode_columns()) + "\n";
   const Eigen::Index n = modes.frequency.size();
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    table +=
-        fmt::format("{},{},{},{},{},{}\n", mode + 1, format_number(modes.frequency[mode] / two_pi),
-                    cell(modes.residual, mode), cell(modes.damping_ratio, mode),
-                    cell(modes.fit_error, mode), mode < n - modes.n_attachment ? "free" : "attachment");
+    const ModeRow row{mode + 1,
+                      modes.frequency[mode],
+                      entry(modes.residual, mode),
+                      entry(modes.damping_ratio, mode),
+                      entry(modes.fit_error, mode),
+                      mode >= n - modes.n_attachment};
+    table += row_of(mode_columns(), row) + "\n";
   }
   write_whole(file, table);
 }
 
-const char* to_string(solver::PeakPlace place) {
-  switch (place) {
-    case solver::PeakPlace::peak: return "peak";
-    case solver::PeakPlace::range_end: return "range_end";
-    case solver::PeakPlace::unsolved: break;
-  }
-  return "unsolved";
-}
-
 void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
                        const solver::Optimum& optimum) {
-  std::string table = request.of_preload() ? "preload_N" : "value";
-  table += ",frequency_Hz,amplitude_m,at,mark\n";
+  const auto columns = optimum_columns(request.of_preload());
+  std::string table = header_of(columns) + "\n";
   for (const solver::PeakOfParameter& peak : optimum.trace) {
-    append_row(table, {peak.parameter, peak.frequency / two_pi, peak.amplitude});
-    const bool best = optimum.found && peak.parameter == optimum.best.parameter;
-    const bool flat = optimum.flat && peak.parameter >= (*optimum.flat)[0] &&
-                      peak.parameter <= (*optimum.flat)[1];
-    table += fmt::format(",{},{}\n", to_string(peak.place), best ? "optimum" : flat ? "flat" : "");
+    table += row_of(columns, OptimumRow{optimum, peak}) + "\n";
   }
   write_whole(folder / (request.of_preload() ? "peak_against_preload.csv" : "peak_against_parameter.csv"),
               table);

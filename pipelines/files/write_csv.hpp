@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -12,7 +13,9 @@
 namespace microslip::pipelines {
 
 /// The text of curves/NAME.csv: one row per solution point, in branch order.
-[[nodiscard]] std::string curve_table(const solver::ResponseCurve& curve);
+/// @param patches  shares of each patch, where there are several.
+[[nodiscard]] std::string curve_table(const solver::ResponseCurve& curve,
+                                      const std::vector<PatchShares>& patches = {});
 
 /// The text of curves/NAME.states.csv: `frequency_Hz,q_mean_1…,q_sin1_1…,q_cos1_1…` [Hz, m√kg].
 /// @param n_modes  width of the header, for a curve without points.
@@ -35,9 +38,6 @@ struct ModeTable {
 /// modes.csv: `mode,frequency_Hz,residual,damping_ratio,fit_error,kind`; kind is free or attachment.
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
-
-/// `at` of the files below: peak, range_end (of the frequency range) or unsolved.
-[[nodiscard]] const char* to_string(solver::PeakPlace place);
 
 /// The trace of an optimum: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,at,mark`, or
 /// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row, flat on those of a

@@ -12,6 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/core.h>
+
+#include "pipelines/files/columns.hpp"
 #include "pipelines/files/hdf5_file.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/files/vtk_file.hpp"
@@ -36,43 +39,43 @@ void require_rows(const char* what, const NamedMap& map, Eigen::Index rows, Eige
 }
 
 /// Positions of the contact points [m]; a row along p where the model has none.
-Eigen::MatrixX3d point_positions(const ReducedModel& model) {
-  const Eigen::Index n = model.weights.size();
-  const bool given =
-      model.points.rows() == n &&
-      (n < 2 || (model.points.rowwise() - model.points.row(0)).cwiseAbs().maxCoeff() > 0.0);
-  if (given) return model.points;
+Eigen::MatrixX3d point_positions(const contact::Patch& patch) {
+  const Eigen::MatrixX3d& points = patch.cells.points;
+  const Eigen::Index n = patch.cells.weights.size();
+  const bool given = points.rows() == n &&
+                     (n < 2 || (points.rowwise() - points.row(0)).cwiseAbs().maxCoeff() > 0.0);
+  if (given) return points;
   constexpr double spacing = 1e-3;  // [m]: a scale for pictures, nothing is computed from it
   Eigen::MatrixX3d row(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    row.row(i) = spacing * static_cast<double>(i) * model.frame.row(0);
+    row.row(i) = spacing * static_cast<double>(i) * patch.frame.row(0);
   }
   return row;
 }
 
-vtkSmartPointer<vtkPolyData> make_patch(const ReducedModel& model) {
-  const bool has_cells = model.cells.rows() > 0;
-  const Eigen::MatrixX3d positions = has_cells ? model.vertices : point_positions(model);
+vtkSmartPointer<vtkPolyData> make_surface(const contact::Patch& patch) {
+  const bool has_cells = patch.connectivity.rows() > 0;
+  const Eigen::MatrixX3d positions = has_cells ? patch.vertices.points : point_positions(patch);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const auto& x : positions.rowwise()) points->InsertNextPoint(x[0], x[1], x[2]);
   vtkNew<vtkCellArray> cells;
   if (has_cells) {
-    for (const auto& cell : model.cells.rowwise()) {
+    for (const auto& cell : patch.connectivity.rowwise()) {
       const std::vector<vtkIdType> corners(cell.begin(), cell.end());
       cells->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
     }
   } else {
     for (vtkIdType point = 0; point < positions.rows(); ++point) cells->InsertNextCell(1, &point);
   }
-  auto patch = vtkSmartPointer<vtkPolyData>::New();
-  patch->SetPoints(points);
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(points);
   if (has_cells) {
-    patch->SetPolys(cells);
+    surface->SetPolys(cells);
   } else {
-    patch->SetVerts(cells);
+    surface->SetVerts(cells);
   }
-  return patch;
+  return surface;
 }
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -89,13 +92,6 @@ Eigen::MatrixXi start_counts(const contact::ContactMap& map) {
   return counts;
 }
 
-void add_guards(vtkDataSetAttributes& data, const contact::ContactMap& map) {
-  if (map.slip_guard.size() == 0) return;
-  add_array(data, "slip_guard_Pa", map.slip_guard);
-  add_array(data, "smallest_load_Pa", map.smallest_load);
-  add_array(data, "largest_load_Pa", map.largest_load);
-}
-
 void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map) {
   for (Eigen::Index state = 0; state < map.state_start.cols(); ++state) {
     add_array(data, start_names.at(static_cast<std::size_t>(state)), map.state_start.col(state) / degree);
@@ -106,25 +102,18 @@ void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map
     add_array(data, share_names.at(name), map.state_share.col(state));
     add_integers(data, count_names.at(name), counts.col(state));
   }
-  add_guards(data, map);
-  add_array(data, "dissipated_energy_J_per_m2", map.dissipated_energy);
-  add_array(data, "slip_distance_m", map.slip_distance);
-  add_array(data, "wear_depth_m", map.wear_depth);
-  add_array(data, "slip_duration", map.slip_duration);
-  add_array(data, "separation_duration", map.separation_duration);
+  for (const auto& array : cycle_arrays()) {
+    const Eigen::VectorXd& values = map.*array.values;
+    if (values.size() > 0) add_array(data, array.name, values);
+  }
 }
 
 void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eigen::Index phase) {
   add_integers(data, "state", map.state.col(phase).cast<int>());
-  add_array(data, "normal_traction_Pa", map.normal_traction.col(phase));
-  add_array(data, "friction_traction_Pa", map.friction_traction.col(phase));
-  add_array(data, "relative_displacement_m", map.relative_displacement.col(phase));
-  add_array(data, "approach_m", map.approach.col(phase));
-  add_array(data, "slip_m", map.slip.col(phase));
-  if (map.slip_r.cols() == 0) return;
-  add_array(data, "friction_traction_r_Pa", map.friction_traction_r.col(phase));
-  add_array(data, "relative_displacement_r_m", map.relative_displacement_r.col(phase));
-  add_array(data, "slip_r_m", map.slip_r.col(phase));
+  for (const auto& array : instant_arrays()) {
+    const Eigen::MatrixXd& values = map.*array.values;
+    if (values.size() > 0) add_array(data, array.name, values.col(phase));
+  }
 }
 
 double in_degrees(double phase) {
@@ -133,15 +122,15 @@ double in_degrees(double phase) {
   return std::abs(rounded - degrees) < 1e-9 ? rounded : degrees;
 }
 
-void write_series(const std::filesystem::path& folder, const ReducedModel& model,
+void write_series(const std::filesystem::path& folder, const contact::Patch& patch,
                   const NamedMap& map) {
-  const auto patch = make_patch(model);
+  const auto surface = make_surface(patch);
   const bool smooth = map.vertices.phase.size() > 0;
-  const bool points_only = model.cells.rows() == 0;
+  const bool points_only = patch.connectivity.rows() == 0;
   std::vector<std::pair<double, std::string>> steps;
   for (Eigen::Index step = 0; step < map.points.phase.size(); ++step) {
     vtkNew<vtkPolyData> frame;
-    frame->ShallowCopy(patch);
+    frame->ShallowCopy(surface);
     add_instant(*frame->GetCellData(), map.points, step);
     add_cycle_totals(*frame->GetCellData(), map.points);
     frame->GetCellData()->SetActiveScalars("state");  // what ParaView colours by on opening: crisp
@@ -164,30 +153,29 @@ void write_series(const std::filesystem::path& folder, const ReducedModel& model
 }
 
 /// Coordinates (p, r) in the plane of the patch, from its centroid where it has cells.
-Eigen::MatrixXd in_plane(const ReducedModel& model, const Eigen::MatrixX3d& positions) {
+Eigen::MatrixXd in_plane(const contact::Patch& patch, const Eigen::MatrixX3d& positions) {
   Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
-  const double area = model.weights.sum();
-  if (model.cells.rows() > 0 && area > 0.0) {
-    origin = model.weights.transpose() * model.points / area;
+  if (patch.connectivity.rows() > 0 && patch.cells.weights.sum() > 0.0) {
+    origin = contact::centroid(patch).transpose();
   }
-  const Eigen::MatrixX3d local = (positions.rowwise() - origin) * model.frame.transpose();
+  const Eigen::MatrixX3d local = (positions.rowwise() - origin) * patch.frame.transpose();
   Eigen::MatrixXd plane(local.rows(), 2);
   plane << local.col(0), local.col(2);
   return plane;
 }
 
-/// Transition angles, shares of the period and guards under names that begin with `stem`.
+/// Transition angles, shares of the period and fields of the period under names that begin with `stem`.
 void write_transitions(Hdf5Writer& out, const std::string& stem, const contact::ContactMap& map) {
   out.matrix(stem + "state_start_deg", map.state_start / degree, "deg");
   out.matrix(stem + "state_starts_deg", map.state_starts / degree, "deg");
   out.matrix(stem + "state_share", map.state_share, "1");
-  if (map.slip_guard.size() == 0) return;
-  out.vector(stem + "slip_guard_Pa", map.slip_guard, "Pa");
-  out.vector(stem + "smallest_load_Pa", map.smallest_load, "Pa");
-  out.vector(stem + "largest_load_Pa", map.largest_load, "Pa");
+  for (const auto& array : cycle_arrays()) {
+    const Eigen::VectorXd& values = map.*array.values;
+    if (values.size() > 0) out.vector(stem + array.name, values, array.unit);
+  }
 }
 
-void write_map_data(const std::filesystem::path& file, const ReducedModel& model,
+void write_map_data(const std::filesystem::path& file, const contact::Patch& patch,
                     const NamedMap& map) {
   Hdf5Writer out;
   out.text("program", "microslip");
@@ -195,25 +183,14 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
   out.vector("/amplitude_m", Eigen::VectorXd::Constant(1, map.amplitude), "m");
   out.vector("/stable", Eigen::VectorXd::Constant(1, static_cast<double>(map.stability)), "1");
   out.vector("/phase_deg", map.points.phase * (180.0 / std::numbers::pi), "deg");
-  out.matrix("/points", in_plane(model, point_positions(model)), "m");
-  out.vector("/weights", model.weights, "m^2");
-  out.matrix("/vertices", in_plane(model, model.vertices), "m");
-  out.integers("/cells", model.cells.cast<std::int64_t>(), "1");
+  out.matrix("/points", in_plane(patch, point_positions(patch)), "m");
+  out.vector("/weights", patch.cells.weights, "m^2");
+  out.matrix("/vertices", in_plane(patch, patch.vertices.points), "m");
+  out.integers("/cells", patch.connectivity.cast<std::int64_t>(), "1");
   out.bytes("/state", map.points.state, "1");
-  out.matrix("/normal_traction_Pa", map.points.normal_traction, "Pa");
-  out.matrix("/friction_traction_Pa", map.points.friction_traction, "Pa");
-  out.matrix("/relative_displacement_m", map.points.relative_displacement, "m");
-  out.matrix("/approach_m", map.points.approach, "m");
-  out.matrix("/slip_m", map.points.slip, "m");
-  out.vector("/dissipated_energy_J_per_m2", map.points.dissipated_energy, "J/m^2");
-  out.vector("/slip_distance_m", map.points.slip_distance, "m");
-  out.vector("/wear_depth_m", map.points.wear_depth, "m");
-  out.vector("/slip_duration", map.points.slip_duration, "1");
-  out.vector("/separation_duration", map.points.separation_duration, "1");
-  if (map.points.slip_r.cols() > 0) {
-    out.matrix("/friction_traction_r_Pa", map.points.friction_traction_r, "Pa");
-    out.matrix("/relative_displacement_r_m", map.points.relative_displacement_r, "m");
-    out.matrix("/slip_r_m", map.points.slip_r, "m");
+  for (const auto& array : instant_arrays()) {
+    const Eigen::MatrixXd& values = map.points.*array.values;
+    if (values.size() > 0) out.matrix(fmt::format("/{}", array.name), values, array.unit);
   }
   write_transitions(out, "/", map.points);
   if (map.vertices.phase.size() > 0) {
@@ -225,18 +202,17 @@ void write_map_data(const std::filesystem::path& file, const ReducedModel& model
 
 }  // namespace
 
-void write_map(const std::filesystem::path& folder, const ReducedModel& model,
+void write_map(const std::filesystem::path& folder, const contact::Patch& patch,
                const NamedMap& map) {
-  require_rows("contact points", map, map.points.state.rows(), model.weights.size());
-  if (model.cells.rows() > 0) {
-    require_rows("cells", map, model.cells.rows(), model.weights.size());
-  }
-  if (model.cells.rows() > 0 && map.vertices.phase.size() > 0) {
-    require_rows("vertices", map, map.vertices.state.rows(), model.vertices.rows());
+  const Eigen::Index n = patch.cells.weights.size();
+  require_rows("contact points", map, map.points.state.rows(), n);
+  if (patch.connectivity.rows() > 0) require_rows("cells", map, patch.connectivity.rows(), n);
+  if (patch.connectivity.rows() > 0 && map.vertices.phase.size() > 0) {
+    require_rows("vertices", map, map.vertices.state.rows(), patch.vertices.points.rows());
   }
   make_folder(folder);
-  write_series(folder, model, map);
-  write_map_data(folder / (map.name + ".h5"), model, map);
+  write_series(folder, patch, map);
+  write_map_data(folder / (map.name + ".h5"), patch, map);
 }
 
 }  // namespace microslip::pipelines

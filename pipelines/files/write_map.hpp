@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "pipelines/model/reduced_model.hpp"
+#include "contact/patch.hpp"
 #include "pipelines/response/run_results.hpp"
 
 namespace microslip::pipelines {
@@ -29,10 +29,10 @@ namespace microslip::pipelines {
 ///   (`/vertex_…`), and the patch in its plane:
 ///   `/points` (n × 2: p, r), `/vertices`, `/cells`.
 ///
-/// A model without cells gives one vertex per contact point; one without positions puts the points
+/// All names with units and meaning: columns.hpp. A patch without cells gives one vertex per contact point; one without positions puts the points
 /// in a row.
 /// @throws std::invalid_argument  the map does not have one row per contact point (or vertex).
 /// @throws ExhaustedError         cannot be written.
-void write_map(const std::filesystem::path& folder, const ReducedModel& model, const NamedMap& map);
+void write_map(const std::filesystem::path& folder, const contact::Patch& patch, const NamedMap& map);
 
 }  // namespace microslip::pipelines

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "pipelines/system/output_file.hpp"
-#include "pipelines/files/write_csv.hpp"
+#include "pipelines/files/columns.hpp"
 
 namespace microslip::pipelines {
 namespace {

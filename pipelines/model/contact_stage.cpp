@@ -108,12 +108,12 @@ ShapesOnPatch shapes_of(const contact::ModalContactField& field,
   return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
 }
 
-void set_stiffness(ReducedModel& model, const ContactDescription& contact,
+void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
                    const mesh::SurfaceSampling& sampling,
                    const fem::ResidualFlexibility* residual) {
   if (residual == nullptr && (!contact.normal_stiffness || !contact.tangential_stiffness)) {
     throw RefusedError(
-        "contact: \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
+        contact.key + ": \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
         "none; give a local stiffness in N/m^3");
   }
   const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
@@ -123,74 +123,92 @@ void set_stiffness(ReducedModel& model, const ContactDescription& contact,
     return series_stiffness(local, to * nodal.col(axis), axis == 1 ? "normal" : "tangential",
                             axis != 2);
   };
-  model.tangential_stiffness = stiffness(sampling.to_centres, 0);
-  model.normal_stiffness = stiffness(sampling.to_centres, 1);
-  model.second_stiffness = stiffness(sampling.to_centres, 2);
-  model.vertex_tangential_stiffness = stiffness(sampling.to_vertices, 0);
-  model.vertex_normal_stiffness = stiffness(sampling.to_vertices, 1);
-  model.vertex_second_stiffness = stiffness(sampling.to_vertices, 2);
-  if (residual != nullptr) {
-    model.compliance = sampling.to_centres * nodal;
-    model.vertex_compliance = sampling.to_vertices * nodal;
-  }
+  const auto set = [&](contact::PatchSamples& samples, const Eigen::SparseMatrix<double>& to) {
+    samples.stiffness.resize(to.rows(), 3);
+    for (int axis = 0; axis < 3; ++axis) samples.stiffness.col(axis) = stiffness(to, axis);
+    if (residual != nullptr) samples.compliance = to * nodal;
+  };
+  set(patch.cells, sampling.to_centres);
+  set(patch.vertices, sampling.to_vertices);
 }
 
 /// Friction coefficient and preload of 1 N over the patch, in p and r from its centroid.
-void set_fields(ReducedModel& model, const ContactDescription& contact) {
-  const Eigen::Vector3d origin = patch_centroid(model);
-  const auto centres = in_plane(model.points, origin, model.frame);
-  const auto vertices = in_plane(model.vertices, origin, model.frame);
+void set_fields(contact::Patch& patch, const ContactDescription& contact) {
+  const Eigen::Vector3d origin = contact::centroid(patch);
+  const auto centres = in_plane(patch.cells.points, origin, patch.frame);
+  const auto vertices = in_plane(patch.vertices.points, origin, patch.frame);
   const Field friction(contact.friction);
-  model.friction_coefficient = friction.at(centres.p, centres.r);
-  model.vertex_friction_coefficient = friction.at(vertices.p, vertices.r);
+  patch.cells.friction = friction.at(centres.p, centres.r);
+  patch.vertices.friction = friction.at(vertices.p, vertices.r);
   if (contact.preload_moment != std::array{0.0, 0.0}) {
-    model.tilted_areas.push_back(
-        {"contact.preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
+    patch.tilted_areas.push_back(
+        {contact.key + ".preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
   }
-  model.preload = unit_preload(contact, centres.p, centres.r, model.weights);
+  patch.cells.preload = unit_preload(contact, centres.p, centres.r, patch.cells.weights);
   if (!contact.preload_field) {
-    model.vertex_preload =
-        Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / model.weights.sum());
+    patch.vertices.preload =
+        Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / patch.cells.weights.sum());
     return;
   }
   const Field field(*contact.preload_field);
   const Eigen::VectorXd shape = field.at(centres.p, centres.r);
   Eigen::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
-  model.vertex_preload =
-      field.at(vertices.p, vertices.r) * (model.preload[largest] / shape[largest]);
+  patch.vertices.preload =
+      field.at(vertices.p, vertices.r) * (patch.cells.preload[largest] / shape[largest]);
 }
 
-void set_contact(ReducedModel& model, const mesh::Mesh& mesh, const ContactDescription& contact,
-                 const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
+/// Rough surfaces change their part of the stiffness alone: it must be known.
+contact::SurfaceRules rules_of(const ContactDescription& contact) {
+  contact::SurfaceRules rules = contact.rules;
+  if (!rules.roughness) return rules;
+  rules.local_tangential_stiffness = contact.tangential_stiffness;
+  rules.local_normal_stiffness = contact.normal_stiffness;
+  if (!rules.local_tangential_stiffness || !rules.local_normal_stiffness) {
+    throw RefusedError(
+        contact.key +
+        ".roughness: rough surfaces need a stiffness of full contact; give normal_stiffness and "
+        "tangential_stiffness in N/m^3 instead of \"rigid\"");
+  }
+  return rules;
+}
+
+contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contact,
+                        const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
   const mesh::Surface& surface = mesh.surface(contact.surface);
   const mesh::SurfaceSampling sampling =
       mesh::sample_surface(mesh.nodes(), surface, contact.n_points);
-  model.frame = contact_frame(mesh, contact);
-  model.points = sampling.centres;
-  model.weights = sampling.weights;
-  model.vertices = sampling.vertices;
-  model.cells = sampling.cells;
-  const contact::ModalShapes nodal{along(basis.shapes, surface.nodes, model.frame.row(0)),
-                                   along(basis.shapes, surface.nodes, model.frame.row(1)),
-                                   along(basis.shapes, surface.nodes, model.frame.row(2))};
+  contact::Patch patch;
+  patch.name = contact.name;
+  patch.frame = contact_frame(mesh, contact);
+  patch.cells.points = sampling.centres;
+  patch.cells.weights = sampling.weights;
+  patch.vertices.points = sampling.vertices;
+  patch.connectivity = sampling.cells;
+  patch.load_share = contact.preload_share.value_or(sampling.weights.sum());
+  patch.wear_coefficient = contact.wear_coefficient;
+  patch.rules = rules_of(contact);
+  const contact::ModalShapes nodal{along(basis.shapes, surface.nodes, patch.frame.row(0)),
+                                   along(basis.shapes, surface.nodes, patch.frame.row(1)),
+                                   along(basis.shapes, surface.nodes, patch.frame.row(2))};
   ShapesOnPatch shapes;
   if (contact.fit == ContactDescription::Fit::none) {
     shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
   } else {
-    const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, model.frame};
+    const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
     const contact::ModalContactField field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
-    model.fit_degree = field.degree();
-    model.fit_error = field.fit_error();
+    patch.fit_degree = field.degree();
+    patch.fit_error = field.fit_error();
     shapes = shapes_of(field, sampling, plane);
   }
-  model.shapes = std::move(shapes.centres);
-  model.vertex_shapes = std::move(shapes.vertices);
-  set_stiffness(model, contact, sampling, residual);
-  set_fields(model, contact);
+  patch.cells.shapes = std::move(shapes.centres);
+  patch.vertices.shapes = std::move(shapes.vertices);
+  set_stiffness(patch, contact, sampling, residual);
+  set_fields(patch, contact);
+  return patch;
 }
 
-void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
+void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
                      const ContactDescription& contact, std::vector<std::string>& warnings) {
   const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
   if (plane.largest_angle > angle_limit_rad) {
@@ -204,13 +222,13 @@ void warn_of_the_fit(const ReducedModel& model, const mesh::Mesh& mesh,
         "patch is simulated as plane, with the preload as given",
         contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
   }
-  if (model.fit_error.size() > 0 && model.fit_error.maxCoeff() > 0.05) {
+  if (patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > 0.05) {
     Eigen::Index mode = 0;
-    const double worst = model.fit_error.maxCoeff(&mode);
+    const double worst = patch.fit_error.maxCoeff(&mode);
     warnings.push_back(fmt::format(
         "fit-poor: the fitted field of mode {} errs by {:.1f} % on the patch (degree {}); "
         "contact.fit = \"none\" interpolates instead",
-        mode + 1, 100.0 * worst, model.fit_degree));
+        mode + 1, 100.0 * worst, patch.fit_degree));
   }
 }
 
@@ -232,26 +250,22 @@ Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen
   return flexibility.inverse();
 }
 
-Eigen::Vector3d patch_centroid(const ReducedModel& model) {
-  return model.points.transpose() * model.weights / model.weights.sum();
-}
-
 Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& contact) {
   const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
   if (plane.flatness > flatness_limit * plane.diameter) {
     throw SceneError(fmt::format(
-        "contact.surface: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
+        "{}.surface: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
         "size {:.3g} m (at most {:.0f} %); name a plane face",
-        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter, plane.diameter,
-        100.0 * flatness_limit));
+        contact.key, contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter,
+        plane.diameter, 100.0 * flatness_limit));
   }
   const Eigen::Vector3d q = plane.normal;
   const Eigen::Vector3d p = contact.slip_direction - q * q.dot(contact.slip_direction);
   if (p.norm() < 1e-6 * contact.slip_direction.norm()) {
     throw SceneError(fmt::format(
-        "contact.slip_direction: along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
+        "{}.slip_direction: along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
         "direction with a part in the plane",
-        q.x(), q.y(), q.z(), contact.surface));
+        contact.key, q.x(), q.y(), q.z(), contact.surface));
   }
   Eigen::Matrix3d frame;
   frame.row(0) = p.normalized();
@@ -262,7 +276,7 @@ Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& 
 
 ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,
                                const fem::ModalBasis& basis,
-                               const fem::ResidualFlexibility* residual,
+                               const std::vector<fem::ResidualFlexibility>& residuals,
                                std::vector<std::string>& warnings) {
   ReducedModel model;
   model.frequency = basis.frequency;
@@ -274,46 +288,53 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
     const OutputDescription& output = scene.response->output;
     model.output = basis.shapes.transpose() * unit_load(mesh, output.at, output.direction);
   }
-  if (scene.contact) {
-    set_contact(model, mesh, *scene.contact, basis, residual);
-    warn_of_the_fit(model, mesh, *scene.contact, warnings);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const ContactDescription& contact = scene.contacts[i];
+    model.patches.push_back(
+        patch_of(mesh, contact, basis, residuals.empty() ? nullptr : &residuals[i]));
+    warn_of_the_fit(model.patches.back(), mesh, contact, warnings);
   }
   return model;
 }
 
-ReducedModel reduced_model(const ModalModel& modal) {
+ReducedModel reduced_model(const SceneDescription& scene) {
+  const auto& modal = std::get<ModalModel>(scene.model);
   ReducedModel model;
   model.frequency = 2.0 * std::numbers::pi * modal.frequency_hz;
   model.n_attachment = modal.n_attachment;
-  model.compliance = modal.compliance;
   model.damping_ratio = modal.damping_ratio;
   model.force_sine = modal.force_sine;
   model.force_cosine = modal.force_cosine;
   model.force_static = modal.force_static;
   model.output = modal.output;
-  model.weights = modal.weights;
-  model.shapes = modal.shapes;
-  model.load_measure = modal.load_measure;
-  model.tilted_areas = modal.tilted_areas;
+  if (modal.points.empty()) return model;
+  contact::Patch& patch = model.patches.emplace_back();
+  patch.name = "contact";
+  patch.load_measure = modal.load_measure;
+  patch.rules = scene.rules;
+  patch.wear_coefficient = scene.wear_coefficient;
+  patch.tilted_areas = modal.tilted_areas;
   const auto n = static_cast<Eigen::Index>(modal.points.size());
-  model.points = Eigen::MatrixX3d::Zero(n, 3);
+  contact::PatchSamples& cells = patch.cells;
+  cells.weights = modal.weights;
+  cells.shapes = modal.shapes;
+  cells.compliance = modal.compliance;
+  cells.points = Eigen::MatrixX3d::Zero(n, 3);
   if (modal.positions.rows() == n) {
-    model.points.col(0) = modal.positions.col(0);  // frame is the identity: p, q, r are x, y, z
-    model.points.col(2) = modal.positions.col(1);
+    cells.points.col(0) = modal.positions.col(0);  // frame is the identity: p, q, r are x, y, z
+    cells.points.col(2) = modal.positions.col(1);
   }
-  model.tangential_stiffness.resize(n);
-  model.normal_stiffness.resize(n);
-  model.friction_coefficient.resize(n);
-  model.preload.resize(n);
+  cells.stiffness.resize(n, 3);
+  cells.friction.resize(n);
+  cells.preload.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const contact::PointParameters& point = modal.points[static_cast<std::size_t>(i)];
-    model.tangential_stiffness[i] = point.tangential_stiffness;
-    model.normal_stiffness[i] = point.normal_stiffness;
-    model.friction_coefficient[i] = point.friction_coefficient;
-    model.preload[i] = point.preload;
+    cells.stiffness.row(i) << point.tangential_stiffness, point.normal_stiffness,
+        point.tangential_stiffness;
+    cells.friction[i] = point.friction_coefficient;
+    cells.preload[i] = point.preload;
   }
-  model.second_stiffness =
-      modal.second_stiffness.size() == n ? modal.second_stiffness : model.tangential_stiffness;
+  if (modal.second_stiffness.size() == n) cells.stiffness.col(2) = modal.second_stiffness;
   return model;
 }
 

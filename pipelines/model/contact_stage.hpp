@@ -19,9 +19,6 @@ namespace microslip::pipelines {
 [[nodiscard]] Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh,
                                             const ContactDescription& contact);
 
-/// Area-weighted mean of the contact points [m].
-[[nodiscard]] Eigen::Vector3d patch_centroid(const ReducedModel& model);
-
 /// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
 /// @param direction  for messages.
 /// @param refuse  else a stiffness that is not positive stays, for those who need it to refuse.
@@ -29,17 +26,18 @@ namespace microslip::pipelines {
                                                const Eigen::VectorXd& residual,
                                                const char* direction, bool refuse);
 
-/// Reduced model of a meshed structure. Without a contact the contact arrays are empty.
-/// @param residual  row sums on the contact surface; nullptr: local stiffness alone.
+/// Reduced model of a meshed structure: one patch per contact of the scene.
+/// @param residuals  row sums on the contact surfaces, one each; empty: local stiffness alone.
 /// @param warnings  sentences for the log are appended.
 /// @throws SceneError    an unknown name, a face that is not plane.
 /// @throws RefusedError  a contact stiffness that is not positive (theory section 14).
 [[nodiscard]] ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,
                                              const fem::ModalBasis& basis,
-                                             const fem::ResidualFlexibility* residual,
+                                             const std::vector<fem::ResidualFlexibility>& residuals,
                                              std::vector<std::string>& warnings);
 
-/// Reduced model of a modal scene: the numbers it gives.
-[[nodiscard]] ReducedModel reduced_model(const ModalModel& modal);
+/// Reduced model of a modal scene: the numbers it gives, its points as one patch.
+/// @param scene  of a kind without mesh.
+[[nodiscard]] ReducedModel reduced_model(const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

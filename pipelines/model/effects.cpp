@@ -25,10 +25,12 @@ ContactFacts facts_of(const SceneDescription& scene) {
     });
     facts.has_normal_stiffness = std::any_of(modal->points.begin(), modal->points.end(),
                                              [](const auto& p) { return p.normal_stiffness > 0.0; });
-  } else if (scene.contact) {
+  }
+  for (const ContactDescription& contact : scene.contacts) {
     facts.has_contact = true;
-    facts.has_friction = !scene.contact->friction.is_zero();
-    facts.has_normal_stiffness = scene.contact->normal_stiffness.value_or(1.0) > 0.0;
+    facts.has_friction = facts.has_friction || !contact.friction.is_zero();
+    facts.has_normal_stiffness =
+        facts.has_normal_stiffness || contact.normal_stiffness.value_or(1.0) > 0.0;
   }
   return facts;
 }
@@ -128,16 +130,18 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   add_second_direction(scene, model, effects);
   add("higher_harmonics", scene.response && scene.response->harmonics > 1, harmonics_text(scene),
       "response.harmonics = 1");
-  add("roughness", scene.laws.roughness.has_value(), "the surfaces are rough",
+  add("roughness", is_rough(scene), "the surfaces are rough",
       "no roughness is given");
-  add("rate_dependence", scene.laws.friction.has_value(),
+  add("rate_dependence", is_rate_dependent(scene),
       "the friction coefficient follows the slip speed", "the friction coefficient is constant");
   return effects;
 }
 
 std::vector<std::string> scene_warnings(const SceneDescription& scene) {
   std::vector<std::string> warnings;
-  if (const auto& law = scene.laws.friction) {
+  for (const contact::SurfaceRules& rules : surface_rules(scene)) {
+    const auto& law = rules.friction;
+    if (!law) continue;
     constexpr double fast = 1e300;  // [m/s]: the law at any speed there is
     const double kinetic = law->at(fast).value;
     if (kinetic > law->at_rest()) {

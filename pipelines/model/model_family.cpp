@@ -18,8 +18,11 @@ namespace {
 
 /// Keys behind which mesh, modes or residual flexibility are others.
 bool changes_structure(std::string_view key) {
-  constexpr std::array<std::string_view, 6> structural{
-      "model.", "material.", "supports.", "contact.surface", "contact.slip_direction",
+  if (key.starts_with("contact")) {  // contact.surface, contact[1].surface
+    return key.ends_with(".surface") || key.find(".slip_direction") != key.npos;
+  }
+  constexpr std::array<std::string_view, 4> structural{
+      "model.", "material.", "supports.",
       "excitation."};  // the forces: static shapes of theirs may stand behind the modes
   return std::any_of(structural.begin(), structural.end(),
                      [&](std::string_view start) { return key.starts_with(start); });
@@ -39,11 +42,10 @@ ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* stru
                       std::vector<std::string>& warnings) {
   ReducedModel model;
   if (structure == nullptr) {
-    model = reduced_model(std::get<ModalModel>(scene.model));
+    model = reduced_model(scene);
   } else {
-    const auto& residual = structure->modes.residual;
     model = reduce_to_contact(structure->mesh, scene, structure->modes.basis,
-                              residual ? &*residual : nullptr, warnings);
+                              structure->modes.residuals, warnings);
   }
   model.effects = contact_effects(model, scene);
   return model;

@@ -15,30 +15,44 @@ namespace {
 
 constexpr int n_trial_frequencies = 200;
 
-bool rubs(const ReducedModel& model, Eigen::Index point) {
-  return model.friction_coefficient[point] > 0.0 &&
-         (model.tangential_stiffness[point] > 0.0 || model.second_stiffness[point] > 0.0);
+bool rubs(const contact::PatchSamples& cells, Eigen::Index point) {
+  return cells.friction[point] > 0.0 &&
+         (cells.stiffness(point, 0) > 0.0 || cells.stiffness(point, 2) > 0.0);
 }
 
-bool any_rubbing_motion_along_r(const ReducedModel& model) {
-  if (model.shapes.w.size() == 0) return false;
-  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-    if (rubs(model, i) && (model.shapes.w.row(i).array() != 0.0).any()) return true;
+bool any_rubbing_motion_along_r(const contact::PatchSamples& cells) {
+  if (cells.shapes.w.size() == 0) return false;
+  for (Eigen::Index i = 0; i < cells.size(); ++i) {
+    if (rubs(cells, i) && (cells.shapes.w.row(i).array() != 0.0).any()) return true;
   }
   return false;
 }
 
-Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
-  Eigen::VectorXd u = model.weights.cwiseProduct(model.tangential_stiffness);
-  Eigen::VectorXd w = model.weights.cwiseProduct(model.second_stiffness);
-  const Eigen::VectorXd v = model.weights.cwiseProduct(model.normal_stiffness);
+bool any_rubbing_motion_along_r(const ReducedModel& model) {
+  return std::ranges::any_of(model.patches, [](const contact::Patch& patch) {
+    return any_rubbing_motion_along_r(patch.cells);
+  });
+}
+
+Eigen::MatrixXd stuck_stiffness(const contact::PatchSamples& cells) {
+  Eigen::VectorXd u = cells.weights.cwiseProduct(cells.stiffness.col(0));
+  Eigen::VectorXd w = cells.weights.cwiseProduct(cells.stiffness.col(2));
+  const Eigen::VectorXd v = cells.weights.cwiseProduct(cells.stiffness.col(1));
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    if (model.friction_coefficient[i] == 0.0) u[i] = w[i] = 0.0;
+    if (cells.friction[i] == 0.0) u[i] = w[i] = 0.0;
   }
   const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
     return shape.transpose() * k.asDiagonal() * shape;
   };
-  return part(model.shapes.u, u) + part(model.shapes.v, v) + part(model.shapes.w, w);
+  return part(cells.shapes.u, u) + part(cells.shapes.v, v) + part(cells.shapes.w, w);
+}
+
+Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
+  Eigen::MatrixXd stiffness = stuck_stiffness(model.patches.front().cells);
+  for (std::size_t i = 1; i < model.patches.size(); ++i) {
+    stiffness += stuck_stiffness(model.patches[i].cells);
+  }
+  return stiffness;
 }
 
 /// Response of the modes with a stiffness added, q_s + i q_c.
@@ -56,9 +70,15 @@ Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixX
   return contact::solved(dynamic, force);
 }
 
-double rms(const Eigen::MatrixXd& shape, const Eigen::VectorXd& weights, const Eigen::VectorXcd& q) {
-  const Eigen::VectorXcd motion = shape.cast<std::complex<double>>() * q;
-  return std::sqrt(weights.dot(motion.cwiseAbs2()));
+/// Over the area of all patches.
+double rms(const ReducedModel& model, Eigen::MatrixXd contact::ModalShapes::*shape,
+           const Eigen::VectorXcd& q) {
+  double sum = 0.0;
+  for (const contact::Patch& patch : model.patches) {
+    const Eigen::VectorXcd motion = (patch.cells.shapes.*shape).cast<std::complex<double>>() * q;
+    sum += patch.cells.weights.dot(motion.cwiseAbs2());
+  }
+  return std::sqrt(sum);
 }
 
 struct PatchMotion {
@@ -75,7 +95,7 @@ struct PatchMotion {
 PatchMotion motion_at(const ReducedModel& model, const Eigen::MatrixXd& stiffness, double frequency) {
   const Eigen::VectorXcd q = linear_response(model, stiffness, frequency);
   if (!q.allFinite()) return {};
-  return {rms(model.shapes.u, model.weights, q), rms(model.shapes.w, model.weights, q)};
+  return {rms(model, &contact::ModalShapes::u, q), rms(model, &contact::ModalShapes::w, q)};
 }
 
 /// Of the modes with a stiffness added, inside a range [rad/s].

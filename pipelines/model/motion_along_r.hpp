@@ -14,7 +14,7 @@ inline constexpr double negligible_motion_along_r = 0.03;
 /// Motion of the patch along r against that along p, rms over its area: the largest ratio at the resonances of
 /// the free and of the stuck structure in the frequency range, and where either limit moves the patch most.
 /// 0 where nothing moves or nothing rubs.
-/// @param model  with its contact arrays.
+/// @param model  with its patches.
 [[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -32,14 +32,16 @@ FacePoints face_points(const mesh::Mesh& mesh, const ContactDescription& contact
 }
 
 /// Whether the resultant acts inside the face does not depend on the springs of its points.
-void require_balance(const FacePoints& face, const std::array<double, 2>& moment, double load) {
+void require_balance(const FacePoints& face, const ContactDescription& contact, double load) {
+  const std::array<double, 2>& moment = contact.preload_moment;
   try {
     static_cast<void>(contact::preload_equilibrium(
         contact::ContactArea({face.r, face.p, face.weights}),
         contact::one_sided_springs(Eigen::VectorXd::Ones(face.p.size())),
         {.force = load, .moment_y = moment[1], .moment_z = moment[0]}));
   } catch (const contact::PreloadError& error) {
-    throw RefusedError(fmt::format("preload-unbalanced: contact.preload_moment: {}", error.what()));
+    throw RefusedError(
+        fmt::format("preload-unbalanced: {}.preload_moment: {}", contact.key, error.what()));
   }
 }
 
@@ -58,9 +60,24 @@ Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::Vec
   }
 }
 
-void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  if (!scene.contact) return;
-  const ContactDescription& contact = *scene.contact;
+namespace {
+
+/// What each contact carries of a load that presses (contact/patch/patch_load.hpp), sum 1.
+std::vector<double> preload_shares(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  std::vector<double> shares;
+  double sum = 0.0;
+  for (const ContactDescription& contact : scene.contacts) {
+    shares.push_back(contact.preload_share ? *contact.preload_share
+                                           : mesh.surface(contact.surface).area);
+    sum += shares.back();
+  }
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+/// @param share  of a load that presses.
+void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene,
+                     const ContactDescription& contact, double share) {
   const bool turned = contact.preload_moment != std::array{0.0, 0.0};
   if (!contact.preload_field && !turned) return;
   const FacePoints face = face_points(mesh, contact);
@@ -71,14 +88,14 @@ void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (!scene.response) return;
   for (const CurveRequest& request : curve_requests(scene)) {
     const auto* load = std::get_if<double>(&request.preload);
-    if (load != nullptr) require_balance(face, contact.preload_moment, *load);
+    if (load != nullptr) require_balance(face, contact, share * *load);
   }
 }
 
-std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  if (!scene.contact || !scene.contact->preload_field) return {};
-  const FacePoints face = face_points(mesh, *scene.contact);
-  const Eigen::VectorXd preload = unit_preload(*scene.contact, face.p, face.r, face.weights);
+std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& contact) {
+  if (!contact.preload_field) return {};
+  const FacePoints face = face_points(mesh, contact);
+  const Eigen::VectorXd preload = unit_preload(contact, face.p, face.r, face.weights);
   const double integral = face.weights.dot(preload);
   const double pressed = face.weights.dot((preload.array() > 0.0).cast<double>().matrix());
   if (!(preload.minCoeff() < 0.0)) return {};
@@ -86,6 +103,25 @@ std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& sce
       "preload field: presses on {:.1f} % of the patch, a gap on the rest; of a preload of 100 N the contact "
       "carries 100 N, and the integral of the field, gaps counted as pull, is {:.6g} N",
       100.0 * pressed / face.weights.sum(), 100.0 * integral);
+}
+
+}  // namespace
+
+void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const std::vector<double> shares = preload_shares(mesh, scene);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    require_preload(mesh, scene, scene.contacts[i], shares[i]);
+  }
+}
+
+std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  std::string text;
+  for (const ContactDescription& contact : scene.contacts) {
+    const std::string one = describe_preload(mesh, contact);
+    if (one.empty()) continue;
+    text += (text.empty() ? "" : "\n") + (scene.contacts.size() > 1 ? contact.name + ": " : "") + one;
+  }
+  return text;
 }
 
 }  // namespace microslip::pipelines

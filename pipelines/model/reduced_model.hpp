@@ -1,70 +1,41 @@
 /// @file
-/// What the response stage solves: modes, excitation, output and the contact, as plain arrays.
+/// What the response stage solves: modes, excitation, output and the patches of contact, as plain arrays.
 #pragma once
 
-#include <optional>
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
-#include "contact/surface/friction_law.hpp"
-#include "contact/surface/rough_surface.hpp"
-#include "mesh/mesh.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "contact/contact_effects.hpp"
+#include "contact/patch.hpp"
 
 namespace microslip::pipelines {
 
-/// Effects of contact that are simulated beyond one-sided Coulomb friction along p.
-struct ContactEffects {
-  int n_harmonics = 1;  ///< highest that may occur
-  bool normal_motion = true;  ///< false: the load stays that of rest, whatever the approach
-  bool second_direction = false;
-  double motion_ratio = 0.0;  ///< motion along r against that along p in the linear limits [-]
-  std::optional<contact::FrictionLaw> friction_law;
-  std::optional<contact::RoughSurface> roughness;
-  /// With rough surfaces: stiffness of the surfaces in full contact, bodies not included [N/m³].
-  std::optional<double> local_tangential_stiffness, local_normal_stiffness;
+using contact::ContactEffects;
 
-  /// The normal stiffness that is simulated. @param given  [N/m³].
-  [[nodiscard]] double normal_stiffness(double given) const { return normal_motion ? given : 0.0; }
-  /// One direction, constant friction, smooth surfaces.
-  [[nodiscard]] bool simple_laws() const {
-    return !second_direction && !friction_law && !roughness;
-  }
-  /// The closed form of one harmonic and one direction does.
-  [[nodiscard]] bool closed_form() const { return n_harmonics == 1 && simple_laws(); }
-};
-
-/// What the response stage needs, and model.h5 holds. Contact arrays have n_points rows.
+/// What the response stage needs, and model.h5 holds: the same for scenes with a mesh and without.
 struct ReducedModel {
   Eigen::VectorXd frequency;      ///< ω_n [rad/s], N
   Eigen::Index n_attachment = 0;  ///< so many of the N, the last, are attachment shapes (theory 14.1)
   Eigen::VectorXd damping_ratio;  ///< N
   Eigen::VectorXd force_sine, force_cosine, force_static;  ///< modal force [N/√kg], N
   Eigen::VectorXd output;         ///< y = output · q [1/√kg], N
-  Eigen::MatrixX3d points;        ///< contact points [m]
-  Eigen::VectorXd weights;        ///< [m²]
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< rows p, q (outward normal), r
-  contact::ModalShapes shapes;    ///< at the points
-  Eigen::VectorXd tangential_stiffness;  ///< along p [N/m³], residual part included
-  Eigen::VectorXd second_stiffness;      ///< along r [N/m³], likewise
-  Eigen::VectorXd normal_stiffness;
-  Eigen::VectorXd friction_coefficient;
-  Eigen::VectorXd preload;        ///< [Pa] at unit load: total 1 N, or as given where the load is a scale
-  LoadMeasure load_measure = LoadMeasure::force;
-  std::vector<TiltedArea> tilted_areas;  ///< where moments act beside the load
-  int fit_degree = -1;            ///< −1: no fit
-  Eigen::VectorXd fit_error;      ///< per mode; empty without a fit
-  /// Cells of the patch for pictures: cell c belongs to point c. No cells: points only.
-  Eigen::MatrixX3d vertices;
-  mesh::Connectivity cells;       ///< n_points × 3 or 4
-  contact::ModalShapes vertex_shapes;
-  Eigen::VectorXd vertex_tangential_stiffness, vertex_second_stiffness, vertex_normal_stiffness;
-  Eigen::VectorXd vertex_friction_coefficient, vertex_preload;
-  /// Compliance of the omitted modes along p, q, r [m³/N]; without rows where there is none.
-  Eigen::MatrixX3d compliance, vertex_compliance;
+  std::vector<contact::Patch> patches;  ///< none: no contact
   ContactEffects effects;
 };
+
+/// Whether the loads of its curves are normal forces in newtons, not factors on the preload of the points.
+[[nodiscard]] inline bool in_newtons(const ReducedModel& model) {
+  return std::ranges::all_of(model.patches, [](const contact::Patch& patch) {
+    return patch.load_measure == contact::LoadMeasure::force;
+  });
+}
+
+/// Whether the surfaces of any patch are rough.
+[[nodiscard]] inline bool is_rough(const ReducedModel& model) {
+  return std::ranges::any_of(
+      model.patches, [](const contact::Patch& patch) { return patch.rules.roughness.has_value(); });
+}
 
 }  // namespace microslip::pipelines

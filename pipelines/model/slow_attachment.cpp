@@ -35,8 +35,10 @@ ReducedModel slowed(ReducedModel model, const Eigen::VectorXd& factors) {
                                   &model.force_static, &model.output}) {
     *values = values->cwiseProduct(factors);
   }
-  scale_columns(model.shapes, factors);
-  scale_columns(model.vertex_shapes, factors);
+  for (contact::Patch& patch : model.patches) {
+    scale_columns(patch.cells.shapes, factors);
+    scale_columns(patch.vertices.shapes, factors);
+  }
   return model;
 }
 

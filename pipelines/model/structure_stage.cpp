@@ -43,17 +43,19 @@ std::string attachment_text(const fem::AttachedBasis& attached) {
   return text;
 }
 
-/// Attachment shapes of the contact and of the forces behind the modes.
+/// Attachment shapes of the contacts and of the forces behind the modes.
 void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
             StructureModes& result) {
-  const ContactDescription& contact = *scene.contact;
-  const double tangential = contact.tangential_stiffness.value();  // settle_residual() saw to both
   fem::AttachmentOptions options;
   options.degree = scene.modes.attachment_degree;
-  options.local_stiffness = {tangential, contact.normal_stiffness.value(), tangential};
-  fem::AttachedBasis attached =
-      structure.attach(result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact),
-                       nonzero_columns(excitation_loads(mesh, scene.forces)), options);
+  std::vector<fem::AttachmentFace> faces;
+  for (const ContactDescription& contact : scene.contacts) {
+    const double tangential = contact.tangential_stiffness.value();  // settle_residual() saw to both
+    const Eigen::Vector3d local(tangential, contact.normal_stiffness.value(), tangential);
+    faces.push_back({mesh.surface(contact.surface), contact_frame(mesh, contact), local});
+  }
+  fem::AttachedBasis attached = structure.attach(
+      result.basis, faces, nonzero_columns(excitation_loads(mesh, scene.forces)), options);
   result.attachment_text = attachment_text(attached);
   result.basis = std::move(attached.basis);
 }
@@ -114,9 +116,10 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
     const OutputDescription& output = scene.response->output;
     require_name(output.place, [&] { return mesh.node_set(output.at); });
   }
-  if (!scene.contact) return;
-  require_name(scene.contact->place, [&] { return mesh.surface(scene.contact->surface); });
-  static_cast<void>(contact_frame(mesh, *scene.contact));
+  for (const ContactDescription& contact : scene.contacts) {
+    require_name(contact.place, [&] { return mesh.surface(contact.surface); });
+    static_cast<void>(contact_frame(mesh, contact));
+  }
   require_preload(mesh, scene);
 }
 
@@ -128,11 +131,15 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   fem::ModalOptions options;
   options.n_modes = scene.modes.count;
   result.basis = structure.solve_modes(options);
-  if (scene.contact && scene.modes.residual == ResidualKind::stiffness) {
-    result.residual = structure.residual_flexibility(
-        result.basis, mesh.surface(scene.contact->surface), contact_frame(mesh, *scene.contact));
+  if (scene.modes.residual == ResidualKind::stiffness) {
+    for (const ContactDescription& contact : scene.contacts) {
+      result.residuals.push_back(structure.residual_flexibility(
+          result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact)));
+    }
   }
-  if (scene.contact && scene.modes.residual == ResidualKind::attachment) attach(structure, mesh, scene, result);
+  if (!scene.contacts.empty() && scene.modes.residual == ResidualKind::attachment) {
+    attach(structure, mesh, scene, result);
+  }
   result.timings = structure.timings();
   return result;
 }

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "fem/modal_analysis.hpp"
 #include "mesh/mesh.hpp"
@@ -25,7 +25,7 @@ struct StructureModes {
   Eigen::Index n_dofs = 0;  ///< free degrees of freedom
   double mass = 0.0;        ///< [kg]
   fem::ModalBasis basis;
-  std::optional<fem::ResidualFlexibility> residual;  ///< of the contact surface
+  std::vector<fem::ResidualFlexibility> residuals;  ///< of the contact surfaces, one each; empty: none
   /// How the attachment shapes of `basis` were chosen, "" without them.
   std::string attachment_text;
   fem::ModalTimings timings;

@@ -7,64 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "contact/patch/preload_equilibrium.hpp"
-#include "contact/surface/surface_law.hpp"
-#include "pipelines/model/contact_effects.hpp"
-#include "pipelines/model/contact_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-/// Coordinate of points along an axis of the patch, from its centroid [m].
-Eigen::VectorXd along(const ReducedModel& model, const Eigen::MatrixX3d& points, int axis) {
-  return (points.rowwise() - patch_centroid(model).transpose()) *
-         model.frame.row(axis).transpose();
-}
-
-/// Surfaces that just touch, of `n` points from `begin` on.
-std::vector<contact::SurfaceLaw> touching_surfaces(const ReducedModel& model,
-                                                   const TiltedArea& area, Eigen::Index begin,
-                                                   Eigen::Index n, bool on_vertices) {
-  const Eigen::VectorXd k = (on_vertices ? model.vertex_normal_stiffness : model.normal_stiffness)
-                                .segment(begin, n);
-  const bool constant = k.isZero(0.0);
-  if (!constant && !(k.minCoeff() > 0.0)) {
-    throw RefusedError(
-        fmt::format("{}: bodies that tilt need normal stiffness at every contact point, or at none",
-                    area.key));
-  }
-  std::vector<contact::SurfaceLaw> laws;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const contact::PointParameters point{0.0, constant ? 1.0 : k[i], 0.0, 0.0};
-    laws.push_back(constant ? contact::SurfaceLaw(point, 0.0)
-                            : surface_of_point(model, point, begin + i, on_vertices));
-  }
-  return laws;
-}
-
-contact::PreloadEquilibrium equilibrium(const ReducedModel& model, const TiltedArea& area,
-                                        const std::vector<contact::SurfaceLaw>& laws, double load) {
-  const contact::ContactArea cells(
-      {area.r, area.p, model.weights.segment(area.begin, area.p.size())});
-  const auto law = [&](Eigen::Index i, double approach) {
-    const contact::SurfaceState state = laws[static_cast<std::size_t>(i)].at(approach, 0.0);
-    return contact::NormalResponse{state.load, state.load_by_approach};
-  };
-  try {
-    return contact::preload_equilibrium(
-        cells, law,
-        {.force = load * area.share, .moment_y = area.moment[1], .moment_z = area.moment[0]});
-  } catch (const contact::PreloadError& error) {
-    throw RefusedError(fmt::format("preload-unbalanced: {}: {}", area.key, error.what()));
-  }
-}
-
-/// What a law needs as preload to rest at an approach.
-double pressure_at(const contact::SurfaceLaw& law, double approach) {
-  const double load = law.at(approach, 0.0).load;
-  return load > 0.0 ? load : law.point().normal_stiffness * approach;
-}
 
 struct Moments {
   std::string key;
@@ -74,8 +20,9 @@ struct Moments {
 std::vector<Moments> moments_of(const SceneDescription& scene) {
   constexpr std::array none{0.0, 0.0};
   std::vector<Moments> moments;
-  if (scene.contact && scene.contact->preload_moment != none) {
-    moments.push_back({"contact.preload_moment", scene.contact->preload_moment});
+  for (const ContactDescription& contact : scene.contacts) {
+    if (contact.preload_moment == none) continue;
+    moments.push_back({contact.key + ".preload_moment", contact.preload_moment});
   }
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
     for (const TiltedArea& area : modal->tilted_areas) {
@@ -110,27 +57,6 @@ void require_pressing_loads(const SceneDescription& scene) {
       require_pressing(moments, "response.optimum_range[0]", (*optimum->range)[0]);
     }
   }
-}
-
-Eigen::VectorXd tilted_pressures(const ReducedModel& model, const TiltedArea& area, double load,
-                                 bool on_vertices) {
-  const Eigen::Index n_points = area.p.size();
-  std::vector<contact::SurfaceLaw> laws =
-      touching_surfaces(model, area, area.begin, n_points, false);
-  const contact::PreloadEquilibrium rest = equilibrium(model, area, laws, load);
-  Eigen::VectorXd p = area.p;
-  Eigen::VectorXd r = area.r;
-  if (on_vertices) {
-    p = along(model, model.vertices, 0);
-    r = along(model, model.vertices, 2);
-    laws = touching_surfaces(model, area, 0, p.size(), true);
-  }
-  Eigen::VectorXd pressure(p.size());
-  for (Eigen::Index i = 0; i < p.size(); ++i) {
-    const double approach = rest.approach + p[i] * rest.rotation_y - r[i] * rest.rotation_z;
-    pressure[i] = pressure_at(laws[static_cast<std::size_t>(i)], approach);
-  }
-  return pressure;
 }
 
 }  // namespace microslip::pipelines

@@ -10,7 +10,7 @@
 
 #include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
-#include "pipelines/model/point_parameters.hpp"
+#include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/tilted_area.hpp"
@@ -31,29 +31,58 @@ contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
   return force;
 }
 
-NamedMap map_of(const ReducedModel& model, const SceneDescription& scene, double load,
-                const std::string& name, const solver::ResponsePoint& point) {
-  const double wear = scene.contact ? scene.contact->wear_coefficient : scene.wear_coefficient;
+/// One per patch.
+std::vector<NamedMap> maps_of(const ReducedModel& model, const SceneDescription& scene, double load,
+                              const std::string& name, const solver::ResponsePoint& point) {
   const int phases = scene.response->map_phases;
-  NamedMap map;
-  map.name = name;
-  map.frequency_hz = point.frequency / two_pi;
-  map.amplitude = point.amplitude;
-  map.stability = point.stability;
-  const bool closed_form = model.effects.closed_form();
-  const auto draw = [&](bool on_vertices) {
-    const contact::ModalShapes shapes = simulated_shapes(model, on_vertices);
-    if (closed_form) {
-      return contact::contact_map(point_parameters(model, load, on_vertices), shapes, point.q, phases, wear);
+  const contact::ContactForce contact = contact_of(model, load);
+  std::vector<NamedMap> maps;
+  for (std::size_t patch = 0; patch < model.patches.size(); ++patch) {
+    const auto draw = [&](contact::Places places) {
+      return or_refused(
+          [&] { return contact.map(patch, places, point.q, point.frequency, phases); });
+    };
+    NamedMap map;
+    map.name = model.patches.size() == 1 ? name : name + "." + model.patches[patch].name;
+    map.patch = patch;
+    map.frequency_hz = point.frequency / two_pi;
+    map.amplitude = point.amplitude;
+    map.stability = point.stability;
+    map.points = draw(contact::Places::cells);
+    if (model.patches[patch].vertices.size() > 0) map.vertices = draw(contact::Places::vertices);
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+std::unique_ptr<contact::TransientForce> transient_force(const ReducedModel& model, double load) {
+  return model.patches.empty() ? nullptr : contact_of(model, load).transient_force();
+}
+
+/// What each patch did at every point of a curve, where there are several.
+void add_patch_shares(const ReducedModel& model, double load, CurveResult& result) {
+  if (model.patches.size() < 2) return;
+  const contact::ContactForce contact = contact_of(model, load);
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const auto force = contact.modal_force(i);
+    PatchShares& shares = result.patch_shares.emplace_back();
+    shares.patch = model.patches[i].name;
+    for (const solver::ResponsePoint& point : result.curve.points) {
+      shares.reports.push_back(force->report(point.q, point.frequency));
     }
-    contact::ContactMap drawn = contact::contact_map(point_laws(model, load, on_vertices), shapes, point.q,
-                                                     point.frequency, phases, wear);
-    contact::add_guards(drawn, point_surfaces(model, load, on_vertices), shapes, point.q, point.frequency);
-    return drawn;
-  };
-  map.points = draw(false);
-  if (model.vertices.rows() > 0) map.vertices = draw(true);
-  return map;
+  }
+}
+
+/// In the linear limits every patch does what all do.
+void add_limit_shares(const ReducedModel& model, CurveResult& result) {
+  if (model.patches.size() < 2) return;
+  for (const contact::Patch& patch : model.patches) {
+    PatchShares& shares = result.patch_shares.emplace_back();
+    shares.patch = patch.name;
+    for (const solver::ResponsePoint& point : result.curve.points) {
+      shares.reports.push_back(point.report);
+    }
+  }
 }
 
 Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
@@ -76,13 +105,15 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
   scene.damping_ratio = model.damping_ratio;
   scene.excitation = excitation(model, model.effects.n_harmonics);
   scene.output = model.output;
-  scene.contact = contact_force(model, load);
+  if (!model.patches.empty()) scene.contact = contact_of(model, load).modal_force();
   return scene;
 }
 
 solver::Scene limit_scene(ReducedModel model) {
-  model.tilted_areas.clear();
-  model.effects.roughness.reset();
+  for (contact::Patch& patch : model.patches) {
+    patch.tilted_areas.clear();
+    patch.rules.roughness.reset();
+  }
   return solver_scene(model, 1.0);
 }
 
@@ -104,9 +135,12 @@ void require_finite(const ReducedModel& model, const SceneDescription& scene) {
   require("a natural frequency", model.frequency.squaredNorm());
   require("the excitation", model.force_sine.squaredNorm() + model.force_cosine.squaredNorm());
   require("the output", model.output.squaredNorm());
-  require("the normal stiffness of the contact", model.normal_stiffness.dot(model.weights));
-  require("the tangential stiffness of the contact", model.tangential_stiffness.dot(model.weights));
-  require("the preload of the contact", model.preload.dot(model.weights));
+  for (const contact::Patch& patch : model.patches) {
+    const contact::PatchSamples& cells = patch.cells;
+    require("the normal stiffness of the contact", cells.stiffness.col(1).dot(cells.weights));
+    require("the tangential stiffness of the contact", cells.stiffness.col(0).dot(cells.weights));
+    require("the preload of the contact", cells.preload.dot(cells.weights));
+  }
 }
 
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
@@ -127,16 +161,17 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
-  for (const TiltedArea& area : model.tilted_areas) {
-    for (const CurveRequest& request : curve_requests(scene)) {
-      const auto preload = preload_of(request, model);
-      const auto* load = std::get_if<double>(&preload);
-      if (load != nullptr) static_cast<void>(tilted_pressures(model, area, *load, false));
-    }
-    const auto& optimum = scene.response->optimum;
-    if (optimum && optimum->of_preload() && optimum->range) {
-      static_cast<void>(tilted_pressures(model, area, (*optimum->range)[0], false));
-    }
+  const bool tilts = std::ranges::any_of(
+      model.patches, [](const contact::Patch& patch) { return !patch.tilted_areas.empty(); });
+  if (!tilts) return;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    const auto preload = preload_of(request, model);
+    const auto* load = std::get_if<double>(&preload);
+    if (load != nullptr) static_cast<void>(contact_of(model, *load));
+  }
+  const auto& optimum = scene.response->optimum;
+  if (optimum && optimum->of_preload() && optimum->range) {
+    static_cast<void>(contact_of(model, (*optimum->range)[0]));
   }
 }
 
@@ -161,7 +196,7 @@ solver::ContinuationOptions continuation_options(const ResponseDescription& resp
   options.orders = response.harmonic_orders;
   options.harmonic_tolerance = response.harmonic_tolerance;
   options.search_starts = response.search_starts;
-  if (is_sampled(model)) {
+  if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
     options.corrector = solver::ContinuationOptions::Corrector::few_jacobians;
   }
@@ -179,13 +214,16 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
   const solver::ContinuationOptions options = continuation_options(*scene.response, model);
-  CurveResult result{request.name, preload_of(request, model), {}, {}, {}};
+  CurveResult result;
+  result.name = request.name;
+  result.preload = preload_of(request, model);
   if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
   if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
     result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,
                                         options);
+    add_limit_shares(model, result);
     return result;
   }
   const double load = std::get<double>(result.preload);
@@ -199,12 +237,14 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                                    [&](const auto& point) { return observe(in_modes(point)); });
     for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
+    add_patch_shares(model, load, result);
     return result;
   }
   const solver::Scene problem = balanced_scene(model, load, options);
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);
+  add_patch_shares(model, load, result);
   return result;
 }
 
@@ -224,9 +264,11 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
                                  const CurveResult& result) {
   std::vector<NamedMap> maps;
   const auto* load = std::get_if<double>(&result.preload);
-  if (load == nullptr || model.weights.size() == 0) return maps;
+  if (load == nullptr || model.patches.empty()) return maps;
   const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
-    maps.push_back(map_of(model, scene, *load, result.name + "_" + suffix, point));
+    for (NamedMap& map : maps_of(model, scene, *load, result.name + "_" + suffix, point)) {
+      maps.push_back(std::move(map));
+    }
   };
   const solver::ContinuationOptions options = continuation_options(*scene.response, model);
   for (const MapEntry& entry : scene.response->maps) {

@@ -11,19 +11,28 @@
 #include <Eigen/Core>
 
 #include "contact/contact_map.hpp"
+#include "contact/modal_force.hpp"
 #include "pipelines/scene/scene_description.hpp"
 #include "solver/peak.hpp"
 #include "solver/response_curve.hpp"
 
 namespace microslip::pipelines {
 
+/// One patch at one solution.
 struct NamedMap {
   std::string name;           ///< e.g. "preload_1000_peak": stem of the files
   double frequency_hz = 0.0;
   double amplitude = 0.0;     ///< of the output, half peak-to-peak [m]
   solver::Stability stability = solver::Stability::not_assessed;
+  std::size_t patch = 0;         ///< of the model
   contact::ContactMap points;    ///< at the contact points (cells)
   contact::ContactMap vertices;  ///< at the vertices of the cells; empty without cells
+};
+
+/// What one patch did at every point of a curve.
+struct PatchShares {
+  std::string patch;  ///< its name
+  std::vector<contact::CycleReport> reports;  ///< as many as the curve has points
 };
 
 struct CurveResult {
@@ -31,6 +40,7 @@ struct CurveResult {
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
+  std::vector<PatchShares> patch_shares;  ///< where there are several patches, else empty
   std::optional<double> gap;  ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };

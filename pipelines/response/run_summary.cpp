@@ -58,6 +58,15 @@ CurveSummary summarise(const CurveResult& result) {
   return summary;
 }
 
+Eigen::VectorXd worst_fit_error(const ReducedModel& model) {
+  Eigen::VectorXd worst;
+  for (const contact::Patch& patch : model.patches) {
+    if (patch.fit_error.size() == 0) continue;
+    worst = worst.size() == 0 ? patch.fit_error : worst.cwiseMax(patch.fit_error).eval();
+  }
+  return worst;
+}
+
 std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
                                          const Eigen::VectorXd& damping_ratio,
                                          const Eigen::VectorXd& residual,

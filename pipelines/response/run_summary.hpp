@@ -11,6 +11,7 @@
 
 #include "pipelines/system/machine.hpp"
 #include "pipelines/model/effect_record.hpp"
+#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -97,6 +98,9 @@ struct RunSummary {
 };
 
 [[nodiscard]] CurveSummary summarise(const CurveResult& result);
+
+/// Of the fitted mode shapes, per mode the largest over the patches; empty where nothing is fitted.
+[[nodiscard]] Eigen::VectorXd worst_fit_error(const ReducedModel& model);
 
 /// @param residual, fit_error  N, or shorter: the last have none.
 /// @param n_attachment  so many of them, the last, are attachment shapes.

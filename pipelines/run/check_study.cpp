@@ -40,10 +40,9 @@ constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 /// Seconds a curve takes, by the law of its points.
 double curve_seconds(const SceneDescription& scene, bool second_direction) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
-  const double n_points = scene.contact   ? scene.contact->n_points
-                          : modal != nullptr ? static_cast<double>(modal->points.size())
-                                             : 0.0;
-  const bool simple = scene.response->harmonics == 1 && !scene.laws.friction && !scene.laws.roughness;
+  double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
+  for (const ContactDescription& contact : scene.contacts) n_points += contact.n_points;
+  const bool simple = scene.response->harmonics == 1 && !is_rate_dependent(scene) && !is_rough(scene);
   const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
   const bool chosen = scene.response->harmonic_tolerance > 0.0;
   const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
@@ -140,7 +139,7 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
 
 ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
   fmt::print(out, "{} modes\n", modal.frequency_hz.size());
-  ReducedModel model = reduced_model(modal);
+  ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   require_held(model, scene);
   describe_modes(modal, model, out);

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "pipelines/system/interrupt.hpp"
-#include "pipelines/model/point_parameters.hpp"
+#include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
 
 namespace microslip::pipelines {

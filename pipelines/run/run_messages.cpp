@@ -65,7 +65,7 @@ std::vector<std::string> detached_text(const CurveResult& result) {
 
 std::string precision_text(const CurveSummary& curve, const ReducedModel& model) {
   constexpr double certified = 1e-10;
-  const double mismatch = model.effects.roughness ? 0.0 : curve.largest_dissipation_mismatch;
+  const double mismatch = is_rough(model) ? 0.0 : curve.largest_dissipation_mismatch;
   const bool all_are = curve.largest_residual <= certified &&
                        curve.largest_energy_imbalance <= certified && mismatch <= certified;
   if (all_are) return {};  // none is NaN either

@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 
-#include "contact/patch/preload_field.hpp"
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/model/effects.hpp"
@@ -29,7 +28,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/files/write_csv.hpp"
 #include "pipelines/files/model_file.hpp"
-#include "pipelines/model/point_parameters.hpp"
+#include "pipelines/model/contact_effects.hpp"
 #include "pipelines/files/write_map.hpp"
 #include "pipelines/files/write_vtk.hpp"
 
@@ -167,11 +166,12 @@ void RunRecord::keep_model(const ReducedModel& model) {
       residual[i] = *summary_.modes[static_cast<std::size_t>(i)].residual;
     }
   }
-  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, model.fit_error,
+  const Eigen::VectorXd fit_error = worst_fit_error(model);
+  summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, fit_error,
                                    model.n_attachment);
   if (!writes_) return;
   write_modes_csv(folder_ / "modes.csv",
-                  {model.frequency, residual, model.damping_ratio, model.fit_error, model.n_attachment});
+                  {model.frequency, residual, model.damping_ratio, fit_error, model.n_attachment});
   write_model(folder_ / "model.h5", model);
 }
 
@@ -190,14 +190,10 @@ void RunRecord::warn_of_unsolved(const CurveResult& result) {
 
 /// What the contact carries at rest and, where a part of it is a gap, what the plain integral comes to.
 void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, double load) {
-  const std::vector<contact::PointParameters> points = point_parameters(model, load, false);
-  Eigen::VectorXd pressure(model.weights.size());
-  for (Eigen::Index i = 0; i < pressure.size(); ++i) {
-    pressure[i] = points[static_cast<std::size_t>(i)].preload;
-  }
-  summary.preload_carried = contact::carried_force(pressure, model.weights);
-  summary.preload_integral = model.weights.dot(pressure);
-  if (pressure.minCoeff() < 0.0 && pressure.maxCoeff() > 0.0) {
+  const contact::RestingLoad rest = contact_of(model, load).at_rest();
+  summary.preload_carried = rest.carried;
+  summary.preload_integral = rest.integral;
+  if (rest.partly_open) {
     progress_.info(fmt::format(
         "curve {}: the contact carries {:.6g} N and is open on a part of it; its preload integrates to {:.6g} N "
         "with the gaps counted as pull",
@@ -209,7 +205,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   const auto& curve = result.curve;
   progress_.info(outcome_text(result));
   CurveSummary summary = summarise(result);
-  if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && model.weights.size() > 0) {
+  if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && !model.patches.empty()) {
     keep_preload(summary, model, *load);
   }
   if (!result.integrated) {
@@ -217,7 +213,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   }
   warn_of_unsolved(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
-      scale != nullptr && model.load_measure == LoadMeasure::scale && model.weights.size() > 0) {
+      scale != nullptr && !in_newtons(model)) {
     summary.preload_scale = *scale;
     summary.preload = *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
   }
@@ -259,7 +255,7 @@ void RunRecord::keep_unfinished() {
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
   const std::lock_guard lock(mutex_);
-  write_map(folder_ / "maps", model, map);
+  write_map(folder_ / "maps", model.patches.at(map.patch), map);
   summary_.curves.at(curve).maps.push_back(map.name);
 }
 
@@ -271,8 +267,7 @@ void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                              const solver::Optimum& optimum) {
-  const bool in_newtons = model.load_measure == LoadMeasure::force;
-  const std::string unit = !request.of_preload() ? "" : in_newtons ? " N" : " of the points' preload";
+  const std::string unit = !request.of_preload() ? "" : in_newtons(model) ? " N" : " of the points' preload";
   const std::string what =
       request.of_preload() ? "best preload"
                            : fmt::format("best {} under preload {:g}", request.key, request.load);
@@ -285,7 +280,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;
   summary.optimum = optimum;
-  if (!in_newtons) summary.newtons_per_load = contact::carried_force(model.preload, model.weights);
+  if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
   write_optimum_csv(folder_, request, optimum);
 }
 

@@ -177,7 +177,7 @@ BlockOutput read_block_output(SectionReader& s) {
 }
 
 ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& output,
-                      ContactLaws& laws, double& wear_coefficient) {
+                      contact::SurfaceRules& rules, double& wear_coefficient) {
   const ChainSystem system = read_system(sections);
   const Eigen::Index n_modes = system.frequency.size();
   ModalModel model;
@@ -185,12 +185,12 @@ ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& o
   model.damping_ratio = read_damping_ratios(sections.modes, system.frequency);
   model.force_sine = model.force_cosine = model.force_static = Eigen::VectorXd::Zero(n_modes);
   set_forces(model, sections.excitation, system.shapes);
-  const double friction = read_friction(sections.contact, laws);
-  laws.roughness = read_roughness(sections.contact);
+  const double friction = read_friction(sections.contact, rules);
+  rules.roughness = read_roughness(sections.contact);
   wear_coefficient = sections.contact.number("wear_coefficient");
   set_contact(model, sections.contact, read_rectangle(sections.model, sections.contact),
               system.shapes, friction);
-  if (laws.roughness && laws.roughness->height() > 0.0 && !(model.points[0].normal_stiffness > 0.0)) {
+  if (rules.roughness && rules.roughness->height() > 0.0 && !(model.points[0].normal_stiffness > 0.0)) {
     sections.contact.fail("roughness", "rough surfaces need a normal_stiffness above 0",
                           sections.contact.node("roughness"));
   }

@@ -39,6 +39,6 @@ struct BlockOutput {
 /// @throws SceneError  none or both of the springs' two forms, a matrix that is not symmetric or not
 ///         positive semidefinite, moments on an area one cell wide.
 [[nodiscard]] ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& output,
-                                    ContactLaws& laws, double& wear_coefficient);
+                                    contact::SurfaceRules& rules, double& wear_coefficient);
 
 }  // namespace microslip::pipelines

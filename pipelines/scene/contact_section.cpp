@@ -185,35 +185,38 @@ std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
                         : contact::RoughSurface::matching_gaussian(height);
 }
 
-double read_friction(const SectionReader& s, ContactLaws& laws) {
+double read_friction(const SectionReader& s, contact::SurfaceRules& rules) {
   const toml::node& node = *s.node("friction_coefficient");
   const toml::table* law = node.as_table();
   if (law == nullptr) return s.number_in(node, "friction_coefficient");
-  laws.friction = friction_law_in(s, "friction_coefficient", *law);
-  return laws.friction->at_rest();
+  rules.friction = friction_law_in(s, "friction_coefficient", *law);
+  return rules.friction->at_rest();
 }
 
-ContactDescription read_contact(SectionReader s, const std::filesystem::path& folder,
-                                ContactLaws& laws) {
+ContactDescription read_contact(SectionReader s, const std::filesystem::path& folder) {
   ContactDescription contact;
+  contact::SurfaceRules& rules = contact.rules;
+  contact.key = s.path();
   if (const toml::node* surface = s.node("surface"); surface->is_array()) {
     s.fail("surface", "two facing bodies are not available in this version; name one surface",
            surface);
   }
   contact.surface = s.text("surface");
   contact.place = s.place("surface");
+  contact.name = s.given("name") ? s.text("name") : contact.surface;
+  if (s.given("preload_share")) contact.preload_share = s.number("preload_share");
   contact.slip_direction = s.direction("slip_direction");
   const toml::node& friction = *s.node("friction_coefficient");
   if (const toml::table* law = friction.as_table(); law != nullptr && !law->contains("file")) {
-    laws.friction = friction_law_in(s, "friction_coefficient", *law);
-    contact.friction.value = laws.friction->at_rest();
+    rules.friction = friction_law_in(s, "friction_coefficient", *law);
+    contact.friction.value = rules.friction->at_rest();
   } else {
     contact.friction = field_in(s, "friction_coefficient", folder, "1");
     contact.friction.low = 0.0;
   }
   contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
-  laws.roughness = read_roughness(s);
+  rules.roughness = read_roughness(s);
   read_preload(s, folder, contact);
   contact.wear_coefficient = s.number("wear_coefficient");
   contact.n_points = s.integer("points");
@@ -221,16 +224,16 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   return contact;
 }
 
-ContactLaws read_contact_laws(const SectionReader& s, double& wear_coefficient) {
-  ContactLaws laws;
+contact::SurfaceRules read_surface_rules(const SectionReader& s, double& wear_coefficient) {
+  contact::SurfaceRules rules;
   if (s.given("friction_law")) {
     const toml::node& node = *s.node("friction_law");
     if (!node.is_table()) s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
-    laws.friction = friction_law_in(s, "friction_law", *node.as_table());
+    rules.friction = friction_law_in(s, "friction_law", *node.as_table());
   }
-  laws.roughness = read_roughness(s);
+  rules.roughness = read_roughness(s);
   wear_coefficient = s.number("wear_coefficient");
-  return laws;
+  return rules;
 }
 
 }  // namespace microslip::pipelines

@@ -11,15 +11,15 @@
 namespace microslip::pipelines {
 
 /// Kinds with a mesh. @param folder  relative files start here.
-[[nodiscard]] ContactDescription read_contact(SectionReader section, const std::filesystem::path& folder,
-                                              ContactLaws& laws);
+[[nodiscard]] ContactDescription read_contact(SectionReader section,
+                                              const std::filesystem::path& folder);
 
 /// Modal scenes: laws beside the constants that the points carry.
 /// @param wear_coefficient  [m²/N], written.
-[[nodiscard]] ContactLaws read_contact_laws(const SectionReader& section, double& wear_coefficient);
+[[nodiscard]] contact::SurfaceRules read_surface_rules(const SectionReader& section, double& wear_coefficient);
 
-/// `friction_coefficient` as a number or a law, which goes into `laws`. @return μ at rest.
-[[nodiscard]] double read_friction(const SectionReader& section, ContactLaws& laws);
+/// `friction_coefficient` as a number or a law, which goes into `rules`. @return μ at rest.
+[[nodiscard]] double read_friction(const SectionReader& section, contact::SurfaceRules& rules);
 
 /// `roughness` of one surface, or of two: variances of independent heights add. None: smooth.
 [[nodiscard]] std::optional<contact::RoughSurface> read_roughness(const SectionReader& section);

@@ -15,8 +15,8 @@ namespace {
 void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
                          const SceneDescription& scene) {
   const bool has = name == "higher_harmonics" ? scene.response && scene.response->harmonics > 1
-                   : name == "roughness"      ? scene.laws.roughness.has_value()
-                                              : scene.laws.friction.has_value();
+                   : name == "roughness"      ? is_rough(scene)
+                                              : is_rate_dependent(scene);
   const char* key = name == "higher_harmonics" ? "response.harmonics"
                     : name == "roughness"      ? "contact.roughness"
                                                : "a law of contact.friction_coefficient";
@@ -39,7 +39,7 @@ void check_off(const SectionReader& s, std::string_view name, const SceneDescrip
   if (name == "residual" && has_residual) {
     s.fail(name, "contradicts modes.residual: give modes.residual = \"none\"", s.node(name));
   }
-  if (name == "normal_motion" && scene.laws.roughness) {
+  if (name == "normal_motion" && is_rough(scene)) {
     s.fail(name, "contradicts contact.roughness: rough surfaces are felt by normal motion",
            s.node(name));
   }

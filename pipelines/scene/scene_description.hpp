@@ -3,6 +3,7 @@
 /// Made by scene_file, read by study and the writers; plain values.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -12,9 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
-#include "contact/surface/friction_law.hpp"
-#include "contact/surface/rough_surface.hpp"
+#include "contact/patch.hpp"
 #include "fem/material.hpp"
 #include "mesh/blade_geometry.hpp"
 #include "pipelines/scene/field_description.hpp"
@@ -33,18 +32,8 @@ struct MeshFileModel {
 
 enum class ResidualKind { none, stiffness, attachment };
 
-/// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
-enum class LoadMeasure { scale, force };
-
-/// Points of two plane stiff bodies that are pressed together by a force and moments and tilt against each
-/// other (theory section 12): some of them may lift off.
-struct TiltedArea {
-  std::string key;         ///< that gives the moments, for messages
-  Eigen::Index begin = 0;  ///< its first point; the others follow
-  Eigen::VectorXd p, r;    ///< of its points, from where the moments turn [m]
-  double share = 1.0;      ///< of the load of a curve [-]
-  std::array<double, 2> moment{0.0, 0.0};  ///< about p and r [N m], the same under every load
-};
+using contact::LoadMeasure;
+using contact::TiltedArea;
 
 /// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
 /// `bar`, `chain` and `block`.
@@ -80,7 +69,10 @@ struct ModesDescription {
   std::string residual_note;             ///< that it did so, for the log; else empty
 };
 
+/// One patch of a meshed scene.
 struct ContactDescription {
+  std::string name;  ///< of its columns and files where there are several; else that of the surface
+  std::string key = "contact";  ///< path of its section, for messages: "contact", or "contact[1]"
   std::string surface;
   std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
@@ -93,6 +85,8 @@ struct ContactDescription {
   int fit_degree = 0;
   double wear_coefficient = 0.0;  ///< Archard [m²/N]
   int n_points = 300;             ///< at least so many contact points
+  std::optional<double> preload_share;  ///< of the load of a curve, relative to the others; none: by area
+  contact::SurfaceRules rules;    ///< friction law and roughness; their local stiffness is that above
 };
 
 struct ForceDescription {
@@ -154,12 +148,6 @@ struct ResponseDescription {
   int map_phases = 72;
 };
 
-/// What the constants of a point do not say about its contact.
-struct ContactLaws {
-  std::optional<contact::FrictionLaw> friction;      ///< in place of the coefficient of points that rub
-  std::optional<contact::RoughSurface> roughness;    ///< none: smooth
-};
-
 struct SceneDescription {
   std::string title;
   std::filesystem::path file;  ///< the scene file, "" for text
@@ -168,8 +156,8 @@ struct SceneDescription {
   std::vector<std::string> clamped;
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   ModesDescription modes;
-  std::optional<ContactDescription> contact;
-  ContactLaws laws;
+  std::vector<ContactDescription> contacts;  ///< kinds with a mesh; none: nothing rubs
+  contact::SurfaceRules rules;  ///< of modal scenes
   double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
@@ -178,5 +166,23 @@ struct SceneDescription {
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
 };
+
+/// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.
+[[nodiscard]] inline std::vector<contact::SurfaceRules> surface_rules(
+    const SceneDescription& scene) {
+  std::vector<contact::SurfaceRules> rules;
+  for (const ContactDescription& contact : scene.contacts) rules.push_back(contact.rules);
+  if (rules.empty()) rules.push_back(scene.rules);
+  return rules;
+}
+
+[[nodiscard]] inline bool is_rough(const SceneDescription& scene) {
+  return std::ranges::any_of(surface_rules(scene), [](const auto& rules) { return rules.roughness.has_value(); });
+}
+
+/// Whether a friction coefficient depends on the slip speed.
+[[nodiscard]] inline bool is_rate_dependent(const SceneDescription& scene) {
+  return std::ranges::any_of(surface_rules(scene), [](const auto& rules) { return rules.friction.has_value(); });
+}
 
 }  // namespace microslip::pipelines

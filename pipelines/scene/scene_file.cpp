@@ -43,9 +43,30 @@ struct Reading {
     if (const toml::table* found = node->as_table()) return found;
     throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
                                  node->is_array() && name == "contact"
-                                     ? "several contact patches are not available in this version"
+                                     ? "several contact patches are for kinds with a mesh"
                                      : fmt::format("expected a section [{}]{}", name,
                                                    node->is_array() ? ", once; found a list, or [[…]]" : "")));
+  }
+
+  /// [contact], or every [[contact]].
+  std::vector<SectionReader> contacts() {
+    std::vector<SectionReader> sections;
+    const toml::node* node = given.get("contact");
+    const toml::array* list = node != nullptr ? node->as_array() : nullptr;
+    if (node != nullptr && list == nullptr) sections.push_back(section("contact", "contact"));
+    if (list == nullptr) return sections;
+    const auto [position, added] = complete.insert_or_assign("contact", toml::array{});
+    toml::array& completed = *position->second.as_array();
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string path = fmt::format("contact[{}]", i);
+      const toml::table* entry = list->get(i)->as_table();
+      if (entry == nullptr) {
+        throw SceneError(fmt::format("{}: {}: expected a section [[contact]]", place_of(list->get(i), file), path));
+      }
+      completed.push_back(toml::table{});
+      sections.emplace_back(entry, section_spec("contact"), path, file, *completed.back().as_table());
+    }
+    return sections;
   }
 
   SectionReader section(std::string_view name, std::string_view spec) {
@@ -104,6 +125,26 @@ std::string contact_keys_without_contact(const SectionReader& response) {
   return {};
 }
 
+/// Files and columns are called by the names of the contacts.
+void require_distinct(const std::vector<ContactDescription>& contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactDescription& contact = contacts[i];
+    const auto refuse = [&](const std::string& why) {
+      throw SceneError(fmt::format("{} (the contact \"{}\"): {}", contact.place, contact.name, why));
+    };
+    if (contacts.size() > 1 && contact.name.find_first_of("/\\,\"\n") != std::string::npos) {
+      refuse("a name with one of / \\ , \" can be no file or column; give contact.name");
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (contacts[k].surface == contact.surface) refuse("another contact has the same surface");
+      if (contacts[k].name == contact.name) refuse("another contact has the same name");
+    }
+    if (contact.preload_share.has_value() != contacts.front().preload_share.has_value()) {
+      refuse("preload_share: give it to all contacts or to none");
+    }
+  }
+}
+
 void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
   if (kind == "blade") {
     scene.model = read_blade(reading.section("model", "model.blade"));
@@ -116,16 +157,17 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   scene.clamped_place = supports.place("clamped");
   SectionReader modes = reading.section("modes", "modes");
   scene.modes = read_modes(modes);
-  if (reading.given.contains("contact")) {
-    scene.contact = read_contact(reading.section("contact", "contact"), reading.folder, scene.laws);
-    settle_residual(modes, scene.modes, *scene.contact);
+  for (const SectionReader& section : reading.contacts()) {
+    scene.contacts.push_back(read_contact(section, reading.folder));
+    settle_residual(modes, scene.modes, scene.contacts.back());
   }
+  require_distinct(scene.contacts);
   SectionReader excitation = reading.section("excitation", "excitation");
   scene.forces = read_forces(excitation);
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
     scene.response = read_response(response, kind);
-    if (!scene.contact) scene.without_contact = contact_keys_without_contact(response);
+    if (scene.contacts.empty()) scene.without_contact = contact_keys_without_contact(response);
   }
 }
 
@@ -134,7 +176,7 @@ void read_modal_scene(Reading& reading, SceneDescription& scene) {
   ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
   scene.modes.residual = model.residual;
   scene.model = std::move(model);
-  scene.laws = read_contact_laws(reading.section("contact", "contact.modal"), scene.wear_coefficient);
+  scene.rules = read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
   }
@@ -158,7 +200,7 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   const ModalModel model =
       kind == "bar"     ? read_bar(sections)
       : kind == "chain" ? read_chain(sections, coordinate)
-                        : read_block(sections, output, scene.laws, scene.wear_coefficient);
+                        : read_block(sections, output, scene.rules, scene.wear_coefficient);
   if (model.points.empty() && reading.given.contains("response")) {
     scene.without_contact = contact_keys_without_contact(section("response"));
   }

@@ -94,7 +94,10 @@ toml::table& descend(toml::table& table, const Step& step, const std::string& as
     node = list->get(*step.index);
   }
   toml::table* below = node->as_table();
-  if (below == nullptr) refuse(assignment, fmt::format("{} is not a table", step.key));
+  if (below == nullptr) {
+    refuse(assignment, node->is_array() ? fmt::format("{0} is a list: say which entry, as {0}[0]", step.key)
+                                        : fmt::format("{} is not a table", step.key));
+  }
   return *below;
 }
 

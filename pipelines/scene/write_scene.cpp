@@ -60,6 +60,16 @@ std::string value_text(const toml::node& node) {
   return node.value_or(false) ? "true" : "false";
 }
 
+std::string keys_text(const toml::table& table, std::string_view section, std::string_view kind) {
+  std::string text;
+  for (const KeySpec& key : section_spec(section, kind).keys) {
+    if (const toml::node* value = table.get(key.name)) {
+      text += fmt::format("{} = {}\n", key.name, value_text(*value));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scene_as_toml(const toml::table& scene, std::string_view kind) {
@@ -69,11 +79,12 @@ std::string scene_as_toml(const toml::table& scene, std::string_view kind) {
   }
   for (const std::string_view section : sections_of_kind(kind)) {
     const toml::node* node = scene.get(section);
-    if (node == nullptr || !node->is_table()) continue;
-    text += fmt::format("\n[{}]\n", section);
-    for (const KeySpec& key : section_spec(section, kind).keys) {
-      if (const toml::node* value = node->as_table()->get(key.name)) {
-        text += fmt::format("{} = {}\n", key.name, value_text(*value));
+    if (node == nullptr) continue;
+    if (const toml::table* table = node->as_table()) {
+      text += fmt::format("\n[{}]\n", section) + keys_text(*table, section, kind);
+    } else if (const toml::array* list = node->as_array()) {
+      for (const toml::node& entry : *list) {
+        text += fmt::format("\n[[{}]]\n", section) + keys_text(*entry.as_table(), section, kind);
       }
     }
   }

@@ -211,7 +211,12 @@ constexpr std::array modal_contact_keys{
 };
 
 constexpr std::array contact_keys{
-    KeySpec{"surface", text, "", "", 0, 0, false, "named plane face that rubs"},
+    KeySpec{"surface", text, "", "", 0, 0, false,
+            "named plane face that rubs; several: [[contact]] once for each, --set contact[0].KEY=… for one"},
+    KeySpec{"name", text, "", "", 0, 0, false,
+            "of columns and files where there are several contacts; else that of the surface", true},
+    KeySpec{"preload_share", number, "1", "", 0.0, unbounded, true,
+            "of each preload, relative to the other contacts, all of them or none; else by area", true},
     KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
     KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
             "μ: a number, an expression in p and r [m] from the centroid of the patch, { file = \"mu.csv\" } with "

@@ -65,42 +65,48 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   m.force_cosine = Eigen::Vector2d(0.3, 0.0);
   m.force_static = Eigen::Vector2d(0.0, 1e-3);
   m.output = Eigen::Vector2d(0.9, 0.35);
-  m.frame << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  m.vertices.resize((n_p + 1) * (n_r + 1), 3);
+  contact::Patch& patch = m.patches.emplace_back();
+  patch.name = "contact";
+  contact::PatchSamples& cells = patch.cells;
+  contact::PatchSamples& vertices = patch.vertices;
+  patch.frame << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  vertices.points.resize((n_p + 1) * (n_r + 1), 3);
   for (Eigen::Index i = 0; i <= n_p; ++i) {
     for (Eigen::Index j = 0; j <= n_r; ++j) {
-      m.vertices.row(i * (n_r + 1) + j) << -width * static_cast<double>(j), 0.05,
+      vertices.points.row(i * (n_r + 1) + j) << -width * static_cast<double>(j), 0.05,
           length * static_cast<double>(i);
     }
   }
-  m.cells.resize(n_p * n_r, 4);
+  patch.connectivity.resize(n_p * n_r, 4);
   for (Eigen::Index i = 0; i < n_p; ++i) {
     for (Eigen::Index j = 0; j < n_r; ++j) {
       const Eigen::Index corner = i * (n_r + 1) + j;
-      m.cells.row(i * n_r + j) << corner, corner + 1, corner + n_r + 2, corner + n_r + 1;
+      patch.connectivity.row(i * n_r + j) << corner, corner + 1, corner + n_r + 2, corner + n_r + 1;
     }
   }
-  m.points.resize(m.cells.rows(), 3);
-  for (Eigen::Index cell = 0; cell < m.cells.rows(); ++cell) {
-    m.points.row(cell) = (m.vertices.row(m.cells(cell, 0)) + m.vertices.row(m.cells(cell, 2))) / 2;
+  cells.points.resize(patch.connectivity.rows(), 3);
+  for (Eigen::Index cell = 0; cell < patch.connectivity.rows(); ++cell) {
+    cells.points.row(cell) = (vertices.points.row(patch.connectivity(cell, 0)) + vertices.points.row(patch.connectivity(cell, 2))) / 2;
   }
-  const Eigen::Index n = m.points.rows();
-  m.weights = Eigen::VectorXd::Constant(n, length * width);
-  m.shapes = shapes_at(m.points);
-  m.tangential_stiffness = Eigen::VectorXd::LinSpaced(n, 1e11, 2e11);
-  m.second_stiffness = Eigen::VectorXd::LinSpaced(n, 2e11, 9e11);
-  m.normal_stiffness = Eigen::VectorXd::LinSpaced(n, 3e11, 1e12);
-  m.friction_coefficient = Eigen::VectorXd::LinSpaced(n, 0.3, 0.5);
-  m.preload = Eigen::VectorXd::Constant(n, 1.0 / m.weights.sum());
-  m.fit_degree = 3;
-  m.fit_error = Eigen::Vector2d(1e-6, 2e-5);
-  m.vertex_shapes = shapes_at(m.vertices);
-  const Eigen::Index n_vertices = m.vertices.rows();
-  m.vertex_tangential_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 1e11, 2e11);
-  m.vertex_second_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 2e11, 9e11);
-  m.vertex_normal_stiffness = Eigen::VectorXd::LinSpaced(n_vertices, 3e11, 1e12);
-  m.vertex_friction_coefficient = Eigen::VectorXd::LinSpaced(n_vertices, 0.3, 0.5);
-  m.vertex_preload = Eigen::VectorXd::Constant(n_vertices, m.preload[0]);
+  const Eigen::Index n = cells.points.rows();
+  cells.weights = Eigen::VectorXd::Constant(n, length * width);
+  cells.shapes = shapes_at(cells.points);
+  cells.stiffness.resize(n, 3);
+  cells.stiffness.col(0) = Eigen::VectorXd::LinSpaced(n, 1e11, 2e11);
+  cells.stiffness.col(2) = Eigen::VectorXd::LinSpaced(n, 2e11, 9e11);
+  cells.stiffness.col(1) = Eigen::VectorXd::LinSpaced(n, 3e11, 1e12);
+  cells.friction = Eigen::VectorXd::LinSpaced(n, 0.3, 0.5);
+  cells.preload = Eigen::VectorXd::Constant(n, 1.0 / cells.weights.sum());
+  patch.fit_degree = 3;
+  patch.fit_error = Eigen::Vector2d(1e-6, 2e-5);
+  vertices.shapes = shapes_at(vertices.points);
+  const Eigen::Index n_vertices = vertices.points.rows();
+  vertices.stiffness.resize(n_vertices, 3);
+  vertices.stiffness.col(0) = Eigen::VectorXd::LinSpaced(n_vertices, 1e11, 2e11);
+  vertices.stiffness.col(2) = Eigen::VectorXd::LinSpaced(n_vertices, 2e11, 9e11);
+  vertices.stiffness.col(1) = Eigen::VectorXd::LinSpaced(n_vertices, 3e11, 1e12);
+  vertices.friction = Eigen::VectorXd::LinSpaced(n_vertices, 0.3, 0.5);
+  vertices.preload = Eigen::VectorXd::Constant(n_vertices, cells.preload[0]);
   return m;
 }
 
@@ -134,6 +140,7 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
       map.slip(i, j) = 5e-7 * slide;
     }
   }
+  map.friction_coefficient = Eigen::VectorXd::LinSpaced(n, 0.3, 0.5);
   map.dissipated_energy = Eigen::VectorXd::LinSpaced(n, 0.0, 2.0);
   map.slip_distance = Eigen::VectorXd::LinSpaced(n, 0.0, 4e-6);
   map.wear_depth = Eigen::VectorXd::LinSpaced(n, 0.0, 1e-12);
@@ -153,8 +160,10 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
 }
 
 inline NamedMap named_map(const ReducedModel& m, const std::string& name, int n_phases = 8) {
-  return {name, 301.25, 2e-4, solver::Stability::stable, map_at(m.points, n_phases),
-          m.cells.rows() > 0 ? map_at(m.vertices, n_phases) : contact::ContactMap{}};
+  const contact::Patch& patch = m.patches.front();
+  return {name, 301.25, 2e-4, solver::Stability::stable, 0, map_at(patch.cells.points, n_phases),
+          patch.connectivity.rows() > 0 ? map_at(patch.vertices.points, n_phases)
+                                        : contact::ContactMap{}};
 }
 
 /// One point whose numbers are all different.

@@ -38,7 +38,7 @@ struct Block {
 Block block(std::vector<std::string> settings) {
   settings.emplace_back("response.harmonics=9");
   Block result{read_scene(std::string(MICROSLIP_SCENES) + "/block_rough.toml", settings), {}};
-  result.model = reduced_model(std::get<ModalModel>(result.scene.model));
+  result.model = reduced_model(result.scene);
   result.model.effects = contact_effects(result.model, result.scene);
   return result;
 }
@@ -53,7 +53,7 @@ Pair solve(const Block& block, double load, double frequency_hz,
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
   solver::ContinuationOptions options = continuation_options(*block.scene.response);
   solver::Scene scene = solver_scene(block.model, load);
-  scene.transient = transient_force(block.model, load);
+  scene.transient = contact_of(block.model, load).transient_force();
   const auto curve = solver::solve_at_frequency(scene, omega, options);
   EXPECT_TRUE(curve.complete) << curve.message;
   Pair pair{curve.points.at(0), solver::steady_state(scene, omega, time_options)};
@@ -94,7 +94,7 @@ TEST(BlockInTime, AgreesWithHarmonicBalanceOnRoughCells) {
   EXPECT_GT(pairs[1].time.response.report.slip_share, 0.3);
   // At 22 Hz most cells stick: on the history of the balance both are nearer than from rest.
   solver::Scene scene = solver_scene(rough.model, 20.0);
-  scene.transient = transient_force(rough.model, 20.0);
+  scene.transient = contact_of(rough.model, 20.0).transient_force();
   Pair same = pairs[0];
   same.time = solver::steady_state_from(scene, same.balance.frequency, same.balance.q, {});
   print("its history", 20.0, 22.0, same);

@@ -10,6 +10,7 @@
 #include "contact/force/any_harmonics_force.hpp"
 #include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
+#include "contact/line/surface_event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/support/sampled/sampled_cycle.hpp"
 
@@ -207,6 +208,49 @@ TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
   // Nine deviations beyond the mean height they are open as well.
   EXPECT_LT(gaussian.least, 0.9);
   EXPECT_GT(gaussian.least, 0.5);
+}
+
+// What the product makes of points along p that are rough or whose friction depends on the speed.
+std::shared_ptr<const PointLaw> surface_event(const PointParameters& point, double second,
+                                              const FrictionLaw& friction,
+                                              const std::optional<RoughSurface>& roughness) {
+  PointParameters stiff = point;
+  if (roughness) stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
+  return std::make_shared<SurfaceEventLaw>(SurfaceLaw(stiff, second, friction, roughness));
+}
+
+TEST(SleepingLaws, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
+  const MakeLaw plain = [](const PointParameters& point, double second) {
+    return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient), {});
+  };
+  const MakeLaw by_speed = [](const PointParameters& point, double second) {
+    return surface_event(point, second, FrictionLaw::exponential(0.5, 0.2, 0.7), {});
+  };
+  const MakeLaw rough = [](const PointParameters& point, double second) {
+    return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient),
+                         RoughSurface::cubic(0.5));
+  };
+  std::mt19937_64 random(8);
+  for (const MakeLaw* make : {&plain, &by_speed, &rough}) {
+    Seen seen;
+    for (const int n_harmonics : {1, 3}) {
+      const Patch p = random_patch(60, *make, Directions::one, random);
+      expect_same(p, n_harmonics, 1e-12, random, seen);
+    }
+    EXPECT_LT(seen.least, make == &rough ? 0.9 : 0.3);
+    if (make == &rough) EXPECT_GT(seen.least, 0.5);  // two thirds are pressed
+  }
+}
+
+// The law does not resist along r, asleep or awake, whatever moves there.
+TEST(SleepingLaws, SurfaceEventPointsSleepWithoutForceAlongR) {
+  const MakeLaw plain = [](const PointParameters& point, double second) {
+    return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient), {});
+  };
+  std::mt19937_64 random(9);
+  Seen seen;
+  expect_same(random_patch(60, plain, Directions::two, random), 2, 1e-12, random, seen);
+  EXPECT_LT(seen.least, 0.3);
 }
 
 // Whatever was asked before.

@@ -29,26 +29,27 @@ void expect_same_shapes(const contact::ModalShapes& a, const contact::ModalShape
   EXPECT_EQ(a.w, b.w);
 }
 
-void expect_same_contact(const ReducedModel& a, const ReducedModel& b) {
+void expect_same_samples(const contact::PatchSamples& a, const contact::PatchSamples& b) {
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.weights, b.weights);
-  EXPECT_EQ(a.frame, b.frame);
   expect_same_shapes(a.shapes, b.shapes);
-  EXPECT_EQ(a.tangential_stiffness, b.tangential_stiffness);
-  EXPECT_EQ(a.second_stiffness, b.second_stiffness);
-  EXPECT_EQ(a.normal_stiffness, b.normal_stiffness);
-  EXPECT_EQ(a.friction_coefficient, b.friction_coefficient);
+  EXPECT_EQ(a.stiffness, b.stiffness);
+  EXPECT_EQ(a.friction, b.friction);
   EXPECT_EQ(a.preload, b.preload);
-  EXPECT_EQ(a.fit_degree, b.fit_degree);
-  EXPECT_EQ(a.fit_error, b.fit_error);
-  EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.cells, b.cells);
-  expect_same_shapes(a.vertex_shapes, b.vertex_shapes);
-  EXPECT_EQ(a.vertex_tangential_stiffness, b.vertex_tangential_stiffness);
-  EXPECT_EQ(a.vertex_second_stiffness, b.vertex_second_stiffness);
-  EXPECT_EQ(a.vertex_normal_stiffness, b.vertex_normal_stiffness);
-  EXPECT_EQ(a.vertex_friction_coefficient, b.vertex_friction_coefficient);
-  EXPECT_EQ(a.vertex_preload, b.vertex_preload);
+}
+
+void expect_same_contact(const ReducedModel& a, const ReducedModel& b) {
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  for (std::size_t i = 0; i < a.patches.size(); ++i) {
+    const contact::Patch& one = a.patches[i];
+    const contact::Patch& other = b.patches[i];
+    EXPECT_EQ(one.frame, other.frame);
+    EXPECT_EQ(one.fit_degree, other.fit_degree);
+    EXPECT_EQ(one.fit_error, other.fit_error);
+    EXPECT_EQ(one.connectivity, other.connectivity);
+    expect_same_samples(one.cells, other.cells);
+    expect_same_samples(one.vertices, other.vertices);
+  }
 }
 
 std::string read_failure(const std::filesystem::path& file) {
@@ -67,6 +68,17 @@ TEST(ModelFile, ReadsBackBitForBit) {
   const ReducedModel back = read_model(folder.path() / "model.h5");
   expect_same_structure(back, model);
   expect_same_contact(back, model);
+}
+
+TEST(ModelFile, SeveralPatchesReadBackInOrder) {
+  const synthetic::Folder folder("model_patches");
+  ReducedModel model = synthetic::model();
+  model.patches.push_back(synthetic::model(2, 3).patches[0]);
+  model.patches[1].cells.friction *= 0.5;
+  write_model(folder.path() / "model.h5", model);
+  const ReducedModel back = read_model(folder.path() / "model.h5");
+  expect_same_contact(back, model);
+  EXPECT_EQ(back.patches[1].name, "contact_2");
 }
 
 TEST(ModelFile, ModelWithoutContactOrCellsReadsBack) {

@@ -121,7 +121,7 @@ TEST(WriteCsv, ModesLeaveUnknownColumnsEmpty) {
   const synthetic::Folder folder("write_modes");
   const ReducedModel model = synthetic::model();
   write_modes_csv(folder.path() / "modes.csv",
-                  {model.frequency, {}, model.damping_ratio, model.fit_error});
+                  {model.frequency, {}, model.damping_ratio, model.patches[0].fit_error});
   const auto rows = rows_of(std::ifstream(folder.path() / "modes.csv"));
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0], (Row{"mode", "frequency_Hz", "residual", "damping_ratio", "fit_error", "kind"}));

@@ -40,7 +40,7 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
 TEST(WriteMap, SeriesGoesOnceAroundThePeriodInDegrees) {
   const synthetic::Folder folder("map_series");
   const ReducedModel model = synthetic::model();
-  write_map(folder.path() / "maps", model, synthetic::named_map(model, "preload_7_peak"));
+  write_map(folder.path() / "maps", model.patches[0], synthetic::named_map(model, "preload_7_peak"));
   const auto steps = pvd_steps(folder.path() / "maps" / "preload_7_peak.pvd");
   ASSERT_EQ(steps.size(), 9U);  // 8 phases and the first again at 360°
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -54,10 +54,10 @@ TEST(WriteMap, EveryPhaseCarriesAllArraysOnCellsAndPoints) {
   const synthetic::Folder folder("map_arrays");
   const ReducedModel model = synthetic::model();
   const NamedMap map = synthetic::named_map(model, "m");
-  write_map(folder.path(), model, map);
+  write_map(folder.path(), model.patches[0], map);
   const auto patch = read_vtp(folder.path() / "m_003.vtp");
-  ASSERT_EQ(patch->GetNumberOfCells(), model.cells.rows());
-  ASSERT_EQ(patch->GetNumberOfPoints(), model.vertices.rows());
+  ASSERT_EQ(patch->GetNumberOfCells(), model.patches[0].connectivity.rows());
+  ASSERT_EQ(patch->GetNumberOfPoints(), model.patches[0].vertices.points.rows());
   expect_instant(*patch->GetCellData(), map.points, 3);
   expect_instant(*patch->GetPointData(), map.vertices, 3);
   ASSERT_NE(patch->GetCellData()->GetScalars(), nullptr);
@@ -75,14 +75,14 @@ TEST(WriteMap, EveryPhaseCarriesAllArraysOnCellsAndPoints) {
 TEST(WriteMap, CellsStandInWorldCoordinatesOverTheirContactPoints) {
   const synthetic::Folder folder("map_cells");
   const ReducedModel model = synthetic::model();
-  write_map(folder.path(), model, synthetic::named_map(model, "m", 1));
+  write_map(folder.path(), model.patches[0], synthetic::named_map(model, "m", 1));
   const auto patch = read_vtp(folder.path() / "m_000.vtp");
   for (vtkIdType cell = 0; cell < patch->GetNumberOfCells(); ++cell) {
     std::array<double, 6> box{};
     patch->GetCellBounds(cell, box.data());
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(2 * axis);
-      EXPECT_NEAR((box[k] + box[k + 1]) / 2, model.points(cell, axis), 1e-15);  // rounding of 0.05
+      EXPECT_NEAR((box[k] + box[k + 1]) / 2, model.patches[0].cells.points(cell, axis), 1e-15);  // rounding of 0.05
     }
   }
 }
@@ -90,29 +90,29 @@ TEST(WriteMap, CellsStandInWorldCoordinatesOverTheirContactPoints) {
 TEST(WriteMap, ModelWithoutCellsGivesOneVertexPerPoint) {
   const synthetic::Folder folder("map_points");
   ReducedModel model = synthetic::model();
-  model.cells.resize(0, 0);
-  model.vertices.resize(0, 3);
+  model.patches[0].connectivity.resize(0, 0);
+  model.patches[0].vertices.points.resize(0, 3);
   const NamedMap map = synthetic::named_map(model, "m");
-  write_map(folder.path(), model, map);
+  write_map(folder.path(), model.patches[0], map);
   const auto patch = read_vtp(folder.path() / "m_005.vtp");
-  ASSERT_EQ(patch->GetNumberOfVerts(), model.points.rows());
-  ASSERT_EQ(patch->GetNumberOfPoints(), model.points.rows());
+  ASSERT_EQ(patch->GetNumberOfVerts(), model.patches[0].cells.points.rows());
+  ASSERT_EQ(patch->GetNumberOfPoints(), model.patches[0].cells.points.rows());
   expect_instant(*patch->GetCellData(), map.points, 5);
   expect_instant(*patch->GetPointData(), map.points, 5);
-  EXPECT_EQ(patch->GetPoint(7)[2], model.points(7, 2));
+  EXPECT_EQ(patch->GetPoint(7)[2], model.patches[0].cells.points(7, 2));
 }
 
 TEST(WriteMap, PointsWithoutPositionsStandInARow) {
   const synthetic::Folder folder("map_row");
   ReducedModel model = synthetic::model(1, 3);
   const NamedMap map = synthetic::named_map(model, "m");
-  model.cells.resize(0, 0);
-  model.points.resize(0, 3);
-  write_map(folder.path(), model, map);
+  model.patches[0].connectivity.resize(0, 0);
+  model.patches[0].cells.points.resize(0, 3);
+  write_map(folder.path(), model.patches[0], map);
   const auto patch = read_vtp(folder.path() / "m_000.vtp");
   ASSERT_EQ(patch->GetNumberOfPoints(), 3);
   for (vtkIdType i = 0; i < 3; ++i) {
-    const Eigen::RowVector3d expected = 1e-3 * static_cast<double>(i) * model.frame.row(0);
+    const Eigen::RowVector3d expected = 1e-3 * static_cast<double>(i) * model.patches[0].frame.row(0);
     EXPECT_EQ(Eigen::RowVector3d(patch->GetPoint(i)), expected);
   }
 }
@@ -121,12 +121,12 @@ TEST(WriteMap, DataFileHoldsAllPhasesInThePlaneOfThePatch) {
   const synthetic::Folder folder("map_data");
   const ReducedModel model = synthetic::model();
   const NamedMap map = synthetic::named_map(model, "m");
-  write_map(folder.path(), model, map);
+  write_map(folder.path(), model.patches[0], map);
   const Hdf5Reader in(folder.path() / "m.h5");
   EXPECT_EQ(in.matrix("/state").cast<std::uint8_t>(), map.points.state);
   EXPECT_EQ(in.matrix("/normal_traction_Pa"), map.points.normal_traction);
   const Eigen::MatrixXd points = in.matrix("/points");
-  EXPECT_LT((model.weights.transpose() * points).norm(), 1e-15 * model.weights.sum())
+  EXPECT_LT((model.patches[0].cells.weights.transpose() * points).norm(), 1e-15 * model.patches[0].cells.weights.sum())
       << "p and r count from the centroid";
   EXPECT_NEAR(points(8, 0) - points(0, 0), 2e-3, 1e-15);  // one cell further along p = z
   EXPECT_NEAR(points(1, 1) - points(0, 1), 1e-3, 1e-15);  // one cell further along r = −x
@@ -136,7 +136,7 @@ TEST(WriteMap, MapOfAnotherPatchIsRefused) {
   const synthetic::Folder folder("map_other");
   const ReducedModel model = synthetic::model();
   const NamedMap other = synthetic::named_map(synthetic::model(2, 2), "m");
-  EXPECT_THROW(write_map(folder.path() / "maps", model, other), std::invalid_argument);
+  EXPECT_THROW(write_map(folder.path() / "maps", model.patches[0], other), std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "maps"));
 }
 

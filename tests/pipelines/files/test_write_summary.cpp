@@ -24,7 +24,7 @@ RunSummary small_run() {
   run.stages = {{"mesh", 1.5, 120.0}};
   run.mesh = MeshSummary{10, 4, 30, 2e-5, 0.16};
   const ReducedModel model = synthetic::model();
-  run.modes = summarise_modes(model.frequency, model.damping_ratio, {}, model.fit_error);
+  run.modes = summarise_modes(model.frequency, model.damping_ratio, {}, model.patches[0].fit_error);
   run.curves = {summarise(synthetic::curve("preload_1000", 1000.0, 300.0, 1e-4, 8.0)),
                 summarise({"free", LimitName::free, {}, {}})};
   solver::Optimum optimum;

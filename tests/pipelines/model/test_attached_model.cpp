@@ -16,6 +16,7 @@
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/model_family.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -116,18 +117,20 @@ std::string modal_scene(const ReducedModel& model, double load, const std::files
                         double local) {
   std::string table = "weight,tangential_stiffness,normal_stiffness,friction_coefficient,preload";
   const Eigen::Index n_modes = model.frequency.size();
-  if (model.compliance.rows() > 0) table += ",residual_p,residual_q,residual_r";
+  const contact::PatchSamples& cells = model.patches.front().cells;
+  const bool in_series = cells.compliance.rows() > 0;
+  if (in_series) table += ",residual_p,residual_q,residual_r";
   for (const char axis : {'u', 'v', 'w'}) {
     for (Eigen::Index mode = 1; mode <= n_modes; ++mode)
       table += fmt::format(",phi_{}_{}", axis, mode);
   }
-  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-    table += fmt::format("\n{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", model.weights[i], local,
-                         local, model.friction_coefficient[i], load * model.preload[i]);
-    for (Eigen::Index axis = 0; axis < (model.compliance.rows() > 0 ? 3 : 0); ++axis) {
-      table += fmt::format(",{:.17g}", model.compliance(i, axis));
+  for (Eigen::Index i = 0; i < cells.size(); ++i) {
+    table += fmt::format("\n{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", cells.weights[i], local,
+                         local, cells.friction[i], load * cells.preload[i]);
+    for (Eigen::Index axis = 0; axis < (in_series ? 3 : 0); ++axis) {
+      table += fmt::format(",{:.17g}", cells.compliance(i, axis));
     }
-    for (const Eigen::MatrixXd* shapes : {&model.shapes.u, &model.shapes.v, &model.shapes.w}) {
+    for (const Eigen::MatrixXd* shapes : {&cells.shapes.u, &cells.shapes.v, &cells.shapes.w}) {
       for (Eigen::Index mode = 0; mode < n_modes; ++mode)
         table += fmt::format(",{:.17g}", (*shapes)(i, mode));
     }
@@ -171,8 +174,8 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
     const std::vector<CurveRequest> requests = curve_requests(scene);
     EXPECT_EQ(requests[0].name, "gap_3um");
     const double load = std::get<double>(preload_of(requests[0], model));
-    EXPECT_NEAR(load, -3e-6 * model.normal_stiffness.dot(model.weights), 1e-12 * std::abs(load));
-    for (const contact::PointParameters& point : point_parameters(model, load, false)) {
+    EXPECT_NEAR(load, -3e-6 * total_normal_stiffness(model), 1e-12 * std::abs(load));
+    for (const contact::PointParameters& point : contact_of(model, load).points(0)) {
       EXPECT_NEAR(-point.preload / point.normal_stiffness, 3e-6, 1e-18);
     }
   }

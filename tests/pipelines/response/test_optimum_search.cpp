@@ -139,15 +139,15 @@ TEST(OptimumSearch, DoesNotVaryWhatTheContactDoesNotHave) {
   ReducedModel model = model_alone(scene);
   EXPECT_EQ(no_stiffness_factor(model, scene), "");
   EXPECT_EQ(no_friction_factor(model), "");
-  scene.contact.emplace();  // both local stiffnesses "rigid"
+  scene.contacts.emplace_back();  // both local stiffnesses "rigid"
   EXPECT_EQ(stiffness_place(scene), StiffnessPlace::none);
   EXPECT_NE(no_stiffness_factor(model, scene).find("rigid"), std::string::npos);
-  scene.contact->normal_stiffness = 1e11;
+  scene.contacts[0].normal_stiffness = 1e11;
   EXPECT_EQ(stiffness_place(scene), StiffnessPlace::keys);
   const SceneDescription halved = with_stiffness_keys(scene, 0.5);
-  EXPECT_EQ(halved.contact->normal_stiffness, 5e10);
-  EXPECT_FALSE(halved.contact->tangential_stiffness.has_value());
-  model.weights.resize(0);
+  EXPECT_EQ(halved.contacts[0].normal_stiffness, 5e10);
+  EXPECT_FALSE(halved.contacts[0].tangential_stiffness.has_value());
+  model.patches.clear();
   EXPECT_NE(no_friction_factor(model).find("no contact"), std::string::npos);
 }
 

@@ -43,10 +43,10 @@ method = "time"
 
 solver::ResponseCurve curve_of(const Overrides& overrides) {
   const SceneDescription scene = parse_scene(bilinear, "scene.toml", "/nowhere", overrides);
-  ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   solver::Scene problem = solver_scene(model, 1.0);
-  problem.transient = transient_force(model, 1.0);
+  problem.transient = contact_of(model, 1.0).transient_force();
   return integrate_curve(problem, *scene.response, {});
 }
 
@@ -85,7 +85,7 @@ TEST(TimeResponse, TooFewStepsAreRefusedWithTheNumberNeeded) {
 TEST(TimeResponse, TooFewStepsAreKnownBeforeACurveIsTraced) {
   const auto complaint = [](const Overrides& overrides) -> std::string {
     const SceneDescription scene = parse_scene(bilinear, "scene.toml", "/nowhere", overrides);
-    ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+    ReducedModel model = reduced_model(scene);
     model.effects = contact_effects(model, scene);
     try {
       require_curves(model, scene);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/point_parameters.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -142,7 +142,7 @@ TEST(BarScene, AFreeBarIsHeldByItsContact) {
   EXPECT_NO_THROW(require_held(reduced_model(bar), held));
   const SceneDescription loose =
       parse(bar_text, {"model.end_stiffness=0", "contact.tangential_stiffness=0"});
-  EXPECT_THROW(require_held(reduced_model(std::get<ModalModel>(loose.model)), loose), RefusedError);
+  EXPECT_THROW(require_held(reduced_model(loose), loose), RefusedError);
   expect_complaint(bar_text,
                    {"model.end_stiffness=0", "modes.residual=stiffness", "modes.which=[2]"},
                    "rigid-body mode");
@@ -198,11 +198,11 @@ TEST(ChainScene, ContactsShareThePreloadAndMayJoinTwoMasses) {
       {"contact.points=[{ slip = \"m1\", tangential_stiffness = 1e4, friction_coefficient = 0.5 }, "
        "{ slip = { m2 = 1, m1 = -1 }, tangential_stiffness = 1e4, friction_coefficient = 0.1, "
        "share = 3 }]"});
-  const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
-  const auto points = point_parameters(model, 100.0, false);
+  const ReducedModel model = reduced_model(scene);
+  const auto points = contact_of(model, 100.0).points(0);
   EXPECT_EQ(points[0].preload, 25.0);
   EXPECT_EQ(points[1].preload, 75.0);
-  EXPECT_EQ(model.shapes.u.row(1), model.output.transpose() - model.shapes.u.row(0));
+  EXPECT_EQ(model.patches[0].cells.shapes.u.row(1), model.output.transpose() - model.patches[0].cells.shapes.u.row(0));
 }
 
 TEST(ChainScene, ANegativePreloadIsAUniformGap) {
@@ -211,16 +211,16 @@ TEST(ChainScene, ANegativePreloadIsAUniformGap) {
       {"contact.points=[{ slip = \"m1\", approach = \"m2\", tangential_stiffness = 1e4, "
        "normal_stiffness = 2e4, friction_coefficient = 0.5 }, { slip = \"m1\", approach = \"m1\", "
        "tangential_stiffness = 1e4, normal_stiffness = 6e4, friction_coefficient = 0.5 }]"}));
-  const auto points = point_parameters(model, -8.0, false);
+  const auto points = contact_of(model, -8.0).points(0);
   EXPECT_DOUBLE_EQ(points[0].preload / 2e4, -1e-4);
   EXPECT_DOUBLE_EQ(points[1].preload / 6e4, -1e-4);
 }
 
 TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
   const SceneDescription scene = parse(chain_text, {area_point, "response.preload=[50]"});
-  const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  const ReducedModel model = reduced_model(scene);
   require_loads(model, scene);
-  const auto points = point_parameters(model, 50.0, false);
+  const auto points = contact_of(model, 50.0).points(0);
   ASSERT_EQ(points.size(), 16U);
   double force = 0.0, moment_p = 0.0, moment_r = 0.0;
   for (std::size_t i = 0; i < 16; ++i) {
@@ -228,8 +228,8 @@ TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
     EXPECT_GE(points[i].preload, 0.0);
     const auto row = static_cast<Eigen::Index>(i);
     force += points[i].preload;
-    moment_p -= model.points(row, 2) * points[i].preload;
-    moment_r += model.points(row, 0) * points[i].preload;
+    moment_p -= model.patches[0].cells.points(row, 2) * points[i].preload;
+    moment_r += model.patches[0].cells.points(row, 0) * points[i].preload;
   }
   EXPECT_NEAR(force, 50.0, 1e-13);  // sums of sixteen numbers of size ten
   EXPECT_NEAR(moment_p, 1.0, 1e-14);
@@ -240,9 +240,9 @@ TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
 // N₁ + N₂ = 30 N, 37.5 N₁ + 12.5 N₂ = 1000 N mm, so 25 N and 5 N, and the approach falls by 20 N a row.
 TEST(ChainScene, AMomentLiftsCellsOff) {
   const SceneDescription scene = parse(chain_text, {area_point, "response.preload=[30]"});
-  const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  const ReducedModel model = reduced_model(scene);
   require_loads(model, scene);
-  const auto points = point_parameters(model, 30.0, false);
+  const auto points = contact_of(model, 30.0).points(0);
   const std::array<double, 4> rows{25.0, 5.0, -15.0, -35.0};
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(points[i].preload, rows[i / 4] / 4.0, 1e-12);  // rounding of numbers of size ten
@@ -256,7 +256,7 @@ TEST(ChainScene, AnAreaOfSeveralContactsTiltsUnderItsShare) {
        "{ slip = \"m1\", approach = \"m1\", tangential_stiffness = 4e4, normal_stiffness = 8e4, "
        "friction_coefficient = 0.5, share = 3, cells = [2, 2], size = [0.2, 0.2], preload_moment = "
        "[0, 1] }]"}));
-  const auto points = point_parameters(model, 40.0, false);
+  const auto points = contact_of(model, 40.0).points(0);
   EXPECT_DOUBLE_EQ(points[0].preload, 10.0);
   const std::array<double, 4> cells{2.5, 12.5, 2.5, 12.5};  // 30/4 ∓ 1/(4 · 0.05)
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(points[i + 1].preload, cells[i], 1e-13);
@@ -266,16 +266,16 @@ TEST(ChainScene, AMomentWithoutEquilibriumIsRefused) {
   for (const char* loads : {"[50, 26.6]", "[0]", "[-30]"}) {
     const SceneDescription scene =
         parse(chain_text, {area_point, "response.preload=" + std::string(loads)});
-    const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+    const ReducedModel model = reduced_model(scene);
     EXPECT_THROW(require_loads(model, scene), RefusedError) << loads;
   }
 }
 
 TEST(ChainScene, LimitsKnowNoMoment) {
   const SceneDescription scene = parse(chain_text, {area_point});
-  const ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  const ReducedModel model = reduced_model(scene);
   const SceneDescription plain = parse(chain_text);
-  const ReducedModel point = reduced_model(std::get<ModalModel>(plain.model));
+  const ReducedModel point = reduced_model(plain);
   EXPECT_LT((limit_scene(model).contact->stuck_stiffness() -
              limit_scene(point).contact->stuck_stiffness())
                 .norm(),

@@ -11,7 +11,6 @@
 #include <Eigen/QR>
 
 #include "contact/patch/contact_area.hpp"
-#include "pipelines/model/point_parameters.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/model/contact_effects.hpp"
@@ -57,7 +56,7 @@ SceneDescription parse(const std::string& text, const Overrides& overrides = {})
 }
 
 ReducedModel model_in(const SceneDescription& scene) {
-  ReducedModel model = reduced_model(std::get<ModalModel>(scene.model));
+  ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   return model;
 }
@@ -115,9 +114,9 @@ TEST(BlockScene, AMatrixSaysTheSameAsItsDiagonal) {
 TEST(BlockScene, CellsMoveWithTheBody) {
   const ReducedModel model = model_of();
   const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(6, -1.0, 2.0);
-  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-    const Eigen::Vector3d from_mass_centre(model.points(i, 0) + 0.005, 0.02,
-                                           model.points(i, 2) - 0.003);
+  for (Eigen::Index i = 0; i < model.patches[0].cells.weights.size(); ++i) {
+    const Eigen::Vector3d from_mass_centre(model.patches[0].cells.points(i, 0) + 0.005, 0.02,
+                                           model.patches[0].cells.points(i, 2) - 0.003);
     Eigen::Vector3d expected;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string direction = axis == 0 ? "[1,0,0]" : axis == 1 ? "[0,1,0]" : "[0,0,1]";
@@ -125,8 +124,8 @@ TEST(BlockScene, CellsMoveWithTheBody) {
                                  "response.output.direction=" + direction})
                            .output.dot(q);
     }
-    const Eigen::Vector3d moved(model.shapes.u.row(i).dot(q), model.shapes.v.row(i).dot(q),
-                                model.shapes.w.row(i).dot(q));
+    const Eigen::Vector3d moved(model.patches[0].cells.shapes.u.row(i).dot(q), model.patches[0].cells.shapes.v.row(i).dot(q),
+                                model.patches[0].cells.shapes.w.row(i).dot(q));
     EXPECT_LT((moved - expected).norm(), 1e-12 * q.norm() * 50.0);  // shapes are below 50 /√kg
   }
 }
@@ -146,15 +145,15 @@ TEST(BlockScene, PointMotionIsTheCrossProduct) {
 // area, moved to the centre of mass; at rest nothing dynamic is left.
 TEST(BlockScene, ModalForcesAreForceAndMomentOfTheCells) {
   const ReducedModel model = model_of();
-  const Eigen::Index n = model.weights.size();
+  const Eigen::Index n = model.patches[0].cells.weights.size();
   const Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::NullaryExpr(3, n, [](auto i, auto j) {
     return std::sin(1.0 + static_cast<double>(3 * j + i));  // (n, f_r, f_p)
   });
   const Eigen::VectorXd modal =
-      model.shapes.u.transpose() * model.weights.cwiseProduct(tractions.row(2).transpose()) +
-      model.shapes.v.transpose() * model.weights.cwiseProduct(tractions.row(0).transpose()) +
-      model.shapes.w.transpose() * model.weights.cwiseProduct(tractions.row(1).transpose());
-  const contact::ContactArea area({model.points.col(2), model.points.col(0), model.weights});
+      model.patches[0].cells.shapes.u.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(2).transpose()) +
+      model.patches[0].cells.shapes.v.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(0).transpose()) +
+      model.patches[0].cells.shapes.w.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(1).transpose());
+  const contact::ContactArea area({model.patches[0].cells.points.col(2), model.patches[0].cells.points.col(0), model.patches[0].cells.weights});
   const contact::AreaVector whole = area.resultant(tractions);  // (q, r, p)
   const Eigen::Vector3d force(whole[2], whole[0], whole[1]);
   const Eigen::Vector3d moment(whole[5], whole[3], whole[4]);
@@ -174,9 +173,9 @@ TEST(BlockScene, ForcesAndTheirPhasesMoveTheModes) {
 
 TEST(BlockScene, CellsShareStiffnessAndLoadByArea) {
   const ReducedModel model = model_of();
-  const auto points = point_parameters(model, 40.0, false);
+  const auto points = contact_of(model, 40.0).points(0);
   ASSERT_EQ(points.size(), 6U);
-  EXPECT_NEAR(model.weights.sum(), 0.09 * 0.04, 1e-17);
+  EXPECT_NEAR(model.patches[0].cells.weights.sum(), 0.09 * 0.04, 1e-17);
   for (const auto& point : points) {
     EXPECT_DOUBLE_EQ(point.tangential_stiffness, 30000.0 / 0.0036);
     EXPECT_DOUBLE_EQ(point.normal_stiffness, 40000.0 / 0.0036);
@@ -191,19 +190,19 @@ TEST(BlockScene, RoughCellsCarryForceAndMoments) {
   const ReducedModel model =
       model_of({"contact.roughness={ law = \"cubic\", height = \"1 mm\" }",
                 "contact.preload_moment=[0.1, \"0.3 N*m\"]"});
-  const auto points = point_parameters(model, 40.0, false);
+  const auto points = contact_of(model, 40.0).points(0);
   const auto surface = contact::RoughSurface::cubic(height);
   double force = 0.0, about_p = 0.0, about_r = 0.0;
   Eigen::MatrixX3d plane(6, 3);
   Eigen::VectorXd approach(6);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double n = points[static_cast<std::size_t>(i)].preload;
-    const double load = model.weights[i] * n;
+    const double load = model.patches[0].cells.weights[i] * n;
     force += load;
-    about_r += model.points(i, 0) * load;
-    about_p -= model.points(i, 2) * load;
-    plane.row(i) << 1.0, model.points(i, 0), model.points(i, 2);
-    approach[i] = surface.approach(n / model.normal_stiffness[i]);
+    about_r += model.patches[0].cells.points(i, 0) * load;
+    about_p -= model.patches[0].cells.points(i, 2) * load;
+    plane.row(i) << 1.0, model.patches[0].cells.points(i, 0), model.patches[0].cells.points(i, 2);
+    approach[i] = surface.approach(n / model.patches[0].cells.stiffness(i, 1));
   }
   EXPECT_NEAR(force, 40.0, 1e-10);  // an imbalance of 1e-12
   EXPECT_NEAR(about_p, 0.1, 1e-12);
@@ -294,24 +293,16 @@ TEST(BlockScene, ForceAndMomentsVaryInTheCycle) {
                          "response.harmonics=3"});
   const ReducedModel model = model_in(scene);
   const auto point = point_of(model, scene, 40.0);
-  const auto laws = point_laws(model, 40.0, false);
+  const contact::ContactMap map =
+      contact_of(model, 40.0).map(0, contact::Places::cells, point.q, point.frequency, 24);
+  const contact::PatchSamples& cells = model.patches[0].cells;
   Eigen::Vector3d lowest = Eigen::Vector3d::Constant(1e9);
   Eigen::Vector3d highest = -lowest;
-  std::vector<contact::PointHistory> histories;
-  const Eigen::VectorXd phases = Eigen::VectorXd::LinSpaced(24, 0.0, 6.0);
-  for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-    contact::Harmonics motion(3, 3);
-    motion.rows().col(0) = point.q.rows() * model.shapes.u.row(i).transpose();
-    motion.rows().col(1) = point.q.rows() * model.shapes.v.row(i).transpose();
-    motion.rows().col(2) = point.q.rows() * model.shapes.w.row(i).transpose();
-    histories.push_back(laws[static_cast<std::size_t>(i)]->history(motion, point.frequency, phases, 1));
-  }
-  for (std::size_t k = 0; k < 24; ++k) {
+  for (Eigen::Index k = 0; k < 24; ++k) {
     Eigen::Vector3d now = Eigen::Vector3d::Zero();  // N, M_p, M_r
-    for (Eigen::Index i = 0; i < model.weights.size(); ++i) {
-      const double load =
-          model.weights[i] * histories[static_cast<std::size_t>(i)].instants[k].traction[1];
-      now += load * Eigen::Vector3d(1.0, -model.points(i, 2), model.points(i, 0));
+    for (Eigen::Index i = 0; i < cells.size(); ++i) {
+      const double load = cells.weights[i] * map.normal_traction(i, k);
+      now += load * Eigen::Vector3d(1.0, -cells.points(i, 2), cells.points(i, 0));
     }
     lowest = lowest.cwiseMin(now);
     highest = highest.cwiseMax(now);
@@ -348,7 +339,7 @@ TEST(BlockScene, TemplateAndCompletedSceneReadBack) {
   const SceneDescription from_template = parse(scene_template("block"));
   const SceneDescription again = parse(from_template.complete_toml);
   EXPECT_EQ(again.complete_toml, from_template.complete_toml);
-  EXPECT_TRUE(from_template.laws.roughness.has_value());
+  EXPECT_TRUE(from_template.rules.roughness.has_value());
   EXPECT_EQ(std::get<ModalModel>(from_template.model).points.size(), 16U);
 }
 

@@ -98,9 +98,9 @@ TEST(SceneFile, ABladeSceneIsReadInSi) {
   EXPECT_DOUBLE_EQ(scene.material.youngs_modulus, 2.1e11);
   EXPECT_EQ(scene.clamped, std::vector<std::string>{"root"});
   EXPECT_DOUBLE_EQ(std::get<std::vector<double>>(scene.modes.damping).at(0), 0.002);
-  EXPECT_EQ(scene.contact->normal_stiffness, 1e12);
-  EXPECT_FALSE(scene.contact->tangential_stiffness.has_value());
-  EXPECT_DOUBLE_EQ(scene.contact->wear_coefficient, 1e-13);
+  EXPECT_EQ(scene.contacts.front().normal_stiffness, 1e12);
+  EXPECT_FALSE(scene.contacts.front().tangential_stiffness.has_value());
+  EXPECT_DOUBLE_EQ(scene.contacts.front().wear_coefficient, 1e-13);
   ASSERT_EQ(scene.forces.size(), 1U);
   EXPECT_EQ(scene.forces[0].direction, Eigen::Vector3d::UnitX());
   EXPECT_EQ(scene.response->frequency_begin_hz, 350.0);
@@ -223,8 +223,8 @@ TEST(SceneFile, NumbersOfTheCompletedSceneKeepEveryDigitAndNoMore) {
   for (const char* number : {"0.10000000000000002", "0.3", "1e-300", "2.0", "3"}) {
     const std::string assignment = std::string("contact.friction_coefficient=") + number;
     const SceneDescription scene = parse(blade_text, {assignment});
-    EXPECT_EQ(std::get<double>(parse(scene.complete_toml).contact->friction.value),
-              std::get<double>(scene.contact->friction.value));
+    EXPECT_EQ(std::get<double>(parse(scene.complete_toml).contacts.front().friction.value),
+              std::get<double>(scene.contacts.front().friction.value));
     EXPECT_NE(scene.complete_toml.find(std::string("friction_coefficient = ") + number + "\n"),
               std::string::npos)
         << scene.complete_toml;
@@ -436,7 +436,6 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   };
   refused(blade_text, "model.kind=step");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
-  refused(blade_text, "contact=[{ surface = \"a\" }, { surface = \"b\" }]");
   for (const char* effect : {"higher_harmonics", "roughness", "rate_dependence"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
                      {effect, "needs"});
@@ -470,20 +469,20 @@ TEST(SceneFile, LawsOfContactAreRead) {
                          "contact.roughness=[{ law = \"cubic\", height = \"3 um\" }, { law = \"cubic\", "
                          "height = \"4 um\" }]",
                          "contact.preload_field={ expression = \"1 + 10*p\" }"});
-  ASSERT_TRUE(blade.laws.friction && blade.laws.roughness);
-  EXPECT_EQ(blade.laws.friction->at(0.0).value, 0.5);
-  EXPECT_NEAR(blade.laws.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0), 1e-15);
-  EXPECT_DOUBLE_EQ(blade.laws.roughness->height(), 5e-6);
-  ASSERT_TRUE(blade.contact->preload_field.has_value());
+  ASSERT_TRUE(blade.contacts.front().rules.friction && blade.contacts.front().rules.roughness);
+  EXPECT_EQ(blade.contacts.front().rules.friction->at(0.0).value, 0.5);
+  EXPECT_NEAR(blade.contacts.front().rules.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0), 1e-15);
+  EXPECT_DOUBLE_EQ(blade.contacts.front().rules.roughness->height(), 5e-6);
+  ASSERT_TRUE(blade.contacts.front().preload_field.has_value());
   EXPECT_EQ(complaint(blade.complete_toml), "");
   const SceneDescription field = parse(blade_text, {"contact.friction_coefficient=0.3+0.1*p",
                                                     "contact.preload_moment=[\"2 N*m\", 0]"});
-  EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contact->friction.value));
-  EXPECT_EQ(field.contact->preload_moment[0], 2.0);
+  EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contacts.front().friction.value));
+  EXPECT_EQ(field.contacts.front().preload_moment[0], 2.0);
   const SceneDescription modal = parse(
       modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
                    "response.harmonics=5", "response.method=time", "response.points=7"});
-  EXPECT_NEAR(modal.laws.friction->at(1.0).value, 0.1, 1e-15);
+  EXPECT_NEAR(modal.rules.friction->at(1.0).value, 0.1, 1e-15);
   EXPECT_EQ(modal.response->harmonics, 5);
   EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
   EXPECT_EQ(modal.response->n_time_points, 7);
@@ -588,9 +587,9 @@ TEST(SceneFile, AnyNumberCanBeSearched) {
   EXPECT_EQ(scene.response->optimum->range, (std::array<double, 2>{1e9, 1e12}));
   EXPECT_EQ(scene.response->optimum->load, 100.0);
   const SceneDescription changed = with_value(scene, "contact.normal_stiffness", 2.5e10);
-  EXPECT_EQ(changed.contact->normal_stiffness, 2.5e10);
+  EXPECT_EQ(changed.contacts.front().normal_stiffness, 2.5e10);
   EXPECT_FALSE(changed.response->optimum.has_value());
-  EXPECT_EQ(changed.contact->tangential_stiffness, scene.contact->tangential_stiffness);
+  EXPECT_EQ(changed.contacts.front().tangential_stiffness, scene.contacts.front().tangential_stiffness);
   const SceneDescription force = parse(
       blade_text, {"response.optimum=excitation.forces[0].amplitude",
                    "response.optimum_range=[\"1 mN\", \"2 N\"]", "response.optimum_at=\"1 kN\""});

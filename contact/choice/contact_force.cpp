@@ -1,0 +1,244 @@
+#include "contact/contact_force.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "contact/force/any_harmonics_force.hpp"
+#include "contact/force/law_patch_force.hpp"
+#include "contact/force/patch_force.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/line/surface_event_law.hpp"
+#include "contact/patch/patch_load.hpp"
+#include "contact/patch/patch_surfaces.hpp"
+#include "contact/patch/preload_field.hpp"
+#include "contact/plane/planar_cycle.hpp"
+#include "contact/sampled/patch_force.hpp"
+#include "contact/transient/patch_transient.hpp"
+#include "contact/transient/planar_transient.hpp"
+
+namespace microslip::contact {
+namespace {
+
+// As far as the residual of the balance is driven down: coarser, its noise turns branches back.
+constexpr double planar_tolerance = 1e-11;
+// Fewer points are solved event by event as fast as that matters, and to rounding.
+constexpr Eigen::Index least_points_in_lanes = 48;
+constexpr int instants_per_period = 512;
+
+using PointLaws = std::vector<std::shared_ptr<const PointLaw>>;
+
+/// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition in
+/// method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
+enum class Method { closed_form, lanes, any_harmonics, point_laws };
+
+/// One direction, constant friction, smooth surfaces.
+bool is_plain(const Patch& patch, const ContactEffects& effects) {
+  return !effects.second_direction && patch.rules.plain();
+}
+
+bool are_plain(std::span<const Patch> patches, const ContactEffects& effects) {
+  return std::ranges::all_of(patches, [&](const Patch& patch) { return is_plain(patch, effects); });
+}
+
+Eigen::Index n_points(std::span<const Patch> patches) {
+  Eigen::Index n = 0;
+  for (const Patch& patch : patches) n += patch.cells.size();
+  return n;
+}
+
+/// The switch: which method serves these patches.
+Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
+  const bool plain = are_plain(patches, effects);
+  if (plain && effects.n_harmonics == 1) return Method::closed_form;
+  if (!effects.second_direction && n_points(patches) >= least_points_in_lanes) return Method::lanes;
+  return plain ? Method::any_harmonics : Method::point_laws;
+}
+
+SurfaceLaw surface_of(const Patch& patch, const PatchSamples& samples,
+                      const ContactEffects& effects, std::size_t i, const PointParameters& point) {
+  if (is_plain(patch, effects)) return {point, 0.0};
+  return surface_at(patch.rules, samples, static_cast<Eigen::Index>(i), point);
+}
+
+std::vector<SurfaceLaw> surfaces_of(const Patch& patch, const PatchSamples& samples,
+                                    const ContactEffects& effects,
+                                    const std::vector<PointParameters>& points) {
+  std::vector<SurfaceLaw> surfaces;
+  surfaces.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    surfaces.push_back(surface_of(patch, samples, effects, i, points[i]));
+  }
+  return surfaces;
+}
+
+PointLaws laws_of(const Patch& patch, const PatchSamples& samples, const ContactEffects& effects,
+                  const std::vector<PointParameters>& points) {
+  PointLaws laws;
+  laws.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_plain(patch, effects)) {
+      laws.push_back(std::make_shared<EventLaw>(points[i]));
+      continue;
+    }
+    const SurfaceLaw surface = surface_of(patch, samples, effects, i, points[i]);
+    if (effects.second_direction) {
+      laws.push_back(std::make_shared<PlanarLaw>(surface, planar_tolerance));
+    } else {
+      laws.push_back(std::make_shared<SurfaceEventLaw>(surface));
+    }
+  }
+  return laws;
+}
+
+/// Mode shapes as the simulated effects need them: without motion along r where it is left out.
+ModalShapes simulated_shapes(ModalShapes shapes, const ContactEffects& effects) {
+  if (!effects.second_direction) shapes.w.resize(0, 0);
+  return shapes;
+}
+
+/// The contact points of several patches, one patch after the other.
+struct Stack {
+  Eigen::VectorXd weights;
+  ModalShapes shapes;
+};
+
+Stack stacked(std::span<const Patch> patches, const ContactEffects& effects) {
+  const Eigen::Index n = n_points(patches);
+  const auto width = [&](Eigen::MatrixXd ModalShapes::*shape) {
+    return (patches.front().cells.shapes.*shape).cols();
+  };
+  Stack all{
+      Eigen::VectorXd(n),
+      {Eigen::MatrixXd(n, width(&ModalShapes::u)), Eigen::MatrixXd(n, width(&ModalShapes::v)), {}}};
+  const bool along_r = effects.second_direction && patches.front().cells.shapes.w.size() > 0;
+  if (along_r) all.shapes.w.resize(n, width(&ModalShapes::w));
+  Eigen::Index begin = 0;
+  for (const Patch& patch : patches) {
+    const PatchSamples& cells = patch.cells;
+    all.weights.segment(begin, cells.size()) = cells.weights;
+    all.shapes.u.middleRows(begin, cells.size()) = cells.shapes.u;
+    all.shapes.v.middleRows(begin, cells.size()) = cells.shapes.v;
+    if (along_r) all.shapes.w.middleRows(begin, cells.size()) = cells.shapes.w;
+    begin += cells.size();
+  }
+  return all;
+}
+
+template <typename Item>
+std::vector<Item> joined(std::span<const std::vector<Item>> lists) {
+  std::vector<Item> all;
+  for (const std::vector<Item>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+}  // namespace
+
+bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects) {
+  return method_for(patches, effects) == Method::lanes;
+}
+
+ContactForce::ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects,
+                           double load)
+    : patches_(patches), effects_(effects), load_(load) {
+  const std::vector<PatchLoad> loads = shared_load(patches_, load_);
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    points_.push_back(point_parameters(patches_[i], patches_[i].cells, effects_, loads[i]));
+  }
+}
+
+std::unique_ptr<ModalForce> ContactForce::modal_force() const {
+  return force_of(0, patches_.size());
+}
+
+std::unique_ptr<ModalForce> ContactForce::modal_force(std::size_t patch) const {
+  return force_of(patch, patch + 1);
+}
+
+std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_t end) const {
+  const std::span patches(patches_.data() + begin, end - begin);
+  const std::span points(points_.data() + begin, end - begin);
+  Stack stack = stacked(patches, effects_);
+  switch (method_for(patches, effects_)) {
+    case Method::closed_form:
+      return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
+                                          std::move(stack.shapes));
+    case Method::lanes:
+      return std::make_unique<sampled::PatchForce>(
+          std::move(stack.weights), surfaces(begin, end), std::move(stack.shapes),
+          sampled::Options{.instants = instants_per_period});
+    case Method::any_harmonics:
+      return std::make_unique<AnyHarmonicsForce>(ContactPatch(stack.weights, joined(points)),
+                                                 stack.shapes);
+    case Method::point_laws:
+      break;
+  }
+  PointLaws laws;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    PointLaws own = laws_of(patches[i], patches[i].cells, effects_, points[i]);
+    laws.insert(laws.end(), own.begin(), own.end());
+  }
+  return std::make_unique<LawPatchForce>(std::move(stack.weights), std::move(laws),
+                                         std::move(stack.shapes));
+}
+
+std::vector<SurfaceLaw> ContactForce::surfaces(std::size_t begin, std::size_t end) const {
+  std::vector<SurfaceLaw> all;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto own = surfaces_of(patches_[i], patches_[i].cells, effects_, points_[i]);
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
+std::unique_ptr<TransientForce> ContactForce::transient_force() const {
+  Stack stack = stacked(patches_, effects_);
+  if (!are_plain(patches_, effects_)) {
+    return std::make_unique<PlanarTransient>(std::move(stack.weights), surfaces(0, patches_.size()),
+                                             std::move(stack.shapes));
+  }
+  return std::make_unique<PatchTransient>(
+      ContactPatch(stack.weights, joined(std::span(points_.data(), points_.size()))),
+      std::move(stack.shapes));
+}
+
+ContactMap ContactForce::map(std::size_t index, Places places, const Harmonics& q, double frequency,
+                             int n_phases) const {
+  const Patch& patch = patches_[index];
+  const PatchSamples& samples = places == Places::cells ? patch.cells : patch.vertices;
+  const std::vector<PointParameters> points =
+      places == Places::cells
+          ? points_[index]
+          : point_parameters(patch, samples, effects_, shared_load(patches_, load_)[index]);
+  const ModalShapes shapes = simulated_shapes(samples.shapes, effects_);
+  ContactMap map;
+  if (method_for({&patch, 1}, effects_) == Method::closed_form) {
+    map = contact_map(points, shapes, q, n_phases, patch.wear_coefficient);
+  } else {
+    map = contact_map(laws_of(patch, samples, effects_, points), shapes, q, frequency, n_phases,
+                      patch.wear_coefficient);
+    add_guards(map, surfaces_of(patch, samples, effects_, points), shapes, q, frequency);
+  }
+  map.friction_coefficient = samples.friction;
+  return map;
+}
+
+RestingLoad ContactForce::at_rest() const {
+  RestingLoad rest;
+  bool presses = false;
+  bool gapes = false;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    Eigen::VectorXd pressure(patches_[i].cells.size());
+    for (Eigen::Index k = 0; k < pressure.size(); ++k) {
+      pressure[k] = points_[i][static_cast<std::size_t>(k)].preload;
+    }
+    rest.carried += carried_force(pressure, patches_[i].cells.weights);
+    rest.integral += patches_[i].cells.weights.dot(pressure);
+    presses = presses || pressure.maxCoeff() > 0.0;
+    gapes = gapes || pressure.minCoeff() < 0.0;
+  }
+  rest.partly_open = presses && gapes;
+  return rest;
+}
+
+}  // namespace microslip::contact

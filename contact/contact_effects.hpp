@@ -1,0 +1,18 @@
+/// @file
+/// Which effects of contact are simulated, the same for all patches of a scene; what differs from patch to
+/// patch stands in its SurfaceRules.
+#pragma once
+
+namespace microslip::contact {
+
+struct ContactEffects {
+  int n_harmonics = 1;            ///< highest that may occur
+  bool normal_motion = true;      ///< false: the load stays that of rest, whatever the approach
+  bool second_direction = false;  ///< friction along r beside p
+  double motion_ratio = 0.0;      ///< motion along r against that along p in the linear limits [-]
+
+  /// The normal stiffness that is simulated. @param given  [N/m³].
+  [[nodiscard]] double normal_stiffness(double given) const { return normal_motion ? given : 0.0; }
+};
+
+}  // namespace microslip::contact

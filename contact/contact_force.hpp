@@ -1,0 +1,82 @@
+/// @file
+/// The one place where it is chosen how the points of a contact are evaluated, and the one object that answers
+/// for them: the force for harmonic balance, the force for integration in time, the history for maps, what is
+/// carried at rest. All of them see the same points under the same load with the same effects.
+///
+///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
+///   48 points or more, along p, anything else      the period sampled, all points in lanes (contact/sampled)
+///   more harmonics, plain surfaces                 event by event; the closed form at one harmonic
+///   rough surfaces, friction by speed, along r     a law per point (contact/line, contact/plane)
+///
+/// Several patches are one force whose points are those of all patches in order.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/contact_effects.hpp"
+#include "contact/contact_map.hpp"
+#include "contact/modal_force.hpp"
+#include "contact/patch.hpp"
+#include "contact/surface/surface_law.hpp"
+#include "contact/transient_force.hpp"
+
+namespace microslip::contact {
+
+/// Where a patch is sampled.
+enum class Places { cells, vertices };
+
+/// Load of a contact at rest [N], over all its points.
+struct RestingLoad {
+  double carried = 0.0;      ///< ∬ max(n₀', 0) dA
+  double integral = 0.0;     ///< ∬ n₀' dA, gaps counted as pull
+  bool partly_open = false;  ///< presses on a part, a gap on another
+};
+
+/// Whether forces of the patches are sampled in time, in lanes (contact/sampled), instead of located event by
+/// event: where several harmonics meet many points.
+[[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);
+
+
+class ContactForce {
+ public:
+  /// @param patches  of one scene, ≥ 1; borrowed for the life of this object, not of what it gives.
+  /// @param load     of a curve, by the measure of the patches (patch/patch_load.hpp).
+  /// @throws LoadError  no such load.
+  /// @throws std::invalid_argument  a constant out of its range.
+  ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects, double load);
+
+  /// Of all patches together.
+  [[nodiscard]] std::unique_ptr<ModalForce> modal_force() const;
+  /// Of one alone, e.g. for its report.
+  [[nodiscard]] std::unique_ptr<ModalForce> modal_force(std::size_t patch) const;
+  [[nodiscard]] std::unique_ptr<TransientForce> transient_force() const;
+
+  /// What every place of a patch does over a period.
+  /// @param q          a solution [m√kg], as many harmonics as it has.
+  /// @param frequency  ω [rad/s].
+  /// @param n_phases   ≥ 1.
+  /// @throws LoadError, std::invalid_argument  as the constructor, of the vertices.
+  [[nodiscard]] ContactMap map(std::size_t patch, Places places, const Harmonics& q,
+                               double frequency, int n_phases) const;
+
+  [[nodiscard]] RestingLoad at_rest() const;
+  /// Constants of the contact points of a patch under the load.
+  [[nodiscard]] const std::vector<PointParameters>& points(std::size_t patch) const {
+    return points_[patch];
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<ModalForce> force_of(std::size_t begin, std::size_t end) const;
+  /// Of the points of these patches, in order.
+  [[nodiscard]] std::vector<SurfaceLaw> surfaces(std::size_t begin, std::size_t end) const;
+
+  const std::vector<Patch>& patches_;
+  ContactEffects effects_;
+  double load_;
+  std::vector<std::vector<PointParameters>> points_;  // of the cells, per patch
+};
+
+}  // namespace microslip::contact

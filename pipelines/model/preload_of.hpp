@@ -1,0 +1,20 @@
+/// @file
+/// The preload of a curve under a model.
+#pragma once
+
+#include <variant>
+
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/scene/curve_request.hpp"
+
+namespace microslip::pipelines {
+
+/// Σ∬k_v dA of all patches [N/m].
+[[nodiscard]] double total_normal_stiffness(const ReducedModel& model);
+
+/// A gap given as a length is −gap·Σ∬k_v dA [N].
+/// @throws RefusedError  a gap where the normal stiffness is zero.
+[[nodiscard]] std::variant<double, LimitName> preload_of(const CurveRequest& request,
+                                                         const ReducedModel& model);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,167 @@
+#include "contact/contact_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace microslip::contact {
+namespace {
+
+constexpr Eigen::Index n_modes = 3;
+
+/// Points in a row whose constants and shapes are smooth functions of the place, all different.
+PatchSamples samples(double begin, Eigen::Index n) {
+  PatchSamples s;
+  s.points = Eigen::MatrixX3d::Zero(n, 3);
+  s.weights = Eigen::VectorXd::Constant(n, 0.5);
+  s.stiffness.resize(n, 3);
+  s.friction.resize(n);
+  s.preload = Eigen::VectorXd::Constant(n, 1.0 / (0.5 * static_cast<double>(n)));
+  s.shapes = {Eigen::MatrixXd(n, n_modes), Eigen::MatrixXd(n, n_modes),
+              Eigen::MatrixXd(n, n_modes)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = begin + static_cast<double>(i);
+    s.points(i, 0) = x;
+    s.stiffness.row(i) << 2.0 + 0.1 * x, 1.5 - 0.05 * x, 2.5;
+    s.friction[i] = 0.4 + 0.02 * x;
+    for (Eigen::Index m = 0; m < n_modes; ++m) {
+      const double k = static_cast<double>(m + 1);
+      s.shapes.u(i, m) = std::cos(0.3 * k * x);
+      s.shapes.v(i, m) = 0.4 * std::sin(0.2 * k * x + 1.0);
+      s.shapes.w(i, m) = 0.3 * std::cos(0.1 * k * x + 2.0);
+    }
+  }
+  return s;
+}
+
+Patch patch_at(double begin, Eigen::Index n) {
+  Patch patch;
+  patch.name = "from " + std::to_string(begin);
+  patch.cells = samples(begin, n);
+  patch.load_share = static_cast<double>(n);
+  return patch;
+}
+
+Harmonics motion(int n_harmonics) {
+  Harmonics q(n_harmonics, n_modes);
+  for (Eigen::Index i = 0; i < q.rows().size(); ++i) {
+    q.rows().data()[i] = 0.7 * std::sin(1.0 + 2.3 * static_cast<double>(i)) /
+                         (1.0 + static_cast<double>(i / (2 * n_modes)));
+  }
+  return q;
+}
+
+struct Case {
+  const char* name;
+  ContactEffects effects;
+  SurfaceRules rules;
+};
+
+/// One of each method.
+std::vector<Case> cases() {
+  ContactEffects one;
+  ContactEffects several;
+  several.n_harmonics = 3;
+  ContactEffects plane;
+  plane.second_direction = true;
+  SurfaceRules speed;
+  speed.friction = FrictionLaw::exponential(0.5, 0.3, 0.2);
+  SurfaceRules rough;
+  rough.roughness = RoughSurface::cubic(0.2);
+  return {{"closed form", one, {}},
+          {"events", several, {}},
+          {"by speed", several, speed},
+          {"rough", one, rough},
+          {"in a plane", plane, {}}};
+}
+
+double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).norm() / (1.0 + b.norm());
+}
+
+// Points are the same, in another order of sums.
+TEST(ContactForce, TwoPatchesAreTheOneTheyMakeUp) {
+  for (const Case& c : cases()) {
+    std::vector<Patch> whole{patch_at(0.0, 12)};
+    std::vector<Patch> halves{patch_at(0.0, 8), patch_at(8.0, 4)};
+    for (auto* patches : {&whole, &halves}) {
+      for (Patch& patch : *patches) patch.rules = c.rules;
+    }
+    for (const double load : {4.0, -2.0}) {
+      const ContactForce one(whole, c.effects, load);
+      const ContactForce two(halves, c.effects, load);
+      const Harmonics q = motion(c.effects.n_harmonics);
+      const ForceAndJacobian a = one.modal_force()->evaluate(q, 1.3);
+      const ForceAndJacobian b = two.modal_force()->evaluate(q, 1.3);
+      EXPECT_LT(difference(b.force.vector(), a.force.vector()), 1e-11) << c.name;
+      EXPECT_LT((a.jacobian - b.jacobian).norm(), 1e-9 * (1.0 + a.jacobian.norm())) << c.name;
+      const CycleReport all = one.modal_force()->report(q, 1.3);
+      const CycleReport near = two.modal_force(0)->report(q, 1.3);
+      const CycleReport far = two.modal_force(1)->report(q, 1.3);
+      EXPECT_NEAR((8.0 * near.slip_share + 4.0 * far.slip_share) / 12.0, all.slip_share, 1e-11);
+      EXPECT_NEAR(near.slip_work + far.slip_work, all.slip_work, 1e-10 * (1.0 + all.slip_work));
+      const TransientMemory memory = one.transient_force()->virgin_memory();
+      const ModalMotion now{Eigen::Vector3d(0.3, -0.2, 0.5), Eigen::Vector3d::Zero()};
+      EXPECT_LT(difference(two.transient_force()->trial_force(now, memory),
+                           one.transient_force()->trial_force(now, memory)),
+                1e-12)
+          << c.name;
+    }
+  }
+}
+
+TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
+  for (const Case& c : cases()) {
+    std::vector<Patch> patches{patch_at(0.0, 12)};
+    patches[0].rules = c.rules;
+    const ContactForce contact(patches, c.effects, 4.0);
+    const Harmonics q = motion(c.effects.n_harmonics);
+    constexpr int n_phases = 4096;
+    const ContactMap map = contact.map(0, Places::cells, q, 1.3, n_phases);
+    const Harmonics force = contact.modal_force()->evaluate(q, 1.3).force;
+    const PatchSamples& cells = patches[0].cells;
+    Eigen::VectorXd sine = Eigen::VectorXd::Zero(n_modes);
+    for (int j = 0; j < n_phases; ++j) {
+      const double s = 2.0 / n_phases * std::sin(map.phase[j]);
+      sine +=
+          s * cells.shapes.u.transpose() * cells.weights.cwiseProduct(map.friction_traction.col(j));
+      sine +=
+          s * cells.shapes.v.transpose() * cells.weights.cwiseProduct(map.normal_traction.col(j));
+      if (map.friction_traction_r.cols() == 0) continue;
+      sine += s * cells.shapes.w.transpose() *
+              cells.weights.cwiseProduct(map.friction_traction_r.col(j));
+    }
+    EXPECT_LT(difference(sine, force.sine().transpose()), 1e-5) << c.name;  // of 4096 samples
+    EXPECT_EQ(map.friction_coefficient, cells.friction) << c.name;
+  }
+}
+
+TEST(ContactForce, ALoadThatPressesIsSharedAndAGapIsNot) {
+  std::vector<Patch> patches{patch_at(0.0, 4), patch_at(4.0, 4)};
+  patches[0].load_share = 3.0;
+  patches[1].load_share = 1.0;
+  const ContactForce pressed(patches, {}, 8.0);
+  const auto carried = [&](std::size_t patch) {
+    double sum = 0.0;
+    for (const PointParameters& point : pressed.points(patch)) sum += 0.5 * point.preload;
+    return sum;
+  };
+  EXPECT_NEAR(carried(0), 6.0, 1e-14);
+  EXPECT_NEAR(carried(1), 2.0, 1e-14);
+  EXPECT_NEAR(pressed.at_rest().carried, 8.0, 1e-14);
+  double total = 0.0;
+  for (const Patch& patch : patches) total += patch.cells.stiffness.col(1).dot(patch.cells.weights);
+  const ContactForce open(patches, {}, -3.0);
+  for (const std::size_t patch : {0U, 1U}) {
+    for (const PointParameters& point : open.points(patch)) {
+      EXPECT_NEAR(-point.preload / point.normal_stiffness, 3.0 / total, 1e-15);
+    }
+  }
+  for (Patch& patch : patches) patch.cells.stiffness.col(1).setZero();
+  EXPECT_THROW(ContactForce(patches, {}, -3.0), LoadError);
+}
+
+}  // namespace
+}  // namespace microslip::contact
