@@ -92,7 +92,7 @@ struct CurveResult {
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
-  std::optional<double> gap;  ///< the preload was given as this length [m]
+  std::optional<double> gap = {};  ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 
