@@ -1,6 +1,6 @@
 #include "contact/contact_map.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/point_motions.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

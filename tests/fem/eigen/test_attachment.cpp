@@ -1,4 +1,6 @@
 // Attachment shapes (theory section 14.1) against full matrices.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -182,26 +184,32 @@ TEST(Attachment, TheDegreeIsTheLowestThatMissesLittleOfTheNext) {
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis modes = structure.solve_modes({.n_modes = 5});
   const Eigen::MatrixXd none(3 * mesh.n_nodes(), 0);
-  double before = 1.0;
-  for (const int degree : {0, 1, 2}) {
-    const ModalBasis given =
-        structure.attach(modes, side, side_frame(), none, {.degree = degree}).basis;
-    const Eigen::MatrixXd next = polynomial_tractions(mesh.nodes(), side, side_frame(), degree + 1)
-                                     .rightCols(3 * (degree + 2));
-    const double share = missed_by(modes, given, dense, next);
-    std::printf("degree %d misses %.3e of degree %d\n", degree, share, degree + 1);
-    ASSERT_LT(share, before);
-    before = share;
-    for (const double angle : {0.0, 0.8}) {
-      AttachmentOptions options{
-          .degree = {}, .local_stiffness = springs, .missed_tolerance = 1.001 * share};
-      const AttachedBasis chosen = structure.attach(modes, side, side_frame(angle), none, options);
-      EXPECT_EQ(chosen.degree, degree);
-      EXPECT_NEAR(chosen.missed_share, share, 1e-6 * share);
-      options.missed_tolerance = 0.999 * share;
-      EXPECT_EQ(structure.attach(modes, side, side_frame(angle), none, options).degree, degree + 1);
+  std::array<double, 3> shares{};  // need not fall with every degree: each is of other tractions
+  for (std::size_t degree = 0; degree < shares.size(); ++degree) {
+    const int d = static_cast<int>(degree);
+    const ModalBasis given = structure.attach(modes, side, side_frame(), none, {.degree = d}).basis;
+    const Eigen::MatrixXd next =
+        polynomial_tractions(mesh.nodes(), side, side_frame(), d + 1).rightCols(3 * (d + 2));
+    shares[degree] = missed_by(modes, given, dense, next);
+    std::printf("degree %d misses %.3e of degree %d\n", d, shares[degree], d + 1);
+  }
+  for (const double share : shares) {
+    for (const double tolerance : {1.001 * share, 0.999 * share}) {
+      const auto first = std::ranges::find_if(shares, [&](double s) { return s <= tolerance; });
+      if (first == shares.end()) continue;
+      for (const double angle : {0.0, 0.8}) {
+        const AttachedBasis chosen = structure.attach(
+            modes, side, side_frame(angle), none,
+            {.degree = {}, .local_stiffness = springs, .missed_tolerance = tolerance});
+        EXPECT_EQ(chosen.degree, first - shares.begin());
+        EXPECT_NEAR(chosen.missed_share, *first, 1e-6 * *first);
+      }
     }
   }
+  const AttachedBasis most = structure.attach(
+      modes, side, side_frame(), none,
+      {.degree = {}, .local_stiffness = springs, .missed_tolerance = 0.0, .max_degree = 2});
+  EXPECT_EQ(most.degree, 2);
 }
 
 TEST(Attachment, WithoutLocalStiffnessNoTractionMatters) {
