@@ -21,7 +21,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 // Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the last digits dear.
-constexpr double sampled_tolerance = 1e-9;
+constexpr double sampled_tolerance = 1e-10;
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
   contact::Harmonics force(n_harmonics, model.frequency.size());
@@ -213,12 +213,14 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
-  const solver::ContinuationOptions options = continuation_options(*scene.response, model);
+  solver::ContinuationOptions options = continuation_options(*scene.response, model);
   CurveResult result;
   result.name = request.name;
   result.preload = preload_of(request, model);
   if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
   if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
+    options.residual_tolerance = solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
+    options.corrector = solver::ContinuationOptions::Corrector::newton;
     result.curve = solver::trace_linear(limit_scene(model),
                                         *limit == LimitName::free ? solver::LinearLimit::free
                                                                   : solver::LinearLimit::stuck,

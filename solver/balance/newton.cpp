@@ -12,7 +12,7 @@ namespace {
 
 constexpr int max_halvings = 7;
 constexpr int max_polish = 4;
-constexpr double polished_below = 1e-9;  // a tolerance above asks for no more than it says
+constexpr double polished_below = 5e-11;  // a tolerance above asks for no more than it says
 // Below this nothing is gained: the residual is a sum of some ten thousand rounded terms at most.
 constexpr double rounding = 1e-16;
 constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more

@@ -44,7 +44,7 @@ struct NewtonResult {
   bool converged = false;
 };
 
-/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 1e-9 is met the iteration goes on while
+/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration goes on while
 /// the residual still falls: points carry rounding error only. A coarser tolerance is meant as it stands.
 /// @param constraint  (c_x, c_p) in scaled variables; (0, 1) holds the parameter.
 [[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,

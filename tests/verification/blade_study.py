@@ -71,7 +71,7 @@ class BladeStudy(unittest.TestCase):
 
     def test_first_resonance_of_the_free_blade_lies_near_296_hz(self):
         self.assertAlmostEqual(self.x.summary["modes"][0]["frequency_Hz"], 296.0, delta=1.0)
-        self.assertEqual(len(self.x.summary["modes"]), 10)
+        self.assertEqual(sum(mode["kind"] == "free" for mode in self.x.summary["modes"]), 10)
 
     def test_every_point_is_certified(self):
         for study in (self.x, self.y):

@@ -1,4 +1,5 @@
 #include "contact/map/transition_guards.hpp"
+#include "contact/closed_form/friction_cycle.hpp"
 
 #include <gtest/gtest.h>
 

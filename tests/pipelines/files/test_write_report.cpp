@@ -43,7 +43,7 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   curves.back().preload = LimitName::stuck;
   if (maps == Maps::one) {
     curves[2].maps.push_back(synthetic::named_map(model, "preload_100_peak"));
-    write_map(folder / "maps", model, curves[2].maps[0]);
+    write_map(folder / "maps", model.patches[0], curves[2].maps[0]);
   }
   solver::Optimum optimum;
   optimum.trace = {{100.0, 1900.0, 5e-5}, {200.0, 1950.0, 4e-5}, {400.0, 1990.0, 6e-5}};

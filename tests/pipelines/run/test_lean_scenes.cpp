@@ -139,7 +139,7 @@ TEST(BarScene, AFreeBarIsHeldByItsContact) {
   const SceneDescription held = parse(bar_text, {"model.end_stiffness=0"});
   const ModalModel bar = std::get<ModalModel>(held.model);
   EXPECT_EQ(bar.frequency_hz[0], 0.0);
-  EXPECT_NO_THROW(require_held(reduced_model(bar), held));
+  EXPECT_NO_THROW(require_held(reduced_model(held), held));
   const SceneDescription loose =
       parse(bar_text, {"model.end_stiffness=0", "contact.tangential_stiffness=0"});
   EXPECT_THROW(require_held(reduced_model(loose), loose), RefusedError);
@@ -206,7 +206,7 @@ TEST(ChainScene, ContactsShareThePreloadAndMayJoinTwoMasses) {
 }
 
 TEST(ChainScene, ANegativePreloadIsAUniformGap) {
-  const ReducedModel model = reduced_model(model_of(
+  const ReducedModel model = reduced_model(parse(
       chain_text,
       {"contact.points=[{ slip = \"m1\", approach = \"m2\", tangential_stiffness = 1e4, "
        "normal_stiffness = 2e4, friction_coefficient = 0.5 }, { slip = \"m1\", approach = \"m1\", "
@@ -250,7 +250,7 @@ TEST(ChainScene, AMomentLiftsCellsOff) {
 }
 
 TEST(ChainScene, AnAreaOfSeveralContactsTiltsUnderItsShare) {
-  const ReducedModel model = reduced_model(model_of(
+  const ReducedModel model = reduced_model(parse(
       chain_text,
       {"contact.points=[{ slip = \"m2\", tangential_stiffness = 1, friction_coefficient = 0.5 }, "
        "{ slip = \"m1\", approach = \"m1\", tangential_stiffness = 4e4, normal_stiffness = 8e4, "
