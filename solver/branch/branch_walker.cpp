@@ -45,7 +45,8 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
                                           int max_iterations) const {
   Trial trial;
   const NewtonOptions options{tolerance_, max_iterations};
-  const bool along = &direction == &now_.tangent;
+  // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
+  const bool along = residual_ && &direction == &now_.tangent;
   const BranchVector predicted =
       along ? predictor_.point(before_, now_, distance)
             : moved(now_.solution.point, direction, distance, now_.scaling);

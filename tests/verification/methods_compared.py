@@ -56,7 +56,7 @@ class Methods(unittest.TestCase):
         self.assertGreater(os.path.getsize(picture), 10_000)
 
     def test_chosen_harmonics_agree_with_time(self):
-        balance = run("auto", "response.harmonics=auto")
+        balance = run("auto", "response.harmonics=auto", "response.harmonic_tolerance=0.001")
         code, worst, _ = compare(balance, self.up, self.down)
         self.assertEqual(code, 0)
         self.assertLessEqual(worst, LIMIT)

@@ -182,7 +182,8 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
     EXPECT_EQ(requests[0].name, "gap_3um");
     const double load = std::get<double>(preload_of(requests[0], model));
     EXPECT_NEAR(load, -3e-6 * total_normal_stiffness(model), 1e-12 * std::abs(load));
-    for (const contact::PointParameters& point : contact_of(model, load).points(0)) {
+    const contact::ContactForce force = contact_of(model, load);
+    for (const contact::PointParameters& point : force.points(0)) {
       EXPECT_NEAR(-point.preload / point.normal_stiffness, 3e-6, 1e-18);
     }
   }

@@ -37,6 +37,7 @@ points = 8
 force = "0.2 kN"
 [response]
 frequency = ["900 Hz", "2200 Hz"]
+harmonics = 1
 optimum = "preload"
 optimum_range = [0.01, 10]
 )toml";

@@ -436,10 +436,12 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   };
   refused(blade_text, "model.kind=step");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
-  for (const char* effect : {"higher_harmonics", "roughness", "rate_dependence"}) {
+  for (const char* effect : {"roughness", "rate_dependence"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
                      {effect, "needs"});
   }
+  expect_complaint(complaint(modal_text, {"effects.higher_harmonics=on", "response.harmonics=1"}),
+                   {"higher_harmonics", "needs"});
   expect_complaint(complaint(modal_text, {"effects.higher_harmonics=off", "response.harmonics=3"}),
                    {"contradicts response.harmonics"});
   for (const char* effect : {"separation", "mean_coupling"}) {
