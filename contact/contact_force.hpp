@@ -39,7 +39,6 @@ struct RestingLoad {
 /// event: where several harmonics meet many points.
 [[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);
 
-
 class ContactForce {
  public:
   /// @param patches  of one scene, ≥ 1; borrowed for the life of this object, not of what it gives.

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch.hpp"
 #include "contact/point/point_law.hpp"
 #include "contact/surface/surface_law.hpp"
 
@@ -34,16 +34,17 @@ struct ContactMap {
   /// All of them in order [rad], n × 5m: columns m k … m (k + 1) − 1 belong to state k, m the most that one state
   /// begins at one point; NaN beyond its last.
   Eigen::MatrixXd state_starts;
-  Eigen::MatrixXd state_share;            ///< of the period in each ContactState [-], n × 5
+  Eigen::MatrixXd state_share;  ///< of the period in each ContactState [-], n × 5
   /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another kind are their zero
   /// lines. Empty where laws alone were given, until add_guards().
   Eigen::VectorXd slip_guard, smallest_load, largest_load;
-  Eigen::VectorXd friction_coefficient;   ///< of the points at rest [-], n; empty where it was not told
-  Eigen::VectorXd slip_duration;          ///< share of the period in slip [-], n
-  Eigen::VectorXd separation_duration;    ///< share of the period without contact [-], n
-  Eigen::VectorXd dissipated_energy;      ///< [J/m² per period], n
-  Eigen::VectorXd slip_distance;          ///< [m per period], n
-  Eigen::VectorXd wear_depth;             ///< [m per period], n; zero when no coefficient is given
+  Eigen::VectorXd
+      friction_coefficient;       ///< of the points at rest [-], n; empty where it was not told
+  Eigen::VectorXd slip_duration;  ///< share of the period in slip [-], n
+  Eigen::VectorXd separation_duration;  ///< share of the period without contact [-], n
+  Eigen::VectorXd dissipated_energy;    ///< [J/m² per period], n
+  Eigen::VectorXd slip_distance;        ///< [m per period], n
+  Eigen::VectorXd wear_depth;           ///< [m per period], n; zero when no coefficient is given
 };
 
 /// @param points            constants of the points, n.

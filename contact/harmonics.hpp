@@ -21,7 +21,8 @@ class Harmonics {
   Harmonics(int n_harmonics, Eigen::Index n_signals);
   /// @param vector  size (2H+1) · n_signals, in the order of `vector()`.
   /// @throws std::invalid_argument  the size does not fit.
-  Harmonics(int n_harmonics, Eigen::Index n_signals, const Eigen::Ref<const Eigen::VectorXd>& vector);
+  Harmonics(int n_harmonics, Eigen::Index n_signals,
+            const Eigen::Ref<const Eigen::VectorXd>& vector);
 
   [[nodiscard]] int n_harmonics() const { return static_cast<int>((rows_.rows() - 1) / 2); }
   [[nodiscard]] Eigen::Index n_signals() const { return rows_.cols(); }

@@ -31,8 +31,8 @@ struct ForceAndJacobian {
 
 /// What one solution did over its period: judged once per accepted point, not per iterate.
 struct CycleReport {
-  double stick_share = 0.0;         ///< fraction of (contact area × period), the three sum to 1
-  double slip_share = 0.0;          ///< (0, 0, 0) when the force knows no contact
+  double stick_share = 0.0;  ///< fraction of (contact area × period), the three sum to 1
+  double slip_share = 0.0;   ///< (0, 0, 0) when the force knows no contact
   double separated_share = 0.0;
   double three_states_share = 0.0;  ///< largest over the phase of the smallest area fraction
   double slip_work = 0.0;           ///< ∬∮ μ n |ds| dA [J per period], from the slip phases
@@ -58,8 +58,8 @@ class ModalForce {
   /// The same where only some harmonics are unknowns.
   /// @param rows  of Harmonics::rows(), ascending, any number; derivatives are by these and of these alone:
   ///              n = rows · n_modes. `force` has all rows of q.
-  [[nodiscard]] virtual ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
-                                                       const std::vector<Eigen::Index>& rows) const {
+  [[nodiscard]] virtual ForceAndJacobian evaluate_rows(
+      const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const {
     ForceAndJacobian all = evaluate(q, frequency);
     const auto n = n_modes();
     const auto n_rows = static_cast<Eigen::Index>(rows.size());
@@ -79,7 +79,7 @@ class ModalForce {
   /// G alone, with harmonics that the motion does not have: what a motion asks of equations left out.
   /// @param n_harmonics  of the result, those of q at least.
   [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& q, double frequency,
-                                        int n_harmonics) const {
+                                              int n_harmonics) const {
     Harmonics wide(n_harmonics, n_modes());
     wide.rows().topRows(q.rows().rows()) = q.rows();
     return evaluate_rows(wide, frequency, {}).force;

@@ -41,13 +41,13 @@ struct AttachmentOptions {
   /// Local contact stiffness along p, q, r [N/m³], ≥ 0: judges which tractions matter.
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
   double missed_tolerance = 0.3;  ///< largest share s of a chosen degree [-]
-  int max_degree = 4;              ///< highest that is chosen
+  int max_degree = 4;             ///< highest that is chosen
 };
 
 /// A contact face that takes tractions.
 struct AttachmentFace {
-  const mesh::Surface& surface;  ///< of the mesh, borrowed
-  Eigen::Matrix3d frame;         ///< rows p, q, r
+  const mesh::Surface& surface;                               ///< of the mesh, borrowed
+  Eigen::Matrix3d frame;                                      ///< rows p, q, r
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();  ///< as in AttachmentOptions
 };
 

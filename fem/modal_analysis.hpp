@@ -19,8 +19,9 @@
 namespace microslip::fem {
 
 struct ModalOptions {
-  Eigen::Index n_modes = 10;         ///< ≥ 1; rigid-body modes count
-  double residual_tolerance = 1e-8;  ///< of each pair, checked, plus what rounding of φ alone leaves
+  Eigen::Index n_modes = 10;  ///< ≥ 1; rigid-body modes count
+  double residual_tolerance =
+      1e-8;  ///< of each pair, checked, plus what rounding of φ alone leaves
 };
 
 /// Where the time went [s].
@@ -37,8 +38,8 @@ class Structure {
  public:
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
-  Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
-            Tet10Rule rule = Tet10Rule::accurate);
+  Structure(const mesh::Mesh& mesh, const Material& material,
+            const std::vector<std::string>& clamped, Tet10Rule rule = Tet10Rule::accurate);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;
@@ -78,13 +79,15 @@ class Structure {
   /// @param frame      rows p, q, r.
   /// @param stiffness  along p, q, r at each point [N/m³], n_points × 3, ≥ 0.
   /// @throws std::invalid_argument  sizes differ; the message names them.
-  void add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+  void add_surface_springs(const mesh::Surface& surface,
+                           const Eigen::SparseMatrix<double>& to_points,
                            const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
                            const Eigen::MatrixX3d& stiffness);
   /// Undamped harmonic response (K − ω²M) u = F: columns of F (3 n_nodes × m) [N] → u [m]. Each call
   /// factorises anew.
   /// @throws EigenError  ω is a natural frequency to rounding.
-  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const;
+  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency,
+                                               const Eigen::MatrixXd& forces) const;
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:

@@ -9,8 +9,10 @@
 namespace microslip::fem {
 
 struct ModalBasis {
-  Eigen::VectorXd frequency;  ///< ω [rad/s], n_modes, ascending, 0 for rigid-body modes; then ω̃ of the attachment shapes
-  Eigen::MatrixXd shapes;     ///< Φ [1/√kg], (3 · n_nodes) × n_modes, x y z per mesh node, 0 at supports
+  Eigen::VectorXd
+      frequency;  ///< ω [rad/s], n_modes, ascending, 0 for rigid-body modes; then ω̃ of the attachment shapes
+  Eigen::MatrixXd
+      shapes;  ///< Φ [1/√kg], (3 · n_nodes) × n_modes, x y z per mesh node, 0 at supports
   /// ‖Kφ − ω²Mφ‖ / ‖Kφ‖ of each mode (rigid: over ‖K‖‖φ‖) [-], n_free(): attachment shapes are no pairs.
   Eigen::VectorXd residual;
   Eigen::Index n_rigid_body = 0;

@@ -12,10 +12,12 @@ namespace microslip::fem {
 /// surface. A uniform traction τ loads node i with τ times its share.
 /// @param nodes  all mesh nodes [m].
 /// @note May be zero or negative at the corners of quadratic faces; the sum is the area.
-[[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface);
+[[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes,
+                                          const mesh::Surface& surface);
 
 /// Load vectors of a unit traction along each row of `frame`: 3 nodes.rows() × 3 [N per Pa].
-[[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+[[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes,
+                                                 const mesh::Surface& surface,
                                                  const Eigen::Matrix3d& frame);
 
 }  // namespace microslip::fem

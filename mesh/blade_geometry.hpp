@@ -14,21 +14,21 @@
 namespace microslip::mesh {
 
 struct BladeGeometry {
-  double root_width = 0.0066;       ///< x
+  double root_width = 0.0066;      ///< x
   double root_height = 0.025;      ///< y
   double root_length = 0.050;      ///< z
   double platform_width = 0.060;   ///< x
   double platform_height = 0.010;  ///< y
   double platform_length = 0.060;  ///< z
-  double span = 0.1141;             ///< aerofoil height above the platform
+  double span = 0.1141;            ///< aerofoil height above the platform
   double root_chord = 0.044;       ///< chord at the platform
   double tip_chord = 0.034;
   double root_thickness = 0.0050;  ///< largest thickness of the section
   double tip_thickness = 0.0030;
-  double root_stagger = 0.10;      ///< angle of the chord to z about y, at the platform
-  double tip_stagger = 0.60;       ///< at the tip: the difference is the twist
-  double camber = 0.04;            ///< height of the camber line over the chord [-]
-  double lean = -0.003;               ///< shift of the tip section along x
+  double root_stagger = 0.10;  ///< angle of the chord to z about y, at the platform
+  double tip_stagger = 0.60;   ///< at the tip: the difference is the twist
+  double camber = 0.04;        ///< height of the camber line over the chord [-]
+  double lean = -0.003;        ///< shift of the tip section along x
 };
 
 /// @throws MeshError  a length, angle or ratio out of its range; names it.

@@ -17,8 +17,8 @@ namespace microslip::mesh {
 
 struct ElementBlock {
   ElementType type = ElementType::tet10;
-  Connectivity connectivity;          ///< n_elements × nodes per element, project order
-  std::vector<std::int64_t> tags;     ///< element numbers in the file, for messages
+  Connectivity connectivity;       ///< n_elements × nodes per element, project order
+  std::vector<std::int64_t> tags;  ///< element numbers in the file, for messages
 };
 
 class Mesh {
@@ -51,7 +51,7 @@ class Mesh {
   [[nodiscard]] std::vector<Eigen::Index> node_set(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] std::vector<std::string> node_set_names() const;
-  [[nodiscard]] double volume() const { return volume_; }  ///< [m³]
+  [[nodiscard]] double volume() const { return volume_; }         ///< [m³]
   [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
   [[nodiscard]] Eigen::Vector3d upper() const { return upper_; }
 

@@ -11,8 +11,8 @@
 namespace microslip::mesh {
 
 struct MesherLimits {
-  double seconds = 300.0;     ///< wall time
-  double memory_mb = 8192.0;  ///< address space
+  double seconds = 300.0;      ///< wall time
+  double memory_mb = 8192.0;   ///< address space
   std::function<bool()> stop;  ///< asked every few milliseconds: true ends the mesher; empty: never
 };
 

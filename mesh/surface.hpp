@@ -29,21 +29,22 @@ struct Surface {
 /// A surface cut into small cells for quadrature and pictures: every face is refined in its own
 /// reference coordinates until there are at least `n_cells` cells in all.
 struct SurfaceSampling {
-  Eigen::MatrixX3d vertices;          ///< corners of the cells [m], n_vertices × 3
-  Connectivity cells;                 ///< n_cells × 3 or 4 vertex indices
-  Eigen::MatrixX3d centres;           ///< one point inside each cell [m], n_cells × 3
-  Eigen::VectorXd weights;            ///< area of each cell [m²]; the sum is the surface's area
-  Eigen::SparseMatrix<double> to_vertices;  ///< n_vertices × surface.nodes: interpolates nodal values
-  Eigen::SparseMatrix<double> to_centres;   ///< n_cells × surface.nodes
+  Eigen::MatrixX3d vertices;  ///< corners of the cells [m], n_vertices × 3
+  Connectivity cells;         ///< n_cells × 3 or 4 vertex indices
+  Eigen::MatrixX3d centres;   ///< one point inside each cell [m], n_cells × 3
+  Eigen::VectorXd weights;    ///< area of each cell [m²]; the sum is the surface's area
+  Eigen::SparseMatrix<double>
+      to_vertices;  ///< n_vertices × surface.nodes: interpolates nodal values
+  Eigen::SparseMatrix<double> to_centres;  ///< n_cells × surface.nodes
 };
 
 /// The plane of a surface: area-weighted mean normal and centroid, and how far it is from plane.
 struct SurfacePlane {
   Eigen::Vector3d centroid;
-  Eigen::Vector3d normal;         ///< outward, unit
-  double flatness = 0.0;          ///< largest distance of a node from the plane [m]
-  double diameter = 0.0;          ///< size of the surface's bounding box diagonal [m]
-  double largest_angle = 0.0;     ///< largest angle between a face normal and the mean [rad]
+  Eigen::Vector3d normal;      ///< outward, unit
+  double flatness = 0.0;       ///< largest distance of a node from the plane [m]
+  double diameter = 0.0;       ///< size of the surface's bounding box diagonal [m]
+  double largest_angle = 0.0;  ///< largest angle between a face normal and the mean [rad]
 };
 
 /// @param nodes  all mesh nodes [m].  @param n_cells  lower bound of the number of cells, ≥ 1.

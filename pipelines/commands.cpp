@@ -13,11 +13,11 @@
 #include "pipelines/cycle/cycle_plot.hpp"
 #include "pipelines/cycle/cycle_table.hpp"
 #include "pipelines/files/columns.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
-#include "pipelines/scene/scene_file.hpp"
-#include "pipelines/scene/scene_template.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -61,8 +61,7 @@ void refuse_idle_options(const Arguments& arguments) {
   refuse_later(arguments.resume, "--resume");
   refuse_later(!arguments.tolerance.empty(), "--tolerance");
   refuse_later(!arguments.budget.empty(), "--budget");
-  const bool reads_scene =
-      arguments.command != "init" && arguments.command != "cycle" &&
+  const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
                            arguments.command != "report" && arguments.command != "columns";
   if (!reads_scene && !arguments.overrides.empty()) {
     throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
@@ -84,7 +83,8 @@ int check(Arguments& arguments) {
           {"modes_seconds", forecast.modes_seconds},
           {"curves_seconds", forecast.curves_seconds},
           {"memory_GB", forecast.memory_gb}};
-  if (forecast.curves_seconds_along_r) cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
+  if (forecast.curves_seconds_along_r)
+    cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
   nlohmann::ordered_json& effects = arguments.findings["effects"] = nlohmann::ordered_json::array();
   for (const EffectRecord& effect : result.effects) {
     effects.push_back({{"name", effect.name},
@@ -120,7 +120,8 @@ int mesh(Arguments& arguments) {
   }
   require_file_name(arguments.output, "-o");
   if (std::filesystem::path(arguments.output).extension() != ".msh") {
-    throw SceneError(fmt::format("-o {}: expected a name that ends in .msh: gmsh's format is written", arguments.output));
+    throw SceneError(fmt::format(
+        "-o {}: expected a name that ends in .msh: gmsh's format is written", arguments.output));
   }
   const std::filesystem::path file = std::filesystem::absolute(arguments.output);
   if (!std::filesystem::is_directory(file.parent_path())) {
@@ -156,7 +157,8 @@ int cycle(const Arguments& arguments) {
   const CsvTable table = CsvTable::read(arguments.input);
   const std::string json = cycles_as_json(table, arguments.harmonics);
   if (table.n_rows() == 0) {
-    std::cerr << fmt::format("warning: {}: no rows below the header: there is no cycle to compute\n", table.name());
+    std::cerr << fmt::format(
+        "warning: {}: no rows below the header: there is no cycle to compute\n", table.name());
   }
   std::vector<CyclePlot> plots;
   if (arguments.plot_folder) plots = cycle_plots(table);

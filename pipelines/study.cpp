@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 
 #include "mesh/element_shape.hpp"
+#include "pipelines/files/write_report.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/run/curve_family.hpp"
 #include "pipelines/model/effects.hpp"
-#include "pipelines/system/interrupt.hpp"
 #include "pipelines/model/model_family.hpp"
+#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/curve_family.hpp"
 #include "pipelines/run/run_record.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
-#include "pipelines/model/structure_stage.hpp"
-#include "pipelines/files/write_report.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -38,7 +38,8 @@ StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
   record.keep_modes(mesh, modes,
                     damping_ratios(scene.modes, modes.basis.frequency, modes.basis.n_attachment));
   record.stage("contact");
-  return std::make_shared<const SolvedStructure>(SolvedStructure{std::move(mesh), std::move(modes)});
+  return std::make_shared<const SolvedStructure>(
+      SolvedStructure{std::move(mesh), std::move(modes)});
 }
 
 /// → contact: the arrays the response stage needs.
@@ -49,7 +50,8 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   for (const std::string& warning : warnings) record.progress().warning(warning);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
-        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes a hundred times "
+        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes a "
+        "hundred times "
         "longer than friction along p; effects.second_direction = \"off\" leaves it out",
         100.0 * model.effects.motion_ratio));
   }
@@ -101,8 +103,10 @@ int mesh_study(const SceneDescription& scene, const RunOptions& options) {
   if (options.verbosity != Verbosity::quiet) {
     std::cout << describe_mesh(mesh, scene.material.density) << '\n';
   }
-  for (const std::string& warning : mesh::shape_warnings(mesh)) std::cerr << "warning: " << warning << '\n';
-  if (options.verbosity != Verbosity::quiet) std::cout << "written: " << options.output.string() << '\n';
+  for (const std::string& warning : mesh::shape_warnings(mesh))
+    std::cerr << "warning: " << warning << '\n';
+  if (options.verbosity != Verbosity::quiet)
+    std::cout << "written: " << options.output.string() << '\n';
   return static_cast<int>(ExitCode::complete);
 }
 

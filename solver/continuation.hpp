@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "solver/continuation_options.hpp"
 #include "solver/balance/harmonic_set.hpp"
+#include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
 

@@ -24,9 +24,9 @@ struct Optimum {
   /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly as good
   /// elsewhere, and whether an end of the frequency range counts.
   std::string message;
-  std::vector<std::string> notes;  ///< see PeakTrace
+  std::vector<std::string> notes;     ///< see PeakTrace
   std::vector<std::string> warnings;  ///< likewise
-  int n_curves = 0;                ///< traced whole
+  int n_curves = 0;                   ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;

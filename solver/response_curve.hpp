@@ -22,10 +22,11 @@ enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 enum class StabilityBasis { slow_flow, hill, period_map, damped_linear };
 
 struct ResponsePoint {
-  double frequency = 0.0;         ///< ω [rad/s]
-  Harmonics q;                    ///< [m√kg]
-  std::vector<int> orders;        ///< harmonics that were unknowns beside the mean; empty: all of q
-  double harmonics_left_out = 0.0;  ///< what those left out change, over the amplitude; 0: not asked
+  double frequency = 0.0;   ///< ω [rad/s]
+  Harmonics q;              ///< [m√kg]
+  std::vector<int> orders;  ///< harmonics that were unknowns beside the mean; empty: all of q
+  double harmonics_left_out =
+      0.0;                        ///< what those left out change, over the amplitude; 0: not asked
   double amplitude = 0.0;         ///< half the peak-to-peak value of the output over the period [m]
   double first_amplitude = 0.0;   ///< first harmonic of the output [m]
   double mean = 0.0;              ///< mean of the output [m]
@@ -85,8 +86,9 @@ struct ResponseCurve {
   int n_starts = 0;  ///< of the search: Newton iterations that looked for another solution
   long iterations = 0;
   long contact_evaluations = 0;
-  long state_readings = 0;  ///< of the step control: what the contact does at a place (step_states.hpp)
-  long state_cuts = 0;      ///< steps it has cut
+  long state_readings =
+      0;                ///< of the step control: what the contact does at a place (step_states.hpp)
+  long state_cuts = 0;  ///< steps it has cut
   double seconds = 0.0;
 };
 

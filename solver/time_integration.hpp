@@ -8,9 +8,9 @@
 
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
-#include "solver/time_options.hpp"
 #include "solver/time/time_recorder.hpp"
 #include "solver/time/time_stepper.hpp"
+#include "solver/time_options.hpp"
 
 namespace microslip::solver {
 

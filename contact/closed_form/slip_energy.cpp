@@ -35,13 +35,14 @@ struct SlipPhase {
     const double square = x_minus_sin_cos(h);  // ∫ sin²y
     const double versed =                      // ∫ (1 − cos y) cos y
         2.0 * half * half * std::sin(h) - 2.0 * x_minus_sin_cos(0.5 * h);
-    return size * (sine * (2.0 * (mean + swing) * std::sin(h) - swing * versed) -
-                   slope * cosine * square);
+    return size *
+           (sine * (2.0 * (mean + swing) * std::sin(h) - swing * versed) - slope * cosine * square);
   }
 };
 
-// A slider is pushed towards the point and never past it: a phase of slip is no longer than the way of the point, and
-// its load no larger than the largest. Where u is next to nothing beside μn, the lengths of phases round to more.
+// A slider is pushed towards the point and never past it: a phase of slip is no longer than the way
+// of the point, and its load no larger than the largest. Where u is next to nothing beside μn, the
+// lengths of phases round to more.
 void bound(SlipEnergy& energy, int n_phases, const PointMotion& m, const SlipFunctions& w) {
   constexpr double rounding = 1.0 + 1e-14;  // of distances that are this long
   const double way = 2.0 * rounding * std::hypot(m.u_sin, m.u_cos);

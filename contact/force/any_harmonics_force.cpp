@@ -38,7 +38,8 @@ ForceAndJacobian AnyHarmonicsForce::evaluate_rows(const Harmonics& q, double fre
                               : events_.evaluate_rows(q, frequency, rows);
 }
 
-Harmonics AnyHarmonicsForce::force_up_to(const Harmonics& q, double frequency, int n_harmonics) const {
+Harmonics AnyHarmonicsForce::force_up_to(const Harmonics& q, double frequency,
+                                         int n_harmonics) const {
   return events_.force_up_to(q, frequency, n_harmonics);
 }
 

@@ -21,11 +21,11 @@ class AnyHarmonicsForce final : public ModalForce {
   [[nodiscard]] Eigen::Index n_modes() const override { return closed_.n_modes(); }
   /// @throws std::invalid_argument  another number of modes, or no harmonic.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
-  [[nodiscard]] ForceAndJacobian evaluate_rows(const Harmonics& q, double frequency,
-                                               const std::vector<Eigen::Index>& rows) const override;
+  [[nodiscard]] ForceAndJacobian evaluate_rows(
+      const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] Harmonics force_up_to(const Harmonics& q, double frequency,
-                                int n_harmonics) const override;
+                                      int n_harmonics) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

@@ -80,7 +80,8 @@ class ReportSum::PhaseSweep {
 ReportSum::ReportSum() : sweep_(std::make_unique<PhaseSweep>()) {}
 ReportSum::~ReportSum() = default;
 
-void ReportSum::add(std::span<const CycleSegment> segments, double dissipated_energy, double weight) {
+void ReportSum::add(std::span<const CycleSegment> segments, double dissipated_energy,
+                    double weight) {
   if (weight == 0.0) {
     return;
   }

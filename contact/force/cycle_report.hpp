@@ -9,8 +9,8 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/contact_state.hpp"
-#include "contact/point/point_motion.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/point/point_motion.hpp"
 
 namespace microslip::contact {
 

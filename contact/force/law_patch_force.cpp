@@ -100,7 +100,8 @@ Harmonics LawPatchForce::force_up_to(const Harmonics& q, double frequency, int n
     Harmonics force = law.force_up_to(point_motion_, frequency, n_harmonics);
     force.rows()(0, 1) -= law.load_at_rest();
     for (std::size_t s = 0; s < shape_.size(); ++s) {
-      sum.rows() += weights_[i] * force.rows().col(static_cast<Eigen::Index>(s)) * shape_[s]->row(i);
+      sum.rows() +=
+          weights_[i] * force.rows().col(static_cast<Eigen::Index>(s)) * shape_[s]->row(i);
     }
   }
   if (const SleepingPart* part = sleep_.part()) {

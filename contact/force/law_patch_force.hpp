@@ -16,9 +16,9 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/force/law_projection.hpp"
+#include "contact/force/sleeping_laws.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/point/point_law.hpp"
-#include "contact/force/sleeping_laws.hpp"
 
 namespace microslip::contact {
 
@@ -41,7 +41,7 @@ class LawPatchForce final : public ModalForce {
       const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] Harmonics force_up_to(const Harmonics& q, double frequency,
-                                int n_harmonics) const override;
+                                      int n_harmonics) const override;
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;

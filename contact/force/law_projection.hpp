@@ -11,9 +11,9 @@
 
 #include <Eigen/Core>
 
+#include "contact/force/projection_kernels.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/point/point_law.hpp"
-#include "contact/force/projection_kernels.hpp"
 
 namespace microslip::contact {
 

@@ -1,7 +1,7 @@
 #include "contact/force/linear_proof.hpp"
 
-#include "contact/patch/point_motions.hpp"
 #include "contact/force/sleeping_points.hpp"
+#include "contact/patch/point_motions.hpp"
 
 namespace microslip::contact {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "contact/force/block_kernels.hpp"
-#include "contact/force/cycle_report.hpp"
 #include "contact/closed_form/cycle_states.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/force/block_kernels.hpp"
+#include "contact/force/cycle_report.hpp"
 #include "contact/force/linear_proof.hpp"
 #include "contact/patch/mode_shape_check.hpp"
 #include "contact/patch/point_motions.hpp"
@@ -164,8 +164,10 @@ void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harm
 }  // namespace
 
 PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
-    : patch_(std::move(patch)), shapes_(checked(std::move(shapes), patch_.n_points())),
-      sleep_(patch_, shapes_), blocks_(packed(shapes_, sleep_.order())) {}
+    : patch_(std::move(patch)),
+      shapes_(checked(std::move(shapes), patch_.n_points())),
+      sleep_(patch_, shapes_),
+      blocks_(packed(shapes_, sleep_.order())) {}
 
 Eigen::Index PatchForce::n_modes() const { return shapes_.u.cols(); }
 
@@ -192,8 +194,7 @@ ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) 
       const std::size_t i = point - first;
       const Eigen::Index which = sleep_.order()[point];
       const PointParameters& parameters = patch_.points()[static_cast<std::size_t>(which)];
-      forces.set(i, patch_.weights()[which],
-                 std::max(parameters.preload, 0.0),
+      forces.set(i, patch_.weights()[which], std::max(parameters.preload, 0.0),
                  cycle_force(parameters, {u[0][i], u[1][i], u[2][i], v[0][i], v[1][i], v[2][i]}));
     }
     add_block(sums, n, n_lanes, phi_u, phi_v, forces);

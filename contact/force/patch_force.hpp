@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "contact/contact_patch.hpp"
-#include "contact/modal_force.hpp"
 #include "contact/force/sleeping_points.hpp"
+#include "contact/modal_force.hpp"
 
 namespace microslip::contact {
 

@@ -19,7 +19,8 @@ MICROSLIP_INLINE void spread(const ProjectionSizes& size, const double* phi, con
       for (std::size_t l = 0; l < size.n_rows; ++l, a += S, row += size.n_modes) {
         for (std::size_t m = 0; m < size.n_modes; m += W) {
           typename Lanes<W>::Vector sum = a[0] * lanes_at<W>(phi + m);
-          for (std::size_t t = 1; t < S; ++t) sum += a[t] * lanes_at<W>(phi + t * size.phi_stride + m);
+          for (std::size_t t = 1; t < S; ++t)
+            sum += a[t] * lanes_at<W>(phi + t * size.phi_stride + m);
           lanes_at<W>(row + m) = sum;
         }
       }

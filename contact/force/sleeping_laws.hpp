@@ -17,10 +17,10 @@
 #include <Eigen/Core>
 
 #include "contact/contact_patch.hpp"
-#include "contact/surface/linear_range.hpp"
+#include "contact/force/sleeping_points.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/point/point_law.hpp"
-#include "contact/force/sleeping_points.hpp"
+#include "contact/surface/linear_range.hpp"
 
 namespace microslip::contact {
 

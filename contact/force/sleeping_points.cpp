@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "contact/closed_form/slip_functions.hpp"
 #include "contact/force/block_kernels.hpp"
 #include "contact/patch/point_motions.hpp"
-#include "contact/closed_form/slip_functions.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -18,7 +18,8 @@ constexpr Eigen::Index largest_n_groups = 256;
 // Proofs are made in doubles: a margin below this share of its terms proves nothing.
 constexpr double rounding = 1e-12;
 constexpr double root_two = 1.4142135623730951;
-// Referring to a new motion costs about half an evaluation: it must leave a quarter of the points asleep.
+// Referring to a new motion costs about half an evaluation: it must leave a quarter of the points
+// asleep.
 constexpr double least_asleep = 0.25;
 constexpr long largest_patience = 64;
 
@@ -102,8 +103,8 @@ bool SleepingPoints::look_at(const Harmonics& q, const ContactPatch& patch,
     return false;
   }
   refer_to(q, patch, shapes);
-  const bool pays = static_cast<double>(n - n_awake_at_reference_) >=
-                    least_asleep * static_cast<double>(n);
+  const bool pays =
+      static_cast<double>(n - n_awake_at_reference_) >= least_asleep * static_cast<double>(n);
   patience_ = pays ? 2 : std::min(2 * patience_, largest_patience);
   next_reference_ = calls_ + patience_;
   if (!pays) {

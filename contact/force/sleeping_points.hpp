@@ -17,8 +17,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/surface/linear_range.hpp"
 
@@ -66,10 +66,10 @@ class SleepingPoints {
   [[nodiscard]] Eigen::Index awake_at(const Harmonics& q) const;
 
   Eigen::VectorXd size_u_, size_v_;
-  Eigen::Index group_ = 0;              // places that fall asleep together
+  Eigen::Index group_ = 0;  // places that fall asleep together
   std::vector<Eigen::Index> order_;
-  std::vector<double> radius_;          // by place, ascending
-  std::vector<SleepingPart> part_;      // of the places from group g on
+  std::vector<double> radius_;      // by place, ascending
+  std::vector<SleepingPart> part_;  // of the places from group g on
   Harmonics reference_;
   Eigen::Index n_awake_ = 0;
   Eigen::Index n_awake_at_reference_ = 0;

@@ -21,8 +21,8 @@
 #include <Eigen/Core>
 
 #include "contact/line/band_walk.hpp"
-#include "contact/point/point_law.hpp"
 #include "contact/numerics/trigonometric_moments.hpp"
+#include "contact/point/point_law.hpp"
 
 namespace microslip::contact {
 

@@ -15,9 +15,9 @@
 
 #include <Eigen/Core>
 
-#include "contact/surface/friction_law.hpp"
 #include "contact/numerics/sign_changes.hpp"
 #include "contact/numerics/trigonometric_polynomial.hpp"
+#include "contact/surface/friction_law.hpp"
 
 namespace microslip::contact {
 

@@ -18,8 +18,8 @@
 #pragma once
 
 #include "contact/line/event_phases.hpp"
-#include "contact/point/point_law.hpp"
 #include "contact/numerics/trigonometric_moments.hpp"
+#include "contact/point/point_law.hpp"
 
 namespace microslip::contact {
 

@@ -6,9 +6,9 @@
 ///   w_P = spring − μ load + μ n₀    w_N = spring + μ load − μ n₀       (no means)
 #pragma once
 
-#include "contact/surface/point_parameters.hpp"
 #include "contact/harmonics.hpp"
 #include "contact/numerics/trigonometric_polynomial.hpp"
+#include "contact/surface/point_parameters.hpp"
 
 namespace microslip::contact {
 

@@ -31,7 +31,8 @@ void EventLaw::traction(const Harmonics& motion, double /*frequency*/,
   shop.force.traction(point_, shop.guards, shop.search.find(shop.guards), result);
 }
 
-Harmonics EventLaw::force_up_to(const Harmonics& motion, double /*frequency*/, int n_harmonics) const {
+Harmonics EventLaw::force_up_to(const Harmonics& motion, double /*frequency*/,
+                                int n_harmonics) const {
   Workshop& shop = workshop();
   set_event_guards(point_, motion, shop.guards);
   return shop.force.force(point_, shop.guards, shop.search.find(shop.guards), n_harmonics);

@@ -15,8 +15,8 @@
 /// Cost: a few µs per point for three harmonics with Jacobian, growing with H² and the number of phases.
 #pragma once
 
-#include "contact/surface/point_parameters.hpp"
 #include "contact/point/point_law.hpp"
+#include "contact/surface/point_parameters.hpp"
 
 namespace microslip::contact {
 
@@ -28,7 +28,7 @@ class EventLaw final : public PointLaw {
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   /// Events are those of the motion: its harmonics are paid for, not those of the force.
   [[nodiscard]] Harmonics force_up_to(const Harmonics& motion, double frequency,
-                                int n_harmonics) const override;
+                                      int n_harmonics) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   /// (k_u or 0, k_v, 0).

@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/line/event_guards.hpp"
 #include "contact/contact_state.hpp"
+#include "contact/line/event_guards.hpp"
 #include "contact/numerics/sign_changes.hpp"
 
 namespace microslip::contact {

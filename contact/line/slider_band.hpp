@@ -17,8 +17,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/line/band_layers.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/line/band_layers.hpp"
 #include "contact/numerics/sign_changes.hpp"
 #include "contact/numerics/smooth_signs.hpp"
 #include "contact/surface/surface_law.hpp"

@@ -8,9 +8,9 @@
 #include "contact/line/band_force.hpp"
 #include "contact/line/band_quadrature.hpp"
 #include "contact/line/band_walk.hpp"
+#include "contact/line/slider_band.hpp"
 #include "contact/point/cycle_segments.hpp"
 #include "contact/point/scaled_point.hpp"
-#include "contact/line/slider_band.hpp"
 
 namespace microslip::contact {
 namespace {

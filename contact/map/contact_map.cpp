@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "contact/closed_form/friction_cycle.hpp"
-#include "contact/patch/point_motions.hpp"
 #include "contact/map/transition_guards.hpp"
+#include "contact/patch/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -148,7 +148,8 @@ ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
                        const ModalShapes& shapes, const Harmonics& q, double frequency,
                        int n_phases, double wear_coefficient) {
   const auto n = static_cast<Eigen::Index>(laws.size());
-  require(shapes.u.rows() == n && shapes.v.rows() == n && (shapes.w.size() == 0 || shapes.w.rows() == n),
+  require(shapes.u.rows() == n && shapes.v.rows() == n &&
+              (shapes.w.size() == 0 || shapes.w.rows() == n),
           std::to_string(n) + " laws, but mode shapes at " + std::to_string(shapes.u.rows()) +
               " points");
   check_request(n_phases, wear_coefficient);

@@ -38,7 +38,8 @@ Sample sample_at(const SurfaceLaw& law, const Harmonics& motion, double frequenc
           state.gap_load};
 }
 
-// Largest of a periodic function from its samples: the top of the parabola through the largest and its neighbours.
+// Largest of a periodic function from its samples: the top of the parabola through the largest and
+// its neighbours.
 double largest(const Eigen::VectorXd& y) {
   Eigen::Index i = 0;
   const double top = y.maxCoeff(&i);
@@ -74,7 +75,8 @@ double least(const Function& f, double low, double high) {
   return std::min(at_a, at_b);
 }
 
-// (1) in one direction, where the stiffness may change with the load: the sliders that hold at θ are a band.
+// (1) in one direction, where the stiffness may change with the load: the sliders that hold at θ
+// are a band.
 double slip_along_p(const std::vector<Sample>& samples, double stiffness) {
   const auto n = static_cast<Eigen::Index>(samples.size());
   Eigen::VectorXd low(n);

@@ -15,8 +15,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/point/point_motion.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/point/point_motion.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact {

@@ -28,7 +28,8 @@ Harmonics::Harmonics(int n_harmonics, Eigen::Index n_signals,
 Eigen::VectorXd Harmonics::at(double phase) const {
   Eigen::VectorXd values = mean().transpose();
   for (int h = 1; h <= n_harmonics(); ++h) {
-    values += std::sin(h * phase) * sine(h).transpose() + std::cos(h * phase) * cosine(h).transpose();
+    values +=
+        std::sin(h * phase) * sine(h).transpose() + std::cos(h * phase) * cosine(h).transpose();
   }
   return values;
 }

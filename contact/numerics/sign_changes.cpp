@@ -35,7 +35,8 @@ struct Grid {
   std::vector<double> cos;
 };
 
-// Sixteen cells per shortest wave: there the cubic is good to 6e-5 of M / H⁴. A multiple of all lanes.
+// Sixteen cells per shortest wave: there the cubic is good to 6e-5 of M / H⁴. A multiple of all
+// lanes.
 constexpr int cells_per_wave = 16;
 
 const Grid& grid(int order) {
@@ -206,8 +207,8 @@ class Isolation {
   double rounding_;
 };
 
-// What the sampling of a polynomial reads and writes: directions of n nodes, coefficients of harmonics 1 to
-// `order`; n is a multiple of the lanes.
+// What the sampling of a polynomial reads and writes: directions of n nodes, coefficients of
+// harmonics 1 to `order`; n is a multiple of the lanes.
 struct Sampling {
   std::size_t n;
   const double* sin_node;

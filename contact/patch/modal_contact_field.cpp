@@ -63,19 +63,20 @@ struct Orthogonal {
   std::vector<Index> term;  // which term each column is
 };
 
-// Polynomials orthonormal over the samples reach three times their mean size in corners of a patch (degree 4 in
-// a square), and less in the mean over it.
+// Polynomials orthonormal over the samples reach three times their mean size in corners of a patch
+// (degree 4 in a square), and less in the mean over it.
 constexpr double most_growth = 3.0;
 
 // Gram–Schmidt, twice for orthogonality to rounding. A term whose new part is below 1e-8 of itself
 // is one the samples cannot tell from the terms before it: half the digits, between the 1e-16 of a
-// true dependence and the 1e-5 that remains of degree 12 on a poor set of samples. So is one that is small at
-// the samples and large between them: nodes of a strip of one element, which a slip direction crosses askew,
-// make of rounding a term that passes for a new one.
+// true dependence and the 1e-5 that remains of degree 12 on a poor set of samples. So is one that
+// is small at the samples and large between them: nodes of a strip of one element, which a slip
+// direction crosses askew, make of rounding a term that passes for a new one.
 //   V             samples × terms, each sample times the root of its weight
 //   between       places between the samples × terms, not weighted
 //   total_weight  of the samples
-Orthogonal orthogonalise(const Eigen::MatrixXd& V, const Eigen::MatrixXd& between, double total_weight) {
+Orthogonal orthogonalise(const Eigen::MatrixXd& V, const Eigen::MatrixXd& between,
+                         double total_weight) {
   const Index most = std::min(V.rows(), V.cols());
   Orthogonal result{Eigen::MatrixXd(V.rows(), most), Eigen::MatrixXd::Zero(most, most), {}};
   Eigen::MatrixXd elsewhere(between.rows(), most);
@@ -188,8 +189,9 @@ ModalContactField::ModalContactField(const Eigen::VectorXd& p, const Eigen::Vect
   const Eigen::VectorXd root = (weights / weights.maxCoeff()).cwiseSqrt();
   const Eigen::MatrixXd values = root.asDiagonal() * side_by_side(shapes);
   const PolynomialBasis trial(p, r, highest);
-  const Orthogonal fit = orthogonalise(root.asDiagonal() * trial.at(p, r),
-                                       trial.at(between.col(0), between.col(1)), root.squaredNorm());
+  const Orthogonal fit =
+      orthogonalise(root.asDiagonal() * trial.at(p, r), trial.at(between.col(0), between.col(1)),
+                    root.squaredNorm());
 
   degree_ = carried_degree(fit, degree ? highest : best_degree(fit, values, highest));
   const Index rank = rank_of_degree(fit, degree_);

@@ -17,10 +17,10 @@ void require_single_harmonic(const Harmonics& q, Eigen::Index n_modes) {
 
 void require_harmonics(const Harmonics& q, Eigen::Index n_modes) {
   if (q.n_harmonics() < 1 || q.n_signals() != n_modes) {
-    throw std::invalid_argument("friction patch: motion with n_harmonics = " +
-                                std::to_string(q.n_harmonics()) + " of " +
-                                std::to_string(q.n_signals()) + " modes, expected at least 1 of " +
-                                std::to_string(n_modes));
+    throw std::invalid_argument(
+        "friction patch: motion with n_harmonics = " + std::to_string(q.n_harmonics()) + " of " +
+        std::to_string(q.n_signals()) + " modes, expected at least 1 of " +
+        std::to_string(n_modes));
   }
 }
 

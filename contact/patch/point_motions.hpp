@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "contact/contact_patch.hpp"
-#include "contact/point/point_motion.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/point/point_motion.hpp"
 
 namespace microslip::contact {
 

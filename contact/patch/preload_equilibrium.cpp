@@ -85,7 +85,8 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
   const double smallest = 1.0 / hull.reach(moment);
   std::ostringstream message;
   message.precision(6);
-  message << described(request) << " acts at p = " << at.y() << " m, r = " << at.x() << " m, " << std::max(distance, 0.0)
+  message << described(request) << " acts at p = " << at.y() << " m, r = " << at.x() << " m, "
+          << std::max(distance, 0.0)
           << " m outside the hull of the contact points: no pressure balances it";
   if (std::isfinite(smallest)) message << "; these moments need more than " << smallest << " N";
   throw PreloadError(message.str(), {request, at.x(), at.y(), std::max(distance, 0.0), smallest});

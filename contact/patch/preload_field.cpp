@@ -117,10 +117,12 @@ Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape, const Eigen::Vector
   const double integral = weights.dot(shape);
   const double size = weights.dot(shape.cwiseAbs());
   const double rounding = 1e-14 * std::sqrt(static_cast<double>(shape.size())) * size;
-  if (!(force >= 0.0)) refuse("preload field: a field is scaled to a force of at least 0, not ", force, " N");
+  if (!(force >= 0.0))
+    refuse("preload field: a field is scaled to a force of at least 0, not ", force, " N");
   if (!(integral > rounding)) {
     refuse("preload field integrates to ", integral, " over the patch (its size to ", size,
-           "): expected a field whose integral is above 0, positive where the contact presses and negative where "
+           "): expected a field whose integral is above 0, positive where the contact presses and "
+           "negative where "
            "there is a gap; scaling this one would turn gaps into pressure");
   }
   return shape * (force / carried);
@@ -130,8 +132,7 @@ void require_total(const Eigen::VectorXd& pressure, const Eigen::VectorXd& weigh
                    double relative_tolerance) {
   const double carried = carried_force(pressure, weights);
   if (!(std::abs(carried - force) <= relative_tolerance * std::max(carried, std::abs(force)))) {
-    refuse("preload field carries ", carried, " N over the patch, but ", force,
-           " N are requested");
+    refuse("preload field carries ", carried, " N over the patch, but ", force, " N are requested");
   }
 }
 

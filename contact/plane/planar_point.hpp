@@ -30,10 +30,10 @@ struct PlanarPoint {
               bool moves_along_r);
 
   SurfaceLaw law;
-  Eigen::Vector2d stiffness;   ///< K of full contact, h = 1 [N/m³], 1 where there is none
-  Eigen::Vector2d active;      ///< 1 or 0: which directions carry friction
-  double touch;                ///< approach where contact begins [m]; NaN: nowhere
-  double load_size;            ///< of the load at rest [Pa]
+  Eigen::Vector2d stiffness;  ///< K of full contact, h = 1 [N/m³], 1 where there is none
+  Eigen::Vector2d active;     ///< 1 or 0: which directions carry friction
+  double touch;               ///< approach where contact begins [m]; NaN: nowhere
+  double load_size;           ///< of the load at rest [Pa]
   double tangential_size;
   double normal_size;
   bool slides;  ///< μ > 0
@@ -48,15 +48,16 @@ struct PlanarPointMotion {
 };
 
 struct PlanarPointInstant {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x in active directions [m]
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< x' [m/s]
-  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< x'' [m/s²]
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();        ///< x in active directions [m]
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();        ///< x' [m/s]
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();    ///< x'' [m/s²]
   Eigen::Vector2d stiffness = Eigen::Vector2d::Ones();       ///< K [N/m³]
   Eigen::Vector2d stiffness_rate = Eigen::Vector2d::Zero();  ///< K' [N/m³/s]
-  double load = 0.0;    ///< that of smooth surfaces of the same stiffness [Pa]: its sign tells contact
-  double normal = 0.0;  ///< n while in contact [Pa]
-  double ratio = 1.0;   ///< g
-  double radius = 0.0;  ///< r [Pa]
+  double load =
+      0.0;  ///< that of smooth surfaces of the same stiffness [Pa]: its sign tells contact
+  double normal = 0.0;       ///< n while in contact [Pa]
+  double ratio = 1.0;        ///< g
+  double radius = 0.0;       ///< r [Pa]
   double radius_rate = 0.0;  ///< r' [Pa/s]
 };
 

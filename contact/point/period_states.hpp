@@ -27,8 +27,8 @@ class PeriodStates {
     const auto first = static_cast<int>(std::ceil(begin * per_radian - 0.5));
     const auto end = static_cast<int>(std::ceil((begin + length) * per_radian - 0.5));
     if (end <= first) return;
-    const std::uint64_t ones = end - first >= n_instants ? ~std::uint64_t{0}
-                                                         : (std::uint64_t{1} << 2 * (end - first)) - 1;
+    const std::uint64_t ones =
+        end - first >= n_instants ? ~std::uint64_t{0} : (std::uint64_t{1} << 2 * (end - first)) - 1;
     const std::uint64_t mask = std::rotl(ones, 2 * ((first + n_instants) % n_instants));
     bits_ = (bits_ & ~mask) | (pattern(state) & mask);
   }

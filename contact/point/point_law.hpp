@@ -20,8 +20,8 @@
 
 #include "contact/contact_state.hpp"
 #include "contact/harmonics.hpp"
-#include "contact/surface/linear_range.hpp"
 #include "contact/point/period_states.hpp"
+#include "contact/surface/linear_range.hpp"
 
 namespace microslip::contact {
 
@@ -29,9 +29,10 @@ inline constexpr Eigen::Index n_point_signals = 3;
 
 /// What an iterate of the solver needs; m = 3 (2H+1).
 struct PointTraction {
-  Harmonics force;                       ///< f_p, n, f_r [Pa]
-  Eigen::MatrixXd jacobian;              ///< ∂force/∂motion [N/m³], m × m
-  Eigen::VectorXd frequency_derivative;  ///< ∂force/∂ω at fixed motion [Pa·s], m; 0 unless rate-dependent
+  Harmonics force;           ///< f_p, n, f_r [Pa]
+  Eigen::MatrixXd jacobian;  ///< ∂force/∂motion [N/m³], m × m
+  Eigen::VectorXd
+      frequency_derivative;  ///< ∂force/∂ω at fixed motion [Pa·s], m; 0 unless rate-dependent
   CycleRegime regime = CycleRegime::separated;
   PeriodStates period{ContactState::separated};
   /// What the force may be off by because the search for the steady cycle ended before its tolerance, in
@@ -50,11 +51,12 @@ struct PointInstant {
 /// The steady cycle in full, for maps, reports and tables.
 struct PointHistory {
   CycleRegime regime = CycleRegime::separated;
-  std::vector<CycleSegment> segments;  ///< in order of time from the smallest start; lengths sum to 2π
-  Harmonics force;                     ///< as many harmonics as were asked for
-  double dissipated_energy = 0.0;      ///< ∮ μ n |ds| over the slip phases [J/m² per period]
-  double slip_distance = 0.0;          ///< ∮ |ds| in contact [m per period]
-  double normal_slip = 0.0;            ///< ∮ n |ds| [Pa·m]: Archard depth is K times this
+  std::vector<CycleSegment>
+      segments;                    ///< in order of time from the smallest start; lengths sum to 2π
+  Harmonics force;                 ///< as many harmonics as were asked for
+  double dissipated_energy = 0.0;  ///< ∮ μ n |ds| over the slip phases [J/m² per period]
+  double slip_distance = 0.0;      ///< ∮ |ds| in contact [m per period]
+  double normal_slip = 0.0;        ///< ∮ n |ds| [Pa·m]: Archard depth is K times this
   std::vector<PointInstant> instants;  ///< at the phases asked for
   double defect = 0.0;                 ///< as of PointTraction [Pa]
 };
@@ -75,7 +77,7 @@ class PointLaw {
   /// Forces alone, with harmonics that the motion does not have.
   /// @param n_harmonics  of the result, those of the motion at least.
   [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& motion, double frequency,
-                                        int n_harmonics) const {
+                                              int n_harmonics) const {
     Harmonics wide(n_harmonics, n_point_signals);
     wide.rows().topRows(motion.rows().rows()) = motion.rows();
     PointTraction result;

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "contact/force/sleeping_laws.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/line_kernels.hpp"
 #include "contact/sampled/line_point.hpp"
-#include "contact/force/sleeping_laws.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact::sampled {

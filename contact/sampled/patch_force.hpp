@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "contact/contact_patch.hpp"
+#include "contact/force/sleeping_laws.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/sampled/line_block.hpp"
 #include "contact/sampled/projection.hpp"
-#include "contact/force/sleeping_laws.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact::sampled {

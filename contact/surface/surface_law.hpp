@@ -26,9 +26,9 @@
 #include <optional>
 #include <vector>
 
-#include "contact/surface/point_parameters.hpp"
 #include "contact/surface/friction_law.hpp"
 #include "contact/surface/linear_range.hpp"
+#include "contact/surface/point_parameters.hpp"
 #include "contact/surface/rough_surface.hpp"
 
 namespace microslip::contact {

@@ -17,7 +17,8 @@ using Eigen::Vector2d;
 
 /// ε of the header.
 constexpr double edge = 5e-4;
-constexpr double wherever = -std::numeric_limits<double>::infinity();  // the law at the motion itself
+constexpr double wherever =
+    -std::numeric_limits<double>::infinity();  // the law at the motion itself
 
 /// K₀ times the motion [Pa].
 double spring_size(const PlanarPoint& point, const GuardScale& scale) {
@@ -126,8 +127,9 @@ Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,
     if (now.load <= 0.0) continue;
     tractions(i, 1) += now.normal;
     if (!point.rubs) continue;
-    const Vector2d force = now.ratio * returned_force(spring_force(point, now, slider_of(memory, i)),
-                                                      now.stiffness, now.radius);
+    const Vector2d force =
+        now.ratio *
+        returned_force(spring_force(point, now, slider_of(memory, i)), now.stiffness, now.radius);
     tractions(i, 0) = force[0];
     tractions(i, 2) = force[1];
   }
@@ -174,9 +176,9 @@ Eigen::VectorXd PlanarTransient::held_force(const ModalMotion& motion,
     const PlanarPointInstant now = instant_of(point, all.of(i));
     tractions(i, 1) += now.normal;
     if (!point.rubs) continue;
-    const Vector2d force =
-        now.ratio * (state == ContactState::stick ? spring_force(point, now, slider_of(memory, i))
-                                                  : now.radius * slip_direction(memory.internal[i]));
+    const Vector2d force = now.ratio * (state == ContactState::stick
+                                            ? spring_force(point, now, slider_of(memory, i))
+                                            : now.radius * slip_direction(memory.internal[i]));
     tractions(i, 0) = force[0];
     tractions(i, 2) = force[1];
   }
@@ -234,9 +236,10 @@ TransientForce::Guards PlanarTransient::guards_at(Eigen::Index i, const PlanarPo
     return {(now.radius - spring_force(point, now, slider).norm()) / std::max(smallest, size),
             now.load / load_size};
   }
-  const double softest = (point.active.array() > 0.0)
-                             .select(point.stiffness.array(), std::numeric_limits<double>::infinity())
-                             .minCoeff();
+  const double softest =
+      (point.active.array() > 0.0)
+          .select(point.stiffness.array(), std::numeric_limits<double>::infinity())
+          .minCoeff();
   const double rate_size =
       (point.tangential_size + p.friction_coefficient * normal_stiffness / softest) *
       scale.velocity;
@@ -281,9 +284,8 @@ void PlanarTransient::touch_down(Eigen::Index i, const ModalMotion& motion,
   memory.state[static_cast<std::size_t>(i)] = slips ? ContactState::slip : ContactState::stick;
   set_slider(memory, i, now.position);  // f = 0 where contact begins
   if (!slips || !point.rubs) return;
-  const Vector2d along = now.radius_rate > 0.0
-                             ? returned_force(pull, now.stiffness, now.radius_rate)
-                             : now.velocity;
+  const Vector2d along =
+      now.radius_rate > 0.0 ? returned_force(pull, now.stiffness, now.radius_rate) : now.velocity;
   memory.internal[i] = std::atan2(along[1], along[0]);
 }
 
@@ -315,8 +317,7 @@ double PlanarTransient::slip_power(const ModalMotion& motion, const TransientMem
     const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
     if (memory.state[static_cast<std::size_t>(i)] != ContactState::slip || !point.rubs) continue;
     const PlanarPointInstant now = instant_of(point, all.of(i));
-    power += weights_[i] * now.ratio * now.radius *
-             slip_speed(now, memory.internal[i]);
+    power += weights_[i] * now.ratio * now.radius * slip_speed(now, memory.internal[i]);
   }
   return power;
 }

@@ -43,17 +43,20 @@ Eigen::Index share_begin(Eigen::Index n, int rank, int n_ranks) { return n * ran
 
 }  // namespace
 
-DofMap::DofMap(const mesh::Mesh& mesh, const std::vector<std::string>& clamped, int rank, int n_ranks)
+DofMap::DofMap(const mesh::Mesh& mesh, const std::vector<std::string>& clamped, int rank,
+               int n_ranks)
     : solver_node_(static_cast<std::size_t>(mesh.n_nodes()), 0), n_ranks_(n_ranks) {
   for (const std::string& name : clamped) {
-    for (const Eigen::Index node : mesh.node_set(name)) solver_node_[static_cast<std::size_t>(node)] = -1;
+    for (const Eigen::Index node : mesh.node_set(name))
+      solver_node_[static_cast<std::size_t>(node)] = -1;
   }
   for (Eigen::Index node = 0; node < mesh.n_nodes(); ++node) {
     if (solver_node(node) >= 0) mesh_node_.push_back(node);
   }
   if (mesh_node_.empty()) throw std::invalid_argument("the supports hold every node of the mesh");
   const std::vector<std::uint64_t> keys = morton_keys(mesh.nodes());
-  std::ranges::stable_sort(mesh_node_, {}, [&](Eigen::Index node) { return keys[static_cast<std::size_t>(node)]; });
+  std::ranges::stable_sort(mesh_node_, {},
+                           [&](Eigen::Index node) { return keys[static_cast<std::size_t>(node)]; });
   for (std::size_t i = 0; i < mesh_node_.size(); ++i) {
     solver_node_[static_cast<std::size_t>(mesh_node_[i])] = static_cast<Eigen::Index>(i);
   }
@@ -74,13 +77,14 @@ Eigen::MatrixXd DofMap::to_mesh(const Eigen::MatrixXd& local) const {
   std::vector<int> starts;
   for (int r = 0; r < n_ranks_; ++r) {
     starts.push_back(static_cast<int>(3 * share_begin(n_free_nodes(), r, n_ranks_)));
-    counts.push_back(static_cast<int>(3 * share_begin(n_free_nodes(), r + 1, n_ranks_)) - starts.back());
+    counts.push_back(static_cast<int>(3 * share_begin(n_free_nodes(), r + 1, n_ranks_)) -
+                     starts.back());
   }
   Eigen::MatrixXd on_mesh = Eigen::MatrixXd::Zero(3 * n_mesh_nodes(), local.cols());
   Eigen::VectorXd all(3 * n_free_nodes());
   for (Eigen::Index column = 0; column < local.cols(); ++column) {
-    check(MPI_Allgatherv(local.col(column).data(), static_cast<int>(local.rows()), MPI_DOUBLE, all.data(),
-                         counts.data(), starts.data(), MPI_DOUBLE, PETSC_COMM_WORLD));
+    check(MPI_Allgatherv(local.col(column).data(), static_cast<int>(local.rows()), MPI_DOUBLE,
+                         all.data(), counts.data(), starts.data(), MPI_DOUBLE, PETSC_COMM_WORLD));
     for (Eigen::Index i = 0; i < n_free_nodes(); ++i) {
       on_mesh.block<3, 1>(3 * mesh_node(i), column) = all.segment<3>(3 * i);
     }

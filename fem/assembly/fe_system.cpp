@@ -15,7 +15,8 @@ struct ElementDofs {
   int n = 0;
 };
 
-ElementDofs element_dofs(const DofMap& dofs, const mesh::ElementBlock& block, Eigen::Index element) {
+ElementDofs element_dofs(const DofMap& dofs, const mesh::ElementBlock& block,
+                         Eigen::Index element) {
   ElementDofs result;
   result.n = mesh::n_nodes(block.type);
   for (int i = 0; i < result.n; ++i) {
@@ -58,7 +59,8 @@ struct NodeElements {
       for (std::size_t e = 0; e < elements.size(); ++e) {
         for (int i = 0; i < elements[e].n; ++i) {
           const Eigen::Index node = elements[e].index[static_cast<std::size_t>(i)];
-          if (node >= dofs.first() && node < dofs.last()) visit(static_cast<std::size_t>(node - dofs.first()), e);
+          if (node >= dofs.first() && node < dofs.last())
+            visit(static_cast<std::size_t>(node - dofs.first()), e);
         }
       }
     };
@@ -103,7 +105,8 @@ MatHandle make_matrix(const DofMap& dofs, const RowCounts& counts) {
   const auto n = static_cast<PetscInt>(3 * dofs.n_free_nodes());
   check(MatSetSizes(matrix.get(), n_local, n_local, n, n));
   check(MatSetType(matrix.get(), MATSBAIJ));
-  check(MatXAIJSetPreallocation(matrix.get(), 3, nullptr, nullptr, counts.own.data(), counts.other.data()));
+  check(MatXAIJSetPreallocation(matrix.get(), 3, nullptr, nullptr, counts.own.data(),
+                                counts.other.data()));
   check(MatSetOption(matrix.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
   check(MatSetOption(matrix.get(), MAT_IGNORE_OFF_PROC_ENTRIES, PETSC_TRUE));
   check(MatSetOption(matrix.get(), MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
@@ -145,7 +148,8 @@ FeSystem assemble(const mesh::Mesh& mesh, const Material& material,
   ElementMatrices matrices;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> mass_blocks;
   Eigen::MatrixX3d coordinates;
-  const auto add = [&](const mesh::ElementBlock& block, Eigen::Index e, const ElementDofs& element) {
+  const auto add = [&](const mesh::ElementBlock& block, Eigen::Index e,
+                       const ElementDofs& element) {
     coordinates = mesh.nodes()(block.connectivity.row(e).transpose(), Eigen::all);
     element_matrices(block.type, coordinates, material, rule, matrices);
     expand_mass(matrices.mass, mass_blocks);

@@ -14,9 +14,9 @@ namespace microslip::fem {
 
 struct FeSystem {
   DofMap dofs;
-  MatHandle stiffness;  ///< K [N/m], n_dofs × n_dofs, solver order
+  MatHandle stiffness;    ///< K [N/m], n_dofs × n_dofs, solver order
   MatHandle mass_matrix;  ///< M [kg], same pattern
-  double mass = 0.0;    ///< of the whole mesh, held nodes included [kg]
+  double mass = 0.0;      ///< of the whole mesh, held nodes included [kg]
 };
 
 /// Sums the element matrices of all elements. Each rank integrates every element that touches a node

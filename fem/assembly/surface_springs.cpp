@@ -18,14 +18,17 @@ void check_sizes(const mesh::Surface& surface, const Eigen::SparseMatrix<double>
   };
   const Eigen::Index n_nodes = std::ssize(surface.nodes);
   if (to_points.cols() != n_nodes) refuse("columns of to_points", to_points.cols(), n_nodes);
-  if (weights.size() != to_points.rows()) refuse("number of weights", weights.size(), to_points.rows());
-  if (stiffness.rows() != to_points.rows()) refuse("rows of stiffness", stiffness.rows(), to_points.rows());
+  if (weights.size() != to_points.rows())
+    refuse("number of weights", weights.size(), to_points.rows());
+  if (stiffness.rows() != to_points.rows())
+    refuse("rows of stiffness", stiffness.rows(), to_points.rows());
 }
 
 }  // namespace
 
-void add_springs(FeSystem& system, const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
-                 const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame, const Eigen::MatrixX3d& stiffness) {
+void add_springs(FeSystem& system, const mesh::Surface& surface,
+                 const Eigen::SparseMatrix<double>& to_points, const Eigen::VectorXd& weights,
+                 const Eigen::Matrix3d& frame, const Eigen::MatrixX3d& stiffness) {
   check_sizes(surface, to_points, weights, stiffness);
   const Eigen::SparseMatrix<double, Eigen::RowMajor> points(to_points);
   const Mat K = system.stiffness.get();
@@ -46,11 +49,13 @@ void add_springs(FeSystem& system, const mesh::Surface& surface, const Eigen::Sp
     block.resize(3 * n, 3 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index j = 0; j < n; ++j) {
-        block.block<3, 3>(3 * i, 3 * j) = N[static_cast<std::size_t>(i)] * N[static_cast<std::size_t>(j)] * spring;
+        block.block<3, 3>(3 * i, 3 * j) =
+            N[static_cast<std::size_t>(i)] * N[static_cast<std::size_t>(j)] * spring;
       }
     }
     const auto n_nodes = static_cast<PetscInt>(n);
-    check(MatSetValuesBlocked(K, n_nodes, index.data(), n_nodes, index.data(), block.data(), ADD_VALUES));
+    check(MatSetValuesBlocked(K, n_nodes, index.data(), n_nodes, index.data(), block.data(),
+                              ADD_VALUES));
   }
   check(MatAssemblyBegin(K, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(K, MAT_FINAL_ASSEMBLY));

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "fem/attachment.hpp"
 #include "fem/assembly/fe_system.hpp"
+#include "fem/attachment.hpp"
 
 namespace microslip::fem {
 

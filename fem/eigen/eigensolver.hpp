@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "fem/petsc/factorisation.hpp"
 #include "fem/assembly/fe_system.hpp"
+#include "fem/petsc/factorisation.hpp"
 
 namespace microslip::fem {
 

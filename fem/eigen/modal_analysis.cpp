@@ -10,15 +10,15 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/petsc/columns.hpp"
-#include "fem/eigen/attachment.hpp"
-#include "fem/elements/polynomial_tractions.hpp"
-#include "fem/eigen/mode_search.hpp"
-#include "fem/elements/number_text.hpp"
-#include "fem/petsc_error.hpp"
-#include "fem/eigen/rigid_modes.hpp"
-#include "fem/surface_load.hpp"
 #include "fem/assembly/surface_springs.hpp"
+#include "fem/eigen/attachment.hpp"
+#include "fem/eigen/mode_search.hpp"
+#include "fem/eigen/rigid_modes.hpp"
+#include "fem/elements/number_text.hpp"
+#include "fem/elements/polynomial_tractions.hpp"
+#include "fem/petsc/columns.hpp"
+#include "fem/petsc_error.hpp"
+#include "fem/surface_load.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -55,8 +55,8 @@ double infinity_norm(Mat matrix) {
 
 void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
   if (forces.rows() == 3 * n_nodes) return;
-  throw std::invalid_argument("forces have " + std::to_string(forces.rows()) + " rows, 3 per mesh node are " +
-                              std::to_string(3 * n_nodes));
+  throw std::invalid_argument("forces have " + std::to_string(forces.rows()) +
+                              " rows, 3 per mesh node are " + std::to_string(3 * n_nodes));
 }
 
 }  // namespace
@@ -64,17 +64,19 @@ void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
 struct Structure::Implementation {
   Eigen::MatrixX3d nodes;
   FeSystem system;
-  Eigen::MatrixXd rigid;                 // M-orthonormal, rows of this rank
-  double shift = 0.0;                    // of `factor`
-  std::optional<Factorisation> factor;   // of K − shift M
+  Eigen::MatrixXd rigid;                // M-orthonormal, rows of this rank
+  double shift = 0.0;                   // of `factor`
+  std::optional<Factorisation> factor;  // of K − shift M
   ModalTimings timings;
 
   void factorise();
   void factorise_shifted();
   [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
-  [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& kept) const;
+  [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads,
+                                              const Eigen::MatrixXd& kept) const;
   [[nodiscard]] Eigen::MatrixXd elastic_modes(const ModalBasis& basis) const;
-  [[nodiscard]] StaticShapes static_shapes(const Eigen::MatrixXd& forces, const Eigen::MatrixXd& kept) const;
+  [[nodiscard]] StaticShapes static_shapes(const Eigen::MatrixXd& forces,
+                                           const Eigen::MatrixXd& kept) const;
   void drop_held_rigid_modes();
   [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
   void check_residuals(const ModalBasis& basis, double tolerance) const;
@@ -105,10 +107,12 @@ CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
   return found;
 }
 
-ModalBasis Structure::Implementation::basis_from(const CountedPairs& found, Eigen::Index n_modes) const {
+ModalBasis Structure::Implementation::basis_from(const CountedPairs& found,
+                                                 Eigen::Index n_modes) const {
   const Eigen::Index n_rigid = std::min(rigid.cols(), n_modes);
   const Eigen::Index n_elastic = n_modes - n_rigid;
-  const EigenPairs elastic{found.pairs.values.head(n_elastic), found.pairs.vectors.leftCols(n_elastic)};
+  const EigenPairs elastic{found.pairs.values.head(n_elastic),
+                           found.pairs.vectors.leftCols(n_elastic)};
   Eigen::MatrixXd local(system.dofs.n_local_dofs(), n_modes);
   local << rigid.leftCols(n_rigid), elastic.vectors;
   ModalBasis basis;
@@ -117,8 +121,9 @@ ModalBasis Structure::Implementation::basis_from(const CountedPairs& found, Eige
   basis.residual = Eigen::VectorXd::Zero(n_modes);
   if (n_rigid > 0) {
     const Eigen::MatrixXd R = rigid.leftCols(n_rigid);
-    basis.residual.head(n_rigid) = column_norms(multiply(system.stiffness.get(), R))
-                                       .cwiseQuotient(infinity_norm(system.stiffness.get()) * column_norms(R));
+    basis.residual.head(n_rigid) =
+        column_norms(multiply(system.stiffness.get(), R))
+            .cwiseQuotient(infinity_norm(system.stiffness.get()) * column_norms(R));
   }
   if (n_elastic > 0) basis.residual.tail(n_elastic) = relative_residuals(system, elastic);
   basis.shapes = system.dofs.to_mesh(local);
@@ -136,8 +141,8 @@ void Structure::Implementation::check_residuals(const ModalBasis& basis, double 
     double allowed = tolerance;
     if (omega > 0.0) {
       // ‖Kφ‖ ≥ ω² / ‖φ‖, since φᵀKφ = ω².
-      allowed += std::numeric_limits<double>::epsilon() * stiffness_norm * basis.shapes.col(k).squaredNorm() /
-                 (omega * omega);
+      allowed += std::numeric_limits<double>::epsilon() * stiffness_norm *
+                 basis.shapes.col(k).squaredNorm() / (omega * omega);
     }
     if (!(basis.residual[k] <= allowed)) {
       throw EigenError("eigen-inaccurate: mode " + std::to_string(k + 1) + " has residual " +
@@ -146,9 +151,9 @@ void Structure::Implementation::check_residuals(const ModalBasis& basis, double 
   }
 }
 
-// u with Ku = f − MRRᵀf, u ⟂ M [R kept], for loads f. For a held body simply K⁻¹f without what the kept
-// modes carry. With rigid-body modes the factor is that of K − shift M, and the residual correction
-// contracts by |shift|/(λ + |shift|) per step, λ the first eigenvalue that is not kept.
+// u with Ku = f − MRRᵀf, u ⟂ M [R kept], for loads f. For a held body simply K⁻¹f without what the
+// kept modes carry. With rigid-body modes the factor is that of K − shift M, and the residual
+// correction contracts by |shift|/(λ + |shift|) per step, λ the first eigenvalue that is not kept.
 Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& loads,
                                                          const Eigen::MatrixXd& kept) const {
   constexpr int max_steps = 500;
@@ -180,7 +185,8 @@ Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& 
 }
 
 Eigen::MatrixXd Structure::Implementation::elastic_modes(const ModalBasis& basis) const {
-  return system.dofs.to_local(basis.shapes.middleCols(basis.n_rigid_body, basis.n_free() - basis.n_rigid_body));
+  return system.dofs.to_local(
+      basis.shapes.middleCols(basis.n_rigid_body, basis.n_free() - basis.n_rigid_body));
 }
 
 StaticShapes Structure::Implementation::static_shapes(const Eigen::MatrixXd& forces,
@@ -196,18 +202,20 @@ void Structure::Implementation::drop_held_rigid_modes() {
   const Eigen::MatrixXd energy = inner_products(rigid, multiply(system.stiffness.get(), rigid));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energy + energy.transpose()));
   const double scale = elastic_scale(nodes, system, rigid.cols());
-  const auto n_free = static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-9 * scale).count());
+  const auto n_free =
+      static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-9 * scale).count());
   rigid = (rigid * eigen.eigenvectors().leftCols(n_free)).eval();
 }
 
-Structure::Structure(const mesh::Mesh& mesh, const Material& material, const std::vector<std::string>& clamped,
-                     Tet10Rule rule) {
+Structure::Structure(const mesh::Mesh& mesh, const Material& material,
+                     const std::vector<std::string>& clamped, Tet10Rule rule) {
   const auto start = std::chrono::steady_clock::now();
   FeSystem system = assemble(mesh, material, clamped, rule);
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   self_ = std::make_unique<Implementation>(
       Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
-  self_->timings.assembly = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  self_->timings.assembly =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Structure::~Structure() = default;
@@ -221,8 +229,9 @@ const ModalTimings& Structure::timings() const { return self_->timings; }
 ModalBasis Structure::solve_modes(const ModalOptions& options) {
   Implementation& self = *self_;
   if (options.n_modes < 1 || options.n_modes > n_dofs()) {
-    throw std::invalid_argument("n_modes = " + std::to_string(options.n_modes) + " is not between 1 and the " +
-                                std::to_string(n_dofs()) + " degrees of freedom");
+    throw std::invalid_argument("n_modes = " + std::to_string(options.n_modes) +
+                                " is not between 1 and the " + std::to_string(n_dofs()) +
+                                " degrees of freedom");
   }
   const Eigen::Index n_rigid = self.rigid.cols();
   if (n_rigid > 6) {
@@ -232,8 +241,10 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
   self.factorise();
   CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
   if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
-    throw EigenError("mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " + std::to_string(n_zero) +
-                     " of them inside the body (parts that share only an edge, a corner or too few supports)");
+    throw EigenError(
+        "mechanism: " + std::to_string(n_rigid + n_zero) + " zero modes, " +
+        std::to_string(n_zero) +
+        " of them inside the body (parts that share only an edge, a corner or too few supports)");
   }
   ModalBasis basis = self.basis_from(found, options.n_modes);
   self.check_residuals(basis, options.residual_tolerance);
@@ -244,30 +255,35 @@ Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {
   Implementation& self = *self_;
   check_rows(forces, self.nodes.rows());
   if (self.rigid.cols() > 0) {
-    throw EigenError("rigid-body: " + std::to_string(self.rigid.cols()) +
-                     " rigid-body modes are free, the stiffness matrix is singular: no static solution");
+    throw EigenError(
+        "rigid-body: " + std::to_string(self.rigid.cols()) +
+        " rigid-body modes are free, the stiffness matrix is singular: no static solution");
   }
   self.factorise();
   return self.system.dofs.to_mesh(self.factor->solve(self.system.dofs.to_local(forces)));
 }
 
-ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis, const mesh::Surface& surface,
+ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis,
+                                                    const mesh::Surface& surface,
                                                     const Eigen::Matrix3d& frame) {
   Implementation& self = *self_;
   self.factorise();
   const Eigen::MatrixXd kept = self.elastic_modes(basis);
-  const Eigen::MatrixXd loads = self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
+  const Eigen::MatrixXd loads =
+      self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
   const Eigen::MatrixXd u = self.system.dofs.to_mesh(self.solve_elastic(loads, kept));
   ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(surface.nodes), 3)};
   for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
     const Eigen::Index node = surface.nodes[static_cast<std::size_t>(i)];
-    result.row_sums.row(i) = frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
+    result.row_sums.row(i) =
+        frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
   }
   return result;
 }
 
-AttachedBasis Structure::attach(const ModalBasis& basis, const mesh::Surface& surface, const Eigen::Matrix3d& frame,
-                                const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
+AttachedBasis Structure::attach(const ModalBasis& basis, const mesh::Surface& surface,
+                                const Eigen::Matrix3d& frame, const Eigen::MatrixXd& forces,
+                                const AttachmentOptions& options) {
   const std::vector<AttachmentFace> faces{{surface, frame, options.local_stiffness}};
   return attach(basis, faces, forces, options);
 }
@@ -296,7 +312,8 @@ AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<Attac
   const RitzShapes ritz = ritz_shapes(self.system, set.shapes, free);
   Eigen::MatrixXd shapes = self.system.dofs.to_mesh(ritz.shapes);
   fix_signs(shapes);
-  AttachedBasis result{basis, set.degree, set.missed_share, set.shapes.shapes.cols() - shapes.cols()};
+  AttachedBasis result{basis, set.degree, set.missed_share,
+                       set.shapes.shapes.cols() - shapes.cols()};
   result.basis.n_attachment = shapes.cols();
   result.basis.frequency.resize(basis.n_free() + shapes.cols());
   result.basis.frequency << basis.frequency.head(basis.n_free()), ritz.frequency;
@@ -305,7 +322,8 @@ AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<Attac
   return result;
 }
 
-void Structure::add_surface_springs(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
+void Structure::add_surface_springs(const mesh::Surface& surface,
+                                    const Eigen::SparseMatrix<double>& to_points,
                                     const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
                                     const Eigen::MatrixX3d& stiffness) {
   add_springs(self_->system, surface, to_points, weights, frame, stiffness);
@@ -316,9 +334,11 @@ void Structure::add_surface_springs(const mesh::Surface& surface, const Eigen::S
 Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const {
   check_rows(forces, self_->nodes.rows());
   const FeSystem& system = self_->system;
-  const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(), FactorKind::indefinite);
+  const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(),
+                              FactorKind::indefinite);
   if (dynamic.inertia().zero > 0) {
-    throw EigenError("resonance: omega = " + number_text(frequency) + " rad/s is a natural frequency");
+    throw EigenError("resonance: omega = " + number_text(frequency) +
+                     " rad/s is a natural frequency");
   }
   return system.dofs.to_mesh(dynamic.solve(system.dofs.to_local(forces)));
 }

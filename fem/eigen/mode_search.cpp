@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "fem/petsc/columns.hpp"
 #include "fem/elements/number_text.hpp"
+#include "fem/petsc/columns.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {

@@ -112,11 +112,13 @@ double elastic_scale(const Eigen::MatrixX3d& nodes, const FeSystem& system, Eige
   const double size = (upper - lower).maxCoeff();
   Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(dofs.n_local_dofs(), 30);
   for (Eigen::Index i = dofs.first(); i < dofs.last(); ++i) {
-    const Eigen::Vector3d x = (nodes.row(dofs.mesh_node(i)) - 0.5 * (lower + upper)).transpose() / size;
+    const Eigen::Vector3d x =
+        (nodes.row(dofs.mesh_node(i)) - 0.5 * (lower + upper)).transpose() / size;
     Eigen::Vector<double, 10> monomials;
-    monomials << 1.0, x[0], x[1], x[2], x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2],
-        x[2] * x[0];
-    for (int d = 0; d < 3; ++d) fields.block(3 * (i - dofs.first()) + d, 10 * d, 1, 10) = monomials.transpose();
+    monomials << 1.0, x[0], x[1], x[2], x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1],
+        x[1] * x[2], x[2] * x[0];
+    for (int d = 0; d < 3; ++d)
+      fields.block(3 * (i - dofs.first()) + d, 10 * d, 1, 10) = monomials.transpose();
   }
   const Eigen::MatrixXd MF = multiply(system.mass_matrix.get(), fields);
   const Eigen::MatrixXd gram = inner_products(fields, MF);
@@ -124,10 +126,12 @@ double elastic_scale(const Eigen::MatrixX3d& nodes, const FeSystem& system, Eige
   // A mesh of a few nodes cannot tell all fields apart: keep the directions that differ.
   const double floor = 1e-10 * metric.eigenvalues().maxCoeff();
   const auto n_kept = static_cast<Eigen::Index>((metric.eigenvalues().array() > floor).count());
-  const Eigen::MatrixXd to_orthonormal = metric.eigenvectors().rightCols(n_kept) *
+  const Eigen::MatrixXd to_orthonormal =
+      metric.eigenvectors().rightCols(n_kept) *
       metric.eigenvalues().tail(n_kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Eigen::MatrixXd energy = inner_products(fields, multiply(system.stiffness.get(), fields));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(to_orthonormal.transpose() * energy * to_orthonormal);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(to_orthonormal.transpose() * energy *
+                                                            to_orthonormal);
   // A mechanism inside the body may be one of the fields: its zero is no scale. Values of bodies a
   // hundred times as long as thick span eight decades.
   const double zero = 1e-10 * ritz.eigenvalues()[n_kept - 1];

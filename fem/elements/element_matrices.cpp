@@ -72,7 +72,8 @@ GradientProducts<n> gradient_products(const RuleTable<n>& table, const NodeMatri
 }
 
 template <int n>
-void stiffness_from_products(const GradientProducts<n>& S, const Lame& lame, ElementMatrices& result) {
+void stiffness_from_products(const GradientProducts<n>& S, const Lame& lame,
+                             ElementMatrices& result) {
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const Eigen::Matrix3d s = S.template block<3, 3>(3 * i, 3 * j);
@@ -91,7 +92,8 @@ void mass_matrix(const RuleTable<n>& table, const NodeMatrix<n>& nodes, double d
   Eigen::Matrix<double, n, n> m = Eigen::Matrix<double, n, n>::Zero();
   for (std::size_t q = 0; q < table.values.size(); ++q) {
     const Eigen::Matrix3d jacobian = table.gradients[q].transpose() * nodes;
-    const double dm = density * table.rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant();
+    const double dm =
+        density * table.rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant();
     m.noalias() += (dm * table.values[q]).lazyProduct(table.values[q].transpose());
   }
   result.mass = 0.5 * (m + m.transpose());
@@ -108,7 +110,8 @@ void integrate(const RuleTable<n>& stiffness, const RuleTable<n>& mass, const No
 // Edge nodes in the middle of their edges, to 1e-12 of the edge: what is left then changes K by
 // less than rounding does.
 bool has_straight_edges(const NodeMatrix<10>& nodes) {
-  constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+  constexpr std::array<std::array<int, 2>, 6> edges{
+      {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Eigen::RowVector3d a = nodes.row(edges[e][0]);
     const Eigen::RowVector3d b = nodes.row(edges[e][1]);
@@ -129,8 +132,8 @@ void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10
   if (rule == Tet10Rule::four_point) {
     return integrate<10>(four_point, four_point, nodes, material, result);
   }
-  integrate<10>(straight ? four_point : fourteen_point, straight ? straight_mass : curved_mass, nodes,
-                material, result);
+  integrate<10>(straight ? four_point : fourteen_point, straight ? straight_mass : curved_mass,
+                nodes, material, result);
 }
 
 }  // namespace
@@ -148,12 +151,14 @@ void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
       return tet10_matrices(nodes, material, rule, result);
     case ElementType::hex8: {
       static const RuleTable<8> stiffness(type, hexahedron_rule(2));
-      static const RuleTable<8> mass(type, hexahedron_rule(3));  // per direction N_i N_j: 2, det J: 2
+      static const RuleTable<8> mass(type,
+                                     hexahedron_rule(3));  // per direction N_i N_j: 2, det J: 2
       return integrate<8>(stiffness, mass, nodes, material, result);
     }
     case ElementType::hex20: {
       static const RuleTable<20> stiffness(type, hexahedron_rule(3));
-      static const RuleTable<20> mass(type, hexahedron_rule(5));  // per direction N_i N_j: 4, det J: 5
+      static const RuleTable<20> mass(type,
+                                      hexahedron_rule(5));  // per direction N_i N_j: 4, det J: 5
       return integrate<20>(stiffness, mass, nodes, material, result);
     }
   }
@@ -161,7 +166,8 @@ void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
 
 void check_material(const Material& material) {
   const auto refuse = [](const char* what, double value, const char* range) {
-    throw std::invalid_argument(std::string(what) + " = " + number_text(value) + " is not " + range);
+    throw std::invalid_argument(std::string(what) + " = " + number_text(value) + " is not " +
+                                range);
   };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!positive(material.youngs_modulus)) {
@@ -170,7 +176,8 @@ void check_material(const Material& material) {
   if (!(material.poissons_ratio > -1.0 && material.poissons_ratio < 0.5)) {
     refuse("Poisson's ratio", material.poissons_ratio, "in (-1, 0.5)");
   }
-  if (!positive(material.density)) refuse("density", material.density, "a finite number > 0 kg/m^3");
+  if (!positive(material.density))
+    refuse("density", material.density, "a finite number > 0 kg/m^3");
 }
 
 }  // namespace microslip::fem

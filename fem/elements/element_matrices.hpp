@@ -33,7 +33,8 @@ namespace microslip::fem {
 enum class Tet10Rule : std::uint8_t { accurate, four_point };
 
 struct ElementMatrices {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> stiffness;  ///< 3n × 3n [N/m]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
+      stiffness;         ///< 3n × 3n [N/m]
   Eigen::MatrixXd mass;  ///< n × n [kg]: the same for x, y and z
 };
 

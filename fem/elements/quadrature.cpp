@@ -73,7 +73,8 @@ QuadratureRule collapsed_tetrahedron(int n) {
         const double eta = 0.5 * (1.0 + y.points(j, 0)) * (1.0 - xi);
         const double zeta = 0.5 * (1.0 + z.points(k, 0)) * (1.0 - xi - eta);
         rule.points.row(at) << xi, eta, zeta;
-        rule.weights[at] = x.weights[i] * y.weights[j] * z.weights[k] / 64.0;  // halves: 2³ · 2² · 2
+        rule.weights[at] =
+            x.weights[i] * y.weights[j] * z.weights[k] / 64.0;  // halves: 2³ · 2² · 2
       }
     }
   }

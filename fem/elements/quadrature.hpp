@@ -18,8 +18,8 @@
 namespace microslip::fem {
 
 struct QuadratureRule {
-  Eigen::MatrixX3d points;   ///< reference coordinates, n × 3 (ζ = 0 on faces)
-  Eigen::VectorXd weights;   ///< n, positive
+  Eigen::MatrixX3d points;  ///< reference coordinates, n × 3 (ζ = 0 on faces)
+  Eigen::VectorXd weights;  ///< n, positive
 };
 
 /// Points and weights of the n-point rule for ∫₋₁¹ (1 − x)^alpha f(x) dx, exact to degree 2n − 1.

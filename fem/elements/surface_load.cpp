@@ -12,7 +12,8 @@ namespace {
 // dA is smooth and leaves about 1e-10.
 constexpr int face_degree = 8;
 
-void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block, Eigen::VectorXd& areas) {
+void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block,
+                    Eigen::VectorXd& areas) {
   const QuadratureRule rule = face_rule(block.type, face_degree);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::Vector2d xi = rule.points.row(q).head<2>().transpose();
@@ -40,7 +41,8 @@ Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Su
                                    const Eigen::Matrix3d& frame) {
   const Eigen::VectorXd areas = nodal_areas(nodes, surface);
   Eigen::MatrixX3d loads(3 * nodes.rows(), 3);
-  for (Eigen::Index i = 0; i < nodes.rows(); ++i) loads.middleRows<3>(3 * i) = areas[i] * frame.transpose();
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+    loads.middleRows<3>(3 * i) = areas[i] * frame.transpose();
   return loads;
 }
 

@@ -35,7 +35,8 @@ int usable_threads() {
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-// File of the library that answers for dgemm, links resolved: the alternatives system hides the name.
+// File of the library that answers for dgemm, links resolved: the alternatives system hides the
+// name.
 std::string library_of_dgemm() {
   void* address = dlsym(RTLD_DEFAULT, "dgemm_");
   Dl_info info{};

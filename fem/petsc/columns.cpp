@@ -8,8 +8,8 @@ namespace microslip::fem {
 
 VecHandle view_column(Eigen::Ref<Eigen::VectorXd> local) {
   VecHandle vector;
-  check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, static_cast<PetscInt>(local.size()), PETSC_DECIDE,
-                              local.data(), vector.out()));
+  check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, static_cast<PetscInt>(local.size()),
+                              PETSC_DECIDE, local.data(), vector.out()));
   return vector;
 }
 

@@ -20,12 +20,16 @@ PetscInt info(Mat factor, PetscInt which) {
   return value;
 }
 
-// MUMPS users' guide 5.5, section 8: −8, −9, −11 … workspace guessed too small; −13 allocation failed.
-bool workspace_too_small(PetscInt code) { return code == -8 || code == -9 || code == -17 || code == -20; }
+// MUMPS users' guide 5.5, section 8: −8, −9, −11 … workspace guessed too small; −13 allocation
+// failed.
+bool workspace_too_small(PetscInt code) {
+  return code == -8 || code == -9 || code == -17 || code == -20;
+}
 
 [[noreturn]] void fail(Mat factor, const char* stage) {
   const PetscInt code = info(factor, 1);
-  const std::string text = std::string("MUMPS failed in ") + stage + ", INFOG(1) = " + std::to_string(code) +
+  const std::string text = std::string("MUMPS failed in ") + stage +
+                           ", INFOG(1) = " + std::to_string(code) +
                            ", INFOG(2) = " + std::to_string(info(factor, 2));
   if (code == -13 || code == -19 || workspace_too_small(code)) {
     throw MemoryError("out of memory: " + text + "; about " + std::to_string(info(factor, 17)) +
@@ -36,8 +40,8 @@ bool workspace_too_small(PetscInt code) { return code == -8 || code == -9 || cod
 
 void refuse_beyond(double available_mb, PetscInt needed_mb) {
   if (static_cast<double>(needed_mb) <= available_mb) return;
-  throw MemoryError("out of memory: the factorisation needs about " + std::to_string(needed_mb) + " MB, " +
-                    number_text(std::floor(available_mb)) +
+  throw MemoryError("out of memory: the factorisation needs about " + std::to_string(needed_mb) +
+                    " MB, " + number_text(std::floor(available_mb)) +
                     " MB are available. Use a coarser mesh or a machine with more memory.");
 }
 
@@ -73,8 +77,10 @@ Eigen::MatrixXd Factorisation::solve(const Eigen::MatrixXd& rhs) const {
   const auto n_columns = static_cast<PetscInt>(rhs.cols());
   MatHandle B;
   MatHandle X;
-  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, load.data(), B.out()));
-  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns, solution.data(), X.out()));
+  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns,
+                       load.data(), B.out()));
+  check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns,
+                       solution.data(), X.out()));
   check(MatMatSolve(factor_.get(), B.get(), X.get()));
   return solution;
 }

@@ -15,9 +15,9 @@ std::string& last_message() {
   return message;
 }
 
-PetscErrorCode keep_message(MPI_Comm /*comm*/, int line, const char* function,
-                            const char* /*file*/, PetscErrorCode code, PetscErrorType type,
-                            const char* message, void* /*context*/) {
+PetscErrorCode keep_message(MPI_Comm /*comm*/, int line, const char* function, const char* /*file*/,
+                            PetscErrorCode code, PetscErrorType type, const char* message,
+                            void* /*context*/) {
   if (type == PETSC_ERROR_INITIAL) {
     last_message() = std::string(message == nullptr ? "" : message) + " [" +
                      (function == nullptr ? "?" : function) + ':' + std::to_string(line) + ']';
@@ -39,7 +39,8 @@ void check(int code, std::source_location where) {
   if (code == 0) return;
   const std::string place = std::filesystem::path(where.file_name()).filename().string() + ':' +
                             std::to_string(where.line());
-  const std::string text = "PETSc error " + std::to_string(code) + " at " + place + ": " + words_of(code);
+  const std::string text =
+      "PETSc error " + std::to_string(code) + " at " + place + ": " + words_of(code);
   if (code == PETSC_ERR_MEM) throw MemoryError("out of memory: " + text);
   throw PetscError(text);
 }

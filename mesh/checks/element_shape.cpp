@@ -108,8 +108,9 @@ std::vector<std::string> shape_warnings(const Mesh& mesh, const ShapeLimits& lim
   }
   std::vector<std::string> warnings;
   if (const Eigen::Index n = mesh.n_repeated_elements(); n > 0) {
-    warnings.push_back(std::to_string(n) +
-                       " volume elements stand in the mesh file more than once; each is taken once");
+    warnings.push_back(
+        std::to_string(n) +
+        " volume elements stand in the mesh file more than once; each is taken once");
   }
   const auto add = [&](const Beyond& beyond, const std::string& what, double limit) {
     if (beyond.count == 0) return;

@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "mesh/elements/face_map.hpp"
 #include "mesh/checks/mesh_overlap.hpp"
 #include "mesh/checks/mesh_quality.hpp"
+#include "mesh/elements/face_map.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {

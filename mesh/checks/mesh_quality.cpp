@@ -91,7 +91,8 @@ std::array<Corners, 8> subdivided(const Corners& c) {
                                                              {5, 6, 8, 9}}};
   std::array<Corners, 8> result;
   for (std::size_t i = 0; i < 8; ++i) {
-    for (std::size_t k = 0; k < 4; ++k) result[i].row(static_cast<Eigen::Index>(k)) = p[parts[i][k]];
+    for (std::size_t k = 0; k < 4; ++k)
+      result[i].row(static_cast<Eigen::Index>(k)) = p[parts[i][k]];
   }
   return result;
 }
@@ -123,11 +124,13 @@ JacobianRange curved_tetrahedron(const Eigen::MatrixX3d& nodes) {
 Eigen::MatrixX3d nodes_of(const Eigen::MatrixX3d& nodes, const ElementBlock& block,
                           Eigen::Index element) {
   Eigen::MatrixX3d own(block.connectivity.cols(), 3);
-  for (Eigen::Index a = 0; a < own.rows(); ++a) own.row(a) = nodes.row(block.connectivity(element, a));
+  for (Eigen::Index a = 0; a < own.rows(); ++a)
+    own.row(a) = nodes.row(block.connectivity(element, a));
   return own;
 }
 
-// Of the cube of an element's size: the determinant of a flat element is rounding of products of lengths.
+// Of the cube of an element's size: the determinant of a flat element is rounding of products of
+// lengths.
 constexpr double flat = 1e-14;
 
 double size_of(const Eigen::MatrixX3d& nodes) {
@@ -158,8 +161,8 @@ JacobianRange jacobian_range(ElementType type, const Eigen::MatrixX3d& nodes) {
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
       for (int k = 0; k <= n; ++k) {
-        const double value =
-            determinant(type, nodes, Eigen::Vector3d(i, j, k) * (2.0 / n) - Eigen::Vector3d::Ones());
+        const double value = determinant(
+            type, nodes, Eigen::Vector3d(i, j, k) * (2.0 / n) - Eigen::Vector3d::Ones());
         range.least = std::min(range.least, value);
         range.largest = std::max(range.largest, value);
       }

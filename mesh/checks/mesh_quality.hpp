@@ -13,8 +13,9 @@ namespace microslip::mesh {
 
 /// Bounds of the Jacobian determinant over a whole element [m³ per unit of reference volume].
 struct JacobianRange {
-  double least = 0.0;    ///< smallest value; for tet10 a lower bound (Bernstein coefficients), sharp to
-                         ///< 1e-3 of the spread, for hexahedra the smallest of an 11 × 11 × 11 sampling
+  double least =
+      0.0;  ///< smallest value; for tet10 a lower bound (Bernstein coefficients), sharp to
+            ///< 1e-3 of the spread, for hexahedra the smallest of an 11 × 11 × 11 sampling
   double largest = 0.0;  ///< largest value sampled
 };
 

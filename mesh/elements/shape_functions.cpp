@@ -7,9 +7,9 @@ constexpr std::array<std::array<int, 2>, 6> tet_edges{
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<std::array<int, 2>, 3> tri_edges{{{0, 1}, {1, 2}, {0, 2}}};
 constexpr std::array<std::array<double, 3>, 20> hex_nodes{{
-    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1},  {1, 1, 1},
-    {-1, 1, 1},   {0, -1, -1}, {1, 0, -1}, {0, 1, -1},  {-1, 0, -1}, {0, -1, 1},  {1, 0, 1},
-    {0, 1, 1},    {-1, 0, 1},  {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0},
+    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+    {-1, 1, 1},   {0, -1, -1}, {1, 0, -1},  {0, 1, -1},  {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},
+    {0, 1, 1},    {-1, 0, 1},  {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},   {-1, 1, 0},
 }};
 constexpr std::array<std::array<double, 2>, 8> quad_nodes{
     {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
@@ -98,7 +98,8 @@ std::vector<std::vector<int>> face_table(ElementType type) {
   for (auto& face : table) {
     const std::size_t corners = face.size();
     for (std::size_t i = 0; i < corners; ++i) {
-      // tri6 and quad8 list their edges as 01 12 (23) and the closing one last; tri6 closes with 02.
+      // tri6 and quad8 list their edges as 01 12 (23) and the closing one last; tri6 closes with
+      // 02.
       const Eigen::RowVector3d middle =
           0.5 * (nodes.row(face[i]) + nodes.row(face[(i + 1) % corners]));
       for (int a = n_corners(type); a < n_nodes(type); ++a) {
@@ -143,7 +144,8 @@ Eigen::MatrixX3d reference_nodes(ElementType type) {
   Eigen::MatrixX3d nodes(n_nodes(type), 3);
   if (type == ElementType::hex8 || type == ElementType::hex20) {
     for (Eigen::Index a = 0; a < nodes.rows(); ++a) {
-      nodes.row(a) = Eigen::Map<const Eigen::RowVector3d>(hex_nodes[static_cast<std::size_t>(a)].data());
+      nodes.row(a) =
+          Eigen::Map<const Eigen::RowVector3d>(hex_nodes[static_cast<std::size_t>(a)].data());
     }
     return nodes;
   }
@@ -157,8 +159,8 @@ Eigen::MatrixX3d reference_nodes(ElementType type) {
 
 std::span<const std::vector<int>> faces(ElementType type) {
   static const std::array<std::vector<std::vector<int>>, 4> tables{
-      face_table(ElementType::tet4), face_table(ElementType::tet10),
-      face_table(ElementType::hex8), face_table(ElementType::hex20)};
+      face_table(ElementType::tet4), face_table(ElementType::tet10), face_table(ElementType::hex8),
+      face_table(ElementType::hex20)};
   return tables[static_cast<std::size_t>(type)];
 }
 
@@ -171,8 +173,6 @@ int n_corners(ElementType type) {
   return type == ElementType::tet4 || type == ElementType::tet10 ? 4 : 8;
 }
 
-int n_corners(FaceType type) {
-  return type == FaceType::tri3 || type == FaceType::tri6 ? 3 : 4;
-}
+int n_corners(FaceType type) { return type == FaceType::tri3 || type == FaceType::tri6 ? 3 : 4; }
 
 }  // namespace microslip::mesh

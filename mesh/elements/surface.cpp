@@ -59,7 +59,8 @@ std::vector<Cell> square_cells(int n, bool in_triangles) {
   };
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
-      const std::array<Eigen::Vector2d, 4> c{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      const std::array<Eigen::Vector2d, 4> c{at(i, j), at(i + 1, j), at(i + 1, j + 1),
+                                             at(i, j + 1)};
       if (in_triangles) {
         cells.push_back({{c[0], c[1], c[2]}});
         cells.push_back({{c[0], c[2], c[3]}});
@@ -108,7 +109,8 @@ class VertexMerger {
 
   /// Index of the vertex at x; `fresh` tells whether it is new.
   Eigen::Index index_of(const Eigen::Vector3d& x, bool& fresh) {
-    // A position near a grid line may round either way on the two faces: look at the neighbours too.
+    // A position near a grid line may round either way on the two faces: look at the neighbours
+    // too.
     const Key key = key_of(x);
     for (long i = -1; i <= 1; ++i) {
       for (long j = -1; j <= 1; ++j) {
@@ -255,9 +257,8 @@ SurfacePlane fit_plane(const Eigen::MatrixX3d& nodes, const Surface& surface) {
   std::vector<Eigen::Vector3d> normals;
   double area = 0.0;
   for (const FaceBlock& block : surface.faces) {
-    const Eigen::Vector2d middle = is_triangle(block.type)
-                                       ? Eigen::Vector2d(1.0 / 3.0, 1.0 / 3.0)
-                                       : Eigen::Vector2d(0.0, 0.0);
+    const Eigen::Vector2d middle =
+        is_triangle(block.type) ? Eigen::Vector2d(1.0 / 3.0, 1.0 / 3.0) : Eigen::Vector2d(0.0, 0.0);
     const FaceShapes s = shapes(block.type, middle);
     const double reference = is_triangle(block.type) ? 0.5 : 4.0;
     for (Eigen::Index face = 0; face < block.connectivity.rows(); ++face) {
@@ -275,8 +276,9 @@ SurfacePlane fit_plane(const Eigen::MatrixX3d& nodes, const Surface& surface) {
   plane.normal = plane.normal.norm() > 1e-6 * area ? Eigen::Vector3d(plane.normal.normalized())
                                                    : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
   for (const Eigen::Vector3d& normal : normals) {
-    plane.largest_angle = std::max(
-        plane.largest_angle, std::atan2(normal.cross(plane.normal).norm(), normal.dot(plane.normal)));
+    plane.largest_angle =
+        std::max(plane.largest_angle,
+                 std::atan2(normal.cross(plane.normal).norm(), normal.dot(plane.normal)));
   }
   Eigen::Vector3d low = nodes.row(surface.nodes.front());
   Eigen::Vector3d high = low;

@@ -11,11 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include <Eigen/Core>
 #include <gmsh.h>
+#include <Eigen/Core>
 
-#include "mesh/mesh_error.hpp"
 #include "mesh/checks/mesh_quality.hpp"
+#include "mesh/mesh_error.hpp"
 
 namespace microslip::mesh {
 namespace {
@@ -56,10 +56,9 @@ int section_wire(const BladeGeometry& geometry, double height) {
     points.push_back(last);
     return occ::addSpline(points);
   };
-  return occ::addWire({spline(leading, suction, 0.0, 0.5, 1.0),
-                       spline(suction, trailing, 0.5, 1.0, 1.0),
-                       spline(trailing, pressure, 1.0, 0.5, -1.0),
-                       spline(pressure, leading, 0.5, 0.0, -1.0)});
+  return occ::addWire(
+      {spline(leading, suction, 0.0, 0.5, 1.0), spline(suction, trailing, 0.5, 1.0, 1.0),
+       spline(trailing, pressure, 1.0, 0.5, -1.0), spline(pressure, leading, 0.5, 0.0, -1.0)});
 }
 
 /// Root block, platform and aerofoil as one volume.
@@ -69,7 +68,8 @@ void build_volume(const BladeGeometry& g) {
   const int platform = occ::addBox(-0.5 * g.platform_width, g.root_height, -0.5 * g.platform_length,
                                    g.platform_width, g.platform_height, g.platform_length);
   std::vector<int> wires;
-  // The loft starts a little inside the platform: a face in the platform's face would be degenerate.
+  // The loft starts a little inside the platform: a face in the platform's face would be
+  // degenerate.
   const double sunk = -std::min(0.02, 0.5 * g.platform_height / g.span);
   for (const double height : {sunk, 0.25, 0.5, 0.75, 1.0}) wires.push_back(section_wire(g, height));
   Entities aerofoil;
@@ -195,8 +195,8 @@ std::vector<InvertedElement> inverted_elements(const Places& places) {
 void straighten(const InvertedElement& element, Places& places) {
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const std::size_t node = element.nodes[4 + k];
-    const Eigen::RowVector3d middle = 0.5 * (places.at(element.nodes[edges[k][0]]) +
-                                             places.at(element.nodes[edges[k][1]]));
+    const Eigen::RowVector3d middle =
+        0.5 * (places.at(element.nodes[edges[k][0]]) + places.at(element.nodes[edges[k][1]]));
     places.at(node) = middle;
     gmsh::model::mesh::setNode(node, {middle[0], middle[1], middle[2]}, {});
   }

@@ -11,17 +11,13 @@ namespace microslip::mesh {
 namespace {
 
 constexpr std::array<GmshType, 21> types{{
-    {1, 1, 2, "line", true},          {2, 2, 3, "tri3", true},
-    {3, 2, 4, "quad4", true},         {4, 3, 4, "tet4", true},
-    {5, 3, 8, "hex8", true},          {6, 3, 6, "wedge6", false},
-    {7, 3, 5, "pyramid5", false},     {8, 1, 3, "line3", true},
-    {9, 2, 6, "tri6", true},          {10, 2, 9, "quad9", false},
-    {11, 3, 10, "tet10", true},       {12, 3, 27, "hex27", false},
-    {13, 3, 18, "wedge18", false},    {14, 3, 14, "pyramid14", false},
-    {15, 0, 1, "point", true},        {16, 2, 8, "quad8", true},
-    {17, 3, 20, "hex20", true},       {18, 3, 15, "wedge15", false},
-    {19, 3, 13, "pyramid13", false},  {20, 2, 9, "tri9", false},
-    {21, 2, 10, "tri10", false},
+    {1, 1, 2, "line", true},         {2, 2, 3, "tri3", true},         {3, 2, 4, "quad4", true},
+    {4, 3, 4, "tet4", true},         {5, 3, 8, "hex8", true},         {6, 3, 6, "wedge6", false},
+    {7, 3, 5, "pyramid5", false},    {8, 1, 3, "line3", true},        {9, 2, 6, "tri6", true},
+    {10, 2, 9, "quad9", false},      {11, 3, 10, "tet10", true},      {12, 3, 27, "hex27", false},
+    {13, 3, 18, "wedge18", false},   {14, 3, 14, "pyramid14", false}, {15, 0, 1, "point", true},
+    {16, 2, 8, "quad8", true},       {17, 3, 20, "hex20", true},      {18, 3, 15, "wedge15", false},
+    {19, 3, 13, "pyramid13", false}, {20, 2, 9, "tri9", false},       {21, 2, 10, "tri10", false},
 }};
 
 /// Place in gmsh's list of each node of the project's order.
@@ -61,7 +57,8 @@ class MeshMaker {
     }
     std::vector<ElementBlock> blocks;
     for (auto& [type, list] : volumes_) blocks.push_back(block_of(type, list));
-    return {std::move(nodes_), std::move(blocks), std::move(surfaces_), std::move(node_sets_), n_repeated_};
+    return {std::move(nodes_), std::move(blocks), std::move(surfaces_), std::move(node_sets_),
+            n_repeated_};
   }
 
  private:
@@ -82,7 +79,8 @@ class MeshMaker {
         nodes_(i, d) = unit_ * content_.coordinates[3 * k + static_cast<std::size_t>(d)];
       }
       if (!index_.emplace(content_.node_tags[k], i).second) {
-        throw MeshError(file_ + ": node " + std::to_string(content_.node_tags[k]) + " stands twice");
+        throw MeshError(file_ + ": node " + std::to_string(content_.node_tags[k]) +
+                        " stands twice");
       }
     }
   }

@@ -13,11 +13,11 @@
 namespace microslip::mesh {
 
 struct GmshType {
-  int number;            ///< in the file
+  int number;  ///< in the file
   int dimension;
   int n_nodes;
   const char* name;
-  bool supported;        ///< volumes and faces this project knows, lines and points
+  bool supported;  ///< volumes and faces this project knows, lines and points
 };
 
 /// nullptr: a number gmsh does not define up to second order.
@@ -34,12 +34,13 @@ struct GmshElement {
 /// A file as it was read, before it becomes a Mesh.
 struct GmshContent {
   std::vector<std::int64_t> node_tags;
-  std::vector<double> coordinates;                                     ///< x y z per node
+  std::vector<double> coordinates;  ///< x y z per node
   std::vector<GmshElement> elements;
-  std::map<std::pair<int, std::int64_t>, std::string> group_names;     ///< (dimension, tag) → name
+  std::map<std::pair<int, std::int64_t>, std::string> group_names;  ///< (dimension, tag) → name
 };
 
 /// @throws MeshError  duplicate or unknown node tags; checks of Mesh. @param file  for messages.
-[[nodiscard]] Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file);
+[[nodiscard]] Mesh make_mesh(const GmshContent& content, double length_unit,
+                             const std::string& file);
 
 }  // namespace microslip::mesh

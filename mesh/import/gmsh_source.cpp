@@ -17,7 +17,8 @@ namespace {
 std::string content_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw MeshError(file.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(file, error)) throw MeshError(file.string() + ": not a file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw MeshError(file.string() + ": not a file");
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -43,8 +44,9 @@ void GmshSource::fail(const std::string& message) const {
   if (binary_) {
     text << name_ << ": byte " << end << ": " << message;
   } else {
-    text << name_ << ":" << 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(end), '\n')
-         << ": " << message;
+    text << name_ << ":"
+         << 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(end), '\n') << ": "
+         << message;
   }
   throw MeshError(text.str());
 }

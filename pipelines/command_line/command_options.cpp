@@ -53,8 +53,9 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
     return command;
   };
   const auto with_output = [&](CLI::App* command, const char* what) {
-    command->add_option("-o,--output", a.output, what)
-        ->check([](const std::string& name) { return name.empty() ? std::string("expected a name") : std::string(); });
+    command->add_option("-o,--output", a.output, what)->check([](const std::string& name) {
+      return name.empty() ? std::string("expected a name") : std::string();
+    });
     return command;
   };
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",

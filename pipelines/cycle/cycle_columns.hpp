@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch.hpp"
 #include "pipelines/text/csv_table.hpp"
 
 namespace microslip::pipelines {

@@ -11,8 +11,8 @@
 
 #include "pipelines/cycle/cycle_columns.hpp"
 #include "pipelines/cycle/cycle_row.hpp"
-#include "pipelines/system/output_file.hpp"
 #include "pipelines/files/plot_script.hpp"
+#include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

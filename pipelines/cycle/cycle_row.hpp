@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 
 #include "contact/point_cycle.hpp"
-#include "pipelines/text/csv_table.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
+#include "pipelines/text/csv_table.hpp"
 
 namespace microslip::pipelines {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "pipelines/text/csv_table.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
+#include "pipelines/text/csv_table.hpp"
 
 namespace microslip::pipelines {
 

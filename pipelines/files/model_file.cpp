@@ -24,7 +24,8 @@ void write_structure(Hdf5Writer& out, const ReducedModel& model) {
   out.vector("/frequency_Hz", model.frequency / (2.0 * std::numbers::pi), "Hz");
   out.vector("/angular_frequency", model.frequency, "rad/s");
   out.vector("/damping_ratio", model.damping_ratio, "1");
-  out.vector("/n_attachment", Eigen::VectorXd::Constant(1, static_cast<double>(model.n_attachment)), "1");
+  out.vector("/n_attachment", Eigen::VectorXd::Constant(1, static_cast<double>(model.n_attachment)),
+             "1");
   out.vector("/force_sine", model.force_sine, modal_force_unit);
   out.vector("/force_cosine", model.force_cosine, modal_force_unit);
   out.vector("/force_static", model.force_static, modal_force_unit);

@@ -72,7 +72,8 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
   for (const solver::DetachedBranch& branch : result.curve.detached) {
     solver::ResponseCurve alone;
     alone.points = branch.points;
-    write_whole(curves / fmt::format("{}_detached_{}.csv", result.name, ++number), curve_table(alone));
+    write_whole(curves / fmt::format("{}_detached_{}.csv", result.name, ++number),
+                curve_table(alone));
   }
 }
 
@@ -98,8 +99,9 @@ void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest
   for (const solver::PeakOfParameter& peak : optimum.trace) {
     table += row_of(columns, OptimumRow{optimum, peak}) + "\n";
   }
-  write_whole(folder / (request.of_preload() ? "peak_against_preload.csv" : "peak_against_parameter.csv"),
-              table);
+  write_whole(
+      folder / (request.of_preload() ? "peak_against_preload.csv" : "peak_against_parameter.csv"),
+      table);
 }
 
 }  // namespace microslip::pipelines

@@ -28,8 +28,9 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
 
 /// One row per mode. Members that are shorter than `frequency` leave the rest of their column empty.
 struct ModeTable {
-  Eigen::VectorXd frequency;      ///< ω [rad/s], N
-  Eigen::VectorXd residual;       ///< of the eigenpair [-]; none for modes that were given, and attachment shapes
+  Eigen::VectorXd frequency;  ///< ω [rad/s], N
+  Eigen::VectorXd
+      residual;  ///< of the eigenpair [-]; none for modes that were given, and attachment shapes
   Eigen::VectorXd damping_ratio;  ///< [-]
   Eigen::VectorXd fit_error;      ///< of the fitted contact field, relative [-]
   Eigen::Index n_attachment = 0;  ///< so many of them, the last, are attachment shapes

@@ -16,8 +16,8 @@
 
 #include "pipelines/files/columns.hpp"
 #include "pipelines/files/hdf5_file.hpp"
-#include "pipelines/system/output_file.hpp"
 #include "pipelines/files/vtk_file.hpp"
+#include "pipelines/system/output_file.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -27,10 +27,11 @@ const std::vector<std::string> state_names{"stick", "positive slip", "negative s
 const std::vector<std::string> start_names{"stick_start_deg", "positive_slip_start_deg",
                                            "negative_slip_start_deg", "separation_start_deg",
                                            "slip_start_deg"};
-const std::vector<std::string> share_names{"stick_share", "positive_slip_share", "negative_slip_share",
-                                           "separation_share", "slip_share"};
-const std::vector<std::string> count_names{"stick_starts", "positive_slip_starts", "negative_slip_starts",
-                                           "separation_starts", "slip_starts"};
+const std::vector<std::string> share_names{"stick_share", "positive_slip_share",
+                                           "negative_slip_share", "separation_share", "slip_share"};
+const std::vector<std::string> count_names{"stick_starts", "positive_slip_starts",
+                                           "negative_slip_starts", "separation_starts",
+                                           "slip_starts"};
 
 void require_rows(const char* what, const NamedMap& map, Eigen::Index rows, Eigen::Index expected) {
   if (rows == expected) return;
@@ -94,7 +95,8 @@ Eigen::MatrixXi start_counts(const contact::ContactMap& map) {
 
 void add_cycle_totals(vtkDataSetAttributes& data, const contact::ContactMap& map) {
   for (Eigen::Index state = 0; state < map.state_start.cols(); ++state) {
-    add_array(data, start_names.at(static_cast<std::size_t>(state)), map.state_start.col(state) / degree);
+    add_array(data, start_names.at(static_cast<std::size_t>(state)),
+              map.state_start.col(state) / degree);
   }
   const Eigen::MatrixXi counts = start_counts(map);
   for (Eigen::Index state = 0; state < counts.cols(); ++state) {

@@ -33,6 +33,7 @@ namespace microslip::pipelines {
 /// in a row.
 /// @throws std::invalid_argument  the map does not have one row per contact point (or vertex).
 /// @throws ExhaustedError         cannot be written.
-void write_map(const std::filesystem::path& folder, const contact::Patch& patch, const NamedMap& map);
+void write_map(const std::filesystem::path& folder, const contact::Patch& patch,
+               const NamedMap& map);
 
 }  // namespace microslip::pipelines

@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
+#include "pipelines/files/plot_script.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/json_entry.hpp"
-#include "pipelines/system/output_file.hpp"
-#include "pipelines/files/plot_script.hpp"
-#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -28,11 +28,13 @@ std::string read_summary(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) {
     throw SceneError(fmt::format("{}: {}", folder.string(),
-                                 std::filesystem::exists(folder, error) ? "not a folder; expected the folder of a run"
-                                                                        : "no such folder"));
+                                 std::filesystem::exists(folder, error)
+                                     ? "not a folder; expected the folder of a run"
+                                     : "no such folder"));
   }
   if (!std::filesystem::exists(file, error)) {
-    throw SceneError(file.string() + ": missing; is this the folder of a run, and has the run ended?");
+    throw SceneError(file.string() +
+                     ": missing; is this the folder of a run, and has the run ended?");
   }
   constexpr std::uintmax_t largest = 1'000'000'000;  // bytes
   return read_text(file, largest);
@@ -58,10 +60,10 @@ std::string structure_text(const JsonEntry& run) {
   std::string text;
   if (run.has("mesh")) {
     const JsonEntry mesh = run.at("mesh");
-    text +=
-        fmt::format("Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
-                    mesh.integer("nodes"), mesh.integer("elements"), mesh.integer("degrees_of_freedom"),
-                    mesh.number("volume_m3"), mesh.number("mass_kg"));
+    text += fmt::format(
+        "Mesh: {} nodes, {} elements, {} degrees of freedom, {:.6g} m³, {:.6g} kg.\n\n",
+        mesh.integer("nodes"), mesh.integer("elements"), mesh.integer("degrees_of_freedom"),
+        mesh.number("volume_m3"), mesh.number("mass_kg"));
   }
   text += "| mode | frequency [Hz] | damping ratio |\n|---:|---:|---:|\n";
   int number = 0;
@@ -76,19 +78,23 @@ std::string curve_row(const JsonEntry& curve) {
   std::string peak_text = "– | –";
   if (curve.has("peak")) {
     const JsonEntry peak = curve.at("peak");
-    peak_text = fmt::format("{:.4f} | {:.5g}", peak.number("frequency_Hz"), peak.number("amplitude_m"));
+    peak_text =
+        fmt::format("{:.4f} | {:.5g}", peak.number("frequency_Hz"), peak.number("amplitude_m"));
   }
   std::string folds;
   for (const JsonEntry& fold : curve.list("folds_Hz")) {
     folds += fmt::format("{}{:.4f}", folds.empty() ? "" : ", ", fold.as_number());
   }
   const std::string name = curve.text("name");
-  for (const JsonEntry& map : curve.list("maps")) static_cast<void>(map.as_text());  // the plots read them
+  for (const JsonEntry& map : curve.list("maps"))
+    static_cast<void>(map.as_text());  // the plots read them
   if (curve.has("preload_scale")) static_cast<void>(curve.number("preload_scale"));
-  const std::string state =
-      curve.truth("complete") ? "complete" : fmt::format("**incomplete**: {}", curve.text("diagnosis"));
-  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n", preload_text(curve),
-                     peak_text, folds.empty() ? "–" : folds, state, name, name, curve.integer("points"));
+  const std::string state = curve.truth("complete")
+                                ? "complete"
+                                : fmt::format("**incomplete**: {}", curve.text("diagnosis"));
+  return fmt::format("| {} | {} | {} | {} | [{}](curves/{}.csv), {} points |\n",
+                     preload_text(curve), peak_text, folds.empty() ? "–" : folds, state, name, name,
+                     curve.integer("points"));
 }
 
 /// A sentence where the contact is open on a part of it; empty elsewhere and for limits.
@@ -98,7 +104,8 @@ std::string gap_text(const JsonEntry& curve) {
   const double gaps = pressed - curve.number("preload_integral_N");
   if (!(pressed > 0.0 && gaps > 1e-12 * pressed)) return {};  // sums round to 1e-14
   return fmt::format(
-      "\nPreload {}: the contact carries {:.6g} N and is open on a part of it; the integral with the gaps counted "
+      "\nPreload {}: the contact carries {:.6g} N and is open on a part of it; the integral with "
+      "the gaps counted "
       "as pull is {:.6g} N.\n",
       preload_text(curve), pressed, pressed - gaps);
 }
@@ -110,18 +117,24 @@ std::string detached_text(const JsonEntry& curve) {
   const std::string name = curve.text("name");
   std::string files;
   for (long i = 1; i <= n; ++i) {
-    files += fmt::format("{}[{}_detached_{}](curves/{}_detached_{}.csv)", i > 1 ? ", " : "", name, i, name, i);
+    files += fmt::format("{}[{}_detached_{}](curves/{}_detached_{}.csv)", i > 1 ? ", " : "", name,
+                         i, name, i);
   }
-  return fmt::format("\nPreload {}: the search found {} beside this curve: {}.\n", preload_text(curve),
-                     n == 1 ? "another branch or solution" : fmt::format("{} other branches or solutions", n),
-                     files);
+  return fmt::format(
+      "\nPreload {}: the search found {} beside this curve: {}.\n", preload_text(curve),
+      n == 1 ? "another branch or solution" : fmt::format("{} other branches or solutions", n),
+      files);
 }
 
 /// The best value of a search; the first versions searched the preload alone.
-double value_of(const JsonEntry& optimum) { return optimum.number(optimum.has("value") ? "value" : "preload_N"); }
+double value_of(const JsonEntry& optimum) {
+  return optimum.number(optimum.has("value") ? "value" : "preload_N");
+}
 
 /// Where a best amplitude is; a peak in runs that do not say.
-std::string place_of(const JsonEntry& optimum) { return optimum.has("at") ? optimum.text("at") : "peak"; }
+std::string place_of(const JsonEntry& optimum) {
+  return optimum.has("at") ? optimum.text("at") : "peak";
+}
 
 bool is_found(const JsonEntry& optimum) { return !optimum.has("found") || optimum.truth("found"); }
 
@@ -133,10 +146,11 @@ std::string text_or_none(const JsonEntry& entry, const char* key) {
 std::string optimum_cells(const JsonEntry& peak) {
   if (!peak.has("amplitude_m")) return "– | – | – |\n";
   const std::vector<JsonEntry> flat = peak.list("flat");
-  const std::string value = flat.size() == 2
-                                ? fmt::format("{:.6g} … {:.6g}", flat[0].as_number(), flat[1].as_number())
-                                : fmt::format("{:.6g}", value_of(peak));
-  return fmt::format("{} | {:.5g} | {:.4f}{} |\n", value, peak.number("amplitude_m"), peak.number("frequency_Hz"),
+  const std::string value =
+      flat.size() == 2 ? fmt::format("{:.6g} … {:.6g}", flat[0].as_number(), flat[1].as_number())
+                       : fmt::format("{:.6g}", value_of(peak));
+  return fmt::format("{} | {:.5g} | {:.4f}{} |\n", value, peak.number("amplitude_m"),
+                     peak.number("frequency_Hz"),
                      place_of(peak) == "range_end" ? " (end of the range)" : "");
 }
 
@@ -145,7 +159,8 @@ std::string range_text(const JsonEntry& entry) {
   if (!entry.has("range_widened") || !entry.truth("range_widened")) return {};
   const std::vector<JsonEntry> range = entry.list("range");
   return range.size() != 2 ? std::string()
-                           : fmt::format(" (searched wider: {:.6g} … {:.6g})", range[0].as_number(), range[1].as_number());
+                           : fmt::format(" (searched wider: {:.6g} … {:.6g})", range[0].as_number(),
+                                         range[1].as_number());
 }
 
 std::string parameter_of(const JsonEntry& optimum) {
@@ -157,19 +172,22 @@ std::string optimum_sentence(const JsonEntry& optimum) {
   const std::string message = text_or_none(optimum, "message");
   if (!is_found(optimum)) return fmt::format("Best {} not found: {}.", key, message);
   return fmt::format("Best {}: {:.6g}{}, {} {:.5g} m at {:.4f} Hz{}{}.", key, value_of(optimum),
-                     key == "preload" ? " N" : " (SI)", place_of(optimum) == "peak" ? "peak" : "largest amplitude",
-                     optimum.number("amplitude_m"), optimum.number("frequency_Hz"), message.empty() ? "" : "; ",
-                     message);
+                     key == "preload" ? " N" : " (SI)",
+                     place_of(optimum) == "peak" ? "peak" : "largest amplitude",
+                     optimum.number("amplitude_m"), optimum.number("frequency_Hz"),
+                     message.empty() ? "" : "; ", message);
 }
 
 std::string optimum_text(const JsonEntry& optimum) {
   std::string text = fmt::format("\n{}\n\n", optimum_sentence(optimum));
-  text += fmt::format("| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given{} | ",
-                      parameter_of(optimum), is_found(optimum) ? "" : " (lowest, not found)");
+  text += fmt::format(
+      "| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given{} | ",
+      parameter_of(optimum), is_found(optimum) ? "" : " (lowest, not found)");
   text += optimum_cells(optimum);
   for (const JsonEntry& entry : optimum.list("bracket")) {
     const std::string objection = is_found(entry) ? "" : text_or_none(entry, "objection");
-    text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"), range_text(entry),
+    text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"),
+                        range_text(entry),
                         is_found(entry)     ? ""
                         : objection.empty() ? " (lowest, not found)"
                                             : fmt::format(" (lowest: {})", objection)) +
@@ -201,8 +219,8 @@ std::string cost_text(const JsonEntry& run) {
   }
   if (!run.has("machine")) return text;
   const JsonEntry machine = run.at("machine");
-  return text + fmt::format("\n{}, {} cores; {}.\n", machine.text("processor"), machine.integer("cores"),
-                            machine.text("blas"));
+  return text + fmt::format("\n{}, {} cores; {}.\n", machine.text("processor"),
+                            machine.integer("cores"), machine.text("blas"));
 }
 
 std::string plots_text(const std::vector<std::string>& plots) {
@@ -240,7 +258,8 @@ std::string report_text(const std::string& summary_json, const std::vector<std::
 std::vector<std::string> write_report(const std::filesystem::path& folder) {
   const std::string summary = read_summary(folder);
   const std::string name = (folder / "summary.json").string();
-  static_cast<void>(report_text(summary, {}, name));  // a damaged summary is told before plots are made of it
+  static_cast<void>(
+      report_text(summary, {}, name));  // a damaged summary is told before plots are made of it
   std::vector<std::string> warnings;
   if (const std::string failure = make_plots(folder); !failure.empty()) warnings.push_back(failure);
   write_whole(folder / "report.md", report_text(summary, plot_names(folder), name));

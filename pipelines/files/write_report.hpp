@@ -25,7 +25,8 @@ void rebuild_report(const std::filesystem::path& folder);
 /// @param summary_json  text of summary.json. @param plots  file names in plots/.
 /// @param name          how messages call the summary.
 /// @throws SceneError   not JSON, or not a run summary: "name:line:column: …" or "name: key.path: …".
-[[nodiscard]] std::string report_text(const std::string& summary_json, const std::vector<std::string>& plots,
+[[nodiscard]] std::string report_text(const std::string& summary_json,
+                                      const std::vector<std::string>& plots,
                                       const std::string& name = "summary.json");
 
 }  // namespace microslip::pipelines

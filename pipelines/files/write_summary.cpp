@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "pipelines/system/output_file.hpp"
 #include "pipelines/files/columns.hpp"
+#include "pipelines/system/output_file.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -17,8 +17,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pipelines/system/output_file.hpp"
 #include "pipelines/files/vtk_file.hpp"
+#include "pipelines/system/output_file.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -86,7 +86,8 @@ std::string no_stiffness_factor(const ReducedModel& model, const SceneDescriptio
   if (model.patches.empty()) return "there is no contact";
   if (is_rough(model)) return "it follows from the law of the rough surfaces";
   if (stiffness_place(scene) != StiffnessPlace::none) return "";
-  return "the contact is rigid: its stiffness is the residual flexibility of the bodies, which is known";
+  return "the contact is rigid: its stiffness is the residual flexibility of the bodies, which is "
+         "known";
 }
 
 }  // namespace microslip::pipelines

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "contact/patch/modal_contact_field.hpp"
 #include "pipelines/model/nodal_load.hpp"
@@ -17,9 +17,10 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double flatness_limit = 0.01;          // of the diameter: beyond, a planar patch misleads
-constexpr double flatness_told = 1e-3;  // of the diameter: gaps between real faces are micrometres
-constexpr double angle_limit_rad = 5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
+constexpr double flatness_limit = 0.01;  // of the diameter: beyond, a planar patch misleads
+constexpr double flatness_told = 1e-3;   // of the diameter: gaps between real faces are micrometres
+constexpr double angle_limit_rad =
+    5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
 
 /// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
 Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::Index>& nodes,
@@ -113,7 +114,8 @@ void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
                    const fem::ResidualFlexibility* residual) {
   if (residual == nullptr && (!contact.normal_stiffness || !contact.tangential_stiffness)) {
     throw RefusedError(
-        contact.key + ": \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
+        contact.key +
+        ": \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
         "none; give a local stiffness in N/m^3");
   }
   const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
@@ -196,7 +198,8 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
     shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
   } else {
     const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
-    const contact::ModalContactField field = fitted_field(mesh, surface, sampling, contact, nodal, plane);
+    const contact::ModalContactField field =
+        fitted_field(mesh, surface, sampling, contact, nodal, plane);
     patch.fit_degree = field.degree();
     patch.fit_error = field.fit_error();
     shapes = shapes_of(field, sampling, plane);
@@ -217,10 +220,11 @@ void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
         contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
   }
   if (plane.flatness > flatness_told * plane.diameter) {
-    warnings.push_back(fmt::format(
-        "contact surface \"{}\": nodes are up to {:.3g} m off the mean plane ({:.2g} % of its size); the "
-        "patch is simulated as plane, with the preload as given",
-        contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
+    warnings.push_back(
+        fmt::format("contact surface \"{}\": nodes are up to {:.3g} m off the mean plane ({:.2g} % "
+                    "of its size); the "
+                    "patch is simulated as plane, with the preload as given",
+                    contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
   }
   if (patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > 0.05) {
     Eigen::Index mode = 0;
@@ -234,8 +238,9 @@ void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
 
 }  // namespace
 
-Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen::VectorXd& residual,
-                                 const char* direction, bool refuse) {
+Eigen::VectorXd series_stiffness(const std::optional<double>& local,
+                                 const Eigen::VectorXd& residual, const char* direction,
+                                 bool refuse) {
   const double local_flexibility = local ? (*local > 0.0 ? 1.0 / *local : 0.0) : 0.0;
   if (local && *local == 0.0) return Eigen::VectorXd::Zero(residual.size());
   const Eigen::ArrayXd flexibility = residual.array() + local_flexibility;
@@ -243,7 +248,8 @@ Eigen::VectorXd series_stiffness(const std::optional<double>& local, const Eigen
   if (n_bad > 0 && refuse) {
     throw RefusedError(fmt::format(
         "residual flexibility makes the {} contact stiffness not positive at {} of {} points "
-        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness and modes.residual = "
+        "(smallest 1/k_local + c = {:.3g} m^3/N): give a finite local stiffness and modes.residual "
+        "= "
         "\"attachment\", or more modes",
         direction, n_bad, residual.size(), flexibility.minCoeff()));
   }

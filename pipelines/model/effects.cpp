@@ -23,8 +23,9 @@ ContactFacts facts_of(const SceneDescription& scene) {
     facts.has_friction = std::any_of(modal->points.begin(), modal->points.end(), [](const auto& p) {
       return p.friction_coefficient > 0.0 && p.tangential_stiffness > 0.0;
     });
-    facts.has_normal_stiffness = std::any_of(modal->points.begin(), modal->points.end(),
-                                             [](const auto& p) { return p.normal_stiffness > 0.0; });
+    facts.has_normal_stiffness =
+        std::any_of(modal->points.begin(), modal->points.end(),
+                    [](const auto& p) { return p.normal_stiffness > 0.0; });
   }
   for (const ContactDescription& contact : scene.contacts) {
     facts.has_contact = true;
@@ -61,14 +62,17 @@ void add_second_direction(const SceneDescription& scene, const ReducedModel* mod
 /// By a force that varies in time.
 bool is_excited(const SceneDescription& scene) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    return modal->force_sine.cwiseAbs().maxCoeff() > 0.0 || modal->force_cosine.cwiseAbs().maxCoeff() > 0.0;
+    return modal->force_sine.cwiseAbs().maxCoeff() > 0.0 ||
+           modal->force_cosine.cwiseAbs().maxCoeff() > 0.0;
   }
-  return std::ranges::any_of(scene.forces, [](const ForceDescription& force) { return force.amplitude != 0.0; });
+  return std::ranges::any_of(scene.forces,
+                             [](const ForceDescription& force) { return force.amplitude != 0.0; });
 }
 
 /// A mode that vibrates without damping.
 bool is_undamped(const SceneDescription& scene) {
-  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) return ((modal->damping_ratio.array() == 0.0) && (modal->frequency_hz.array() > 0.0)).any();
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model))
+    return ((modal->damping_ratio.array() == 0.0) && (modal->frequency_hz.array() > 0.0)).any();
   if (const auto* rayleigh = std::get_if<RayleighDamping>(&scene.modes.damping)) {
     return rayleigh->alpha == 0.0 && rayleigh->beta == 0.0;
   }
@@ -86,7 +90,8 @@ std::string harmonics_text(const SceneDescription& scene) {
   }
   if (response.harmonic_tolerance > 0.0) {
     return fmt::format(
-        "response.harmonics = \"auto\": those beyond the first that change the highest peaks by more than "
+        "response.harmonics = \"auto\": those beyond the first that change the highest peaks by "
+        "more than "
         "{:.2g} %",
         100.0 * response.harmonic_tolerance);
   }
@@ -102,8 +107,9 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   const ResidualKind residual = modal != nullptr ? modal->residual : scene.modes.residual;
   const bool left_out = setting_of(scene, "normal_motion") == "off";
   const bool normal = facts.has_normal_stiffness && !left_out;
-  const std::string constant_load = left_out ? "effects.normal_motion = \"off\": the load stays that of rest"
-                                             : "no normal stiffness: the load is constant";
+  const std::string constant_load =
+      left_out ? "effects.normal_motion = \"off\": the load stays that of rest"
+               : "no normal stiffness: the load is constant";
   std::vector<EffectRecord> effects;
   const auto add = [&](const char* name, bool simulated, const std::string& why,
                        const std::string& why_not) {
@@ -111,8 +117,8 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
   };
   add("friction", facts.has_friction, "friction coefficient and tangential stiffness are positive",
       facts.has_contact ? "no point has friction" : "the scene has no contact");
-  add("normal_motion", normal, "the contact has normal stiffness: its load varies with the approach",
-      constant_load);
+  add("normal_motion", normal,
+      "the contact has normal stiffness: its load varies with the approach", constant_load);
   add("separation", normal, "the contact is one-sided", constant_load);
   add("mean_coupling", normal, "the mean approach changes the load", constant_load);
   add("residual", facts.has_contact && residual != ResidualKind::none,
@@ -123,15 +129,15 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
                        : "the given stiffness is used as it is");
   const bool several = scene.response && scene.response->harmonics > 1;
   add("stability", facts.has_contact,
-      several ? "Hill's exponents of every point with several harmonics, where they can tell; in scenes of few "
+      several ? "Hill's exponents of every point with several harmonics, where they can tell; in "
+                "scenes of few "
                 "modes and points the multipliers of a period in time"
               : "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add_second_direction(scene, model, effects);
   add("higher_harmonics", scene.response && scene.response->harmonics > 1, harmonics_text(scene),
       "response.harmonics = 1");
-  add("roughness", is_rough(scene), "the surfaces are rough",
-      "no roughness is given");
+  add("roughness", is_rough(scene), "the surfaces are rough", "no roughness is given");
   add("rate_dependence", is_rate_dependent(scene),
       "the friction coefficient follows the slip speed", "the friction coefficient is constant");
   return effects;
@@ -145,17 +151,20 @@ std::vector<std::string> scene_warnings(const SceneDescription& scene) {
     constexpr double fast = 1e300;  // [m/s]: the law at any speed there is
     const double kinetic = law->at(fast).value;
     if (kinetic > law->at_rest()) {
-      warnings.push_back(fmt::format(
-          "friction law: the kinetic coefficient {:g} is above the static {:g}: friction grows with the slip speed; "
-          "are the two exchanged?",
-          kinetic, law->at_rest()));
+      warnings.push_back(
+          fmt::format("friction law: the kinetic coefficient {:g} is above the static {:g}: "
+                      "friction grows with the slip speed; "
+                      "are the two exchanged?",
+                      kinetic, law->at_rest()));
     }
   }
   if (!scene.response) return warnings;
-  if (!is_excited(scene)) warnings.emplace_back("no force excites the structure: its response will be zero");
+  if (!is_excited(scene))
+    warnings.emplace_back("no force excites the structure: its response will be zero");
   if (is_undamped(scene)) {
     warnings.emplace_back(
-        "a mode has no damping: where friction takes no energy, as in the free and the stuck limit, its peak may "
+        "a mode has no damping: where friction takes no energy, as in the free and the stuck "
+        "limit, its peak may "
         "have no end, and the curve be incomplete then");
   }
   const auto [low, high] =

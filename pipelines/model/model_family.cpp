@@ -86,8 +86,7 @@ const ReducedModel& ModelFamily::at(double value, double stiffness_factor) {
   if (known != models_.end()) return known->second;
   SceneDescription changed = with_value(scene_, key_, value);
   const Structure structure = structure_at(value, changed);
-  return models_
-      .emplace(place, reduced(std::move(changed), stiffness_factor, structure.get()))
+  return models_.emplace(place, reduced(std::move(changed), stiffness_factor, structure.get()))
       .first->second;
 }
 

@@ -11,8 +11,8 @@
 
 #include "mesh/mesh.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/scene_description.hpp"
 #include "pipelines/model/structure_stage.hpp"
+#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 
@@ -61,9 +61,9 @@ class ModelFamily {
   std::string key_;
   bool second_direction_;
   Structure structure_;
-  std::map<double, Structure> structures_;  // by value
+  std::map<double, Structure> structures_;                    // by value
   std::map<std::pair<double, double>, ReducedModel> models_;  // by value and factor
-  std::map<double, ReducedModel> given_;  // by factor
+  std::map<double, ReducedModel> given_;                      // by factor
 };
 
 }  // namespace microslip::pipelines

@@ -92,7 +92,8 @@ struct PatchMotion {
 };
 
 /// Nothing where the response has no bound, at a resonance without damping.
-PatchMotion motion_at(const ReducedModel& model, const Eigen::MatrixXd& stiffness, double frequency) {
+PatchMotion motion_at(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
+                      double frequency) {
   const Eigen::VectorXcd q = linear_response(model, stiffness, frequency);
   if (!q.allFinite()) return {};
   return {rms(model, &contact::ModalShapes::u, q), rms(model, &contact::ModalShapes::w, q)};

@@ -9,8 +9,8 @@
 #include "contact/patch/preload_field.hpp"
 #include "mesh/surface.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/scene/field_description.hpp"
 #include "pipelines/scene/curve_request.hpp"
+#include "pipelines/scene/field_description.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -53,7 +53,8 @@ Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::Vec
   const Eigen::VectorXd shape = Field(*contact.preload_field).at(p, r);
   try {
     Eigen::VectorXd preload = contact::scaled_preload(shape, weights, 1.0);
-    contact::require_total(preload, weights, 1.0, 1e-12);  // sums of thousands of points round to 1e-14
+    contact::require_total(preload, weights, 1.0,
+                           1e-12);  // sums of thousands of points round to 1e-14
     return preload;
   } catch (const std::invalid_argument& error) {
     throw SceneError(contact.preload_field->place + ": " + error.what());
@@ -100,7 +101,8 @@ std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& c
   const double pressed = face.weights.dot((preload.array() > 0.0).cast<double>().matrix());
   if (!(preload.minCoeff() < 0.0)) return {};
   return fmt::format(
-      "preload field: presses on {:.1f} % of the patch, a gap on the rest; of a preload of 100 N the contact "
+      "preload field: presses on {:.1f} % of the patch, a gap on the rest; of a preload of 100 N "
+      "the contact "
       "carries 100 N, and the integral of the field, gaps counted as pull, is {:.6g} N",
       100.0 * pressed / face.weights.sum(), 100.0 * integral);
 }
@@ -119,7 +121,8 @@ std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& sce
   for (const ContactDescription& contact : scene.contacts) {
     const std::string one = describe_preload(mesh, contact);
     if (one.empty()) continue;
-    text += (text.empty() ? "" : "\n") + (scene.contacts.size() > 1 ? contact.name + ": " : "") + one;
+    text +=
+        (text.empty() ? "" : "\n") + (scene.contacts.size() > 1 ? contact.name + ": " : "") + one;
   }
   return text;
 }

@@ -16,12 +16,13 @@ using contact::ContactEffects;
 
 /// What the response stage needs, and model.h5 holds: the same for scenes with a mesh and without.
 struct ReducedModel {
-  Eigen::VectorXd frequency;      ///< ω_n [rad/s], N
-  Eigen::Index n_attachment = 0;  ///< so many of the N, the last, are attachment shapes (theory 14.1)
-  Eigen::VectorXd damping_ratio;  ///< N
+  Eigen::VectorXd frequency;  ///< ω_n [rad/s], N
+  Eigen::Index n_attachment =
+      0;  ///< so many of the N, the last, are attachment shapes (theory 14.1)
+  Eigen::VectorXd damping_ratio;                           ///< N
   Eigen::VectorXd force_sine, force_cosine, force_static;  ///< modal force [N/√kg], N
-  Eigen::VectorXd output;         ///< y = output · q [1/√kg], N
-  std::vector<contact::Patch> patches;  ///< none: no contact
+  Eigen::VectorXd output;                                  ///< y = output · q [1/√kg], N
+  std::vector<contact::Patch> patches;                     ///< none: no contact
   ContactEffects effects;
 };
 

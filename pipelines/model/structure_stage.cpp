@@ -12,9 +12,9 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/system/interrupt.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
+#include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -32,13 +32,16 @@ std::string attachment_text(const fem::AttachedBasis& attached) {
   const fem::ModalBasis& basis = attached.basis;
   if (basis.n_attachment == 0) return "attachment: the modes leave nothing out";
   std::string text = fmt::format(
-      "attachment: {} static shapes of tractions up to degree {} and of the forces, from {:.6g} Hz to {:.6g} Hz",
-      basis.n_attachment, attached.degree, basis.frequency[basis.n_free()] / (2.0 * std::numbers::pi),
+      "attachment: {} static shapes of tractions up to degree {} and of the forces, from {:.6g} Hz "
+      "to {:.6g} Hz",
+      basis.n_attachment, attached.degree,
+      basis.frequency[basis.n_free()] / (2.0 * std::numbers::pi),
       basis.frequency[basis.frequency.size() - 1] / (2.0 * std::numbers::pi));
-  if (attached.n_dropped > 0) text += fmt::format("; {} that depend on others left out", attached.n_dropped);
+  if (attached.n_dropped > 0)
+    text += fmt::format("; {} that depend on others left out", attached.n_dropped);
   if (std::isfinite(attached.missed_share)) {
-    text += fmt::format("; tractions of degree {} miss at most {:.2g} % of their flexibility", attached.degree + 1,
-                        100.0 * attached.missed_share);
+    text += fmt::format("; tractions of degree {} miss at most {:.2g} % of their flexibility",
+                        attached.degree + 1, 100.0 * attached.missed_share);
   }
   return text;
 }
@@ -50,7 +53,8 @@ void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescri
   options.degree = scene.modes.attachment_degree;
   std::vector<fem::AttachmentFace> faces;
   for (const ContactDescription& contact : scene.contacts) {
-    const double tangential = contact.tangential_stiffness.value();  // settle_residual() saw to both
+    const double tangential =
+        contact.tangential_stiffness.value();  // settle_residual() saw to both
     const Eigen::Vector3d local(tangential, contact.normal_stiffness.value(), tangential);
     faces.push_back({mesh.surface(contact.surface), contact_frame(mesh, contact), local});
   }
@@ -95,12 +99,13 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
       "mesh: {} nodes, {} elements, volume {:.6g} m^3, mass {:.6g} kg\n"
       "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
       "surfaces: {}",
-      mesh.n_nodes(), mesh.n_elements(), mesh.volume(), density * mesh.volume(), lower.x(), upper.x(),
-      lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
+      mesh.n_nodes(), mesh.n_elements(), mesh.volume(), density * mesh.volume(), lower.x(),
+      upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
   const auto sets = mesh.node_set_names();
   if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
   if (mesh.n_loose_nodes() > 0) {
-    text += fmt::format("\n{} nodes belong to no volume element and are left out", mesh.n_loose_nodes());
+    text += fmt::format("\n{} nodes belong to no volume element and are left out",
+                        mesh.n_loose_nodes());
   }
   return text;
 }

@@ -25,7 +25,8 @@ struct StructureModes {
   Eigen::Index n_dofs = 0;  ///< free degrees of freedom
   double mass = 0.0;        ///< [kg]
   fem::ModalBasis basis;
-  std::vector<fem::ResidualFlexibility> residuals;  ///< of the contact surfaces, one each; empty: none
+  std::vector<fem::ResidualFlexibility>
+      residuals;  ///< of the contact surfaces, one each; empty: none
   /// How the attachment shapes of `basis` were chosen, "" without them.
   std::string attachment_text;
   fem::ModalTimings timings;

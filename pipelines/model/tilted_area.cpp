@@ -32,13 +32,15 @@ std::vector<Moments> moments_of(const SceneDescription& scene) {
   return moments;
 }
 
-void require_pressing(const Moments& moments, const std::string& name, double load, const char* unit = "N") {
+void require_pressing(const Moments& moments, const std::string& name, double load,
+                      const char* unit = "N") {
   if (load > 0.0) return;
-  throw RefusedError(fmt::format(
-      "preload-unbalanced: {} = {:g} {}: {} = [{:g}, {:g}] N m turns the contact under every preload, and {} "
-      "carries no moment; leave this preload out, or the moments",
-      name, load, unit, moments.key, moments.moment[0], moments.moment[1],
-      load < 0.0 ? "a gap (a negative preload)" : "a contact without load"));
+  throw RefusedError(
+      fmt::format("preload-unbalanced: {} = {:g} {}: {} = [{:g}, {:g}] N m turns the contact under "
+                  "every preload, and {} "
+                  "carries no moment; leave this preload out, or the moments",
+                  name, load, unit, moments.key, moments.moment[0], moments.moment[1],
+                  load < 0.0 ? "a gap (a negative preload)" : "a contact without load"));
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummar
   for (EffectRecord& effect : effects) {
     if (effect.name != "higher_harmonics") continue;
     effect.simulated = *orders.rbegin() > 1;
-    effect.reason = fmt::format(
-        "{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
-        harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
+    effect.reason =
+        fmt::format("{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
+                    harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
   }
 }
 

@@ -65,8 +65,8 @@ solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
 solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const {
   solver::OptimumOptions options = options_;
   if (request_.of_preload()) {
-    // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal load
-    // varies with the motion.
+    // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal
+    // load varies with the motion.
     options.lower = std::min(options.lower, options.lower / factors.friction);
     options.upper = std::max(options.upper, options.upper / factors.friction);
   }
@@ -75,18 +75,20 @@ solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const 
 
 solver::Optimum OptimumSearch::search(const Factors& factors) {
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
-                               continuation_options(*scene_.response, model_), options_for(factors));
+                               continuation_options(*scene_.response, model_),
+                               options_for(factors));
 }
 
 std::string OptimumSearch::warning() const {
   const ResponseDescription& response = *scene_.response;
   if (response.method != ResponseDescription::Method::time) return "";
-  const std::string harmonics =
-      response.harmonic_tolerance > 0.0 ? "chosen harmonics"
-      : response.harmonics == 1         ? "1 harmonic"
-                                        : fmt::format("harmonics up to {}", response.harmonics);
+  const std::string harmonics = response.harmonic_tolerance > 0.0 ? "chosen harmonics"
+                                : response.harmonics == 1
+                                    ? "1 harmonic"
+                                    : fmt::format("harmonics up to {}", response.harmonics);
   return fmt::format(
-      "response.optimum: searched by harmonic balance with {}, not by integration in time as the curves: "
+      "response.optimum: searched by harmonic balance with {}, not by integration in time as the "
+      "curves: "
       "integrate a curve at the best value to compare",
       harmonics);
 }
@@ -105,7 +107,8 @@ OptimumBracket OptimumSearch::bracket() {
     try {
       const solver::OptimumOptions options = options_for(factors);
       const bool widened = options.lower < options_.lower || options.upper > options_.upper;
-      bracket.entries.push_back({parameter, factor, search(factors), {options.lower, options.upper}, widened});
+      bracket.entries.push_back(
+          {parameter, factor, search(factors), {options.lower, options.upper}, widened});
     } catch (const RefusedError& error) {
       bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
     }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/model_family.hpp"
+#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/scene/scene_description.hpp"
 #include "solver/peak.hpp"

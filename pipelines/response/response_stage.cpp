@@ -12,15 +12,16 @@
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/slow_attachment.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the last digits dear.
+// Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the
+// last digits dear.
 constexpr double sampled_tolerance = 1e-10;
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
@@ -90,7 +91,8 @@ Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription&
 }
 
 /// Explicit steps need not follow attachment shapes, see slow_attachment.hpp.
-solver::Scene integrated_scene(const ReducedModel& model, const ResponseDescription& response, double load) {
+solver::Scene integrated_scene(const ReducedModel& model, const ResponseDescription& response,
+                               double load) {
   const ReducedModel slow = slowed(model, slowing_of(model, response));
   solver::Scene problem = solver_scene(slow, load);
   problem.transient = transient_force(slow, load);
@@ -129,8 +131,9 @@ void require_response(const SceneDescription& scene) {
 void require_finite(const ReducedModel& model, const SceneDescription& scene) {
   const auto require = [&](const char* what, double sum) {
     if (std::isfinite(sum)) return;
-    throw SceneError(fmt::format("{}: {} comes to more than double precision holds: are all units right?",
-                                 scene.file.string(), what));
+    throw SceneError(
+        fmt::format("{}: {} comes to more than double precision holds: are all units right?",
+                    scene.file.string(), what));
   };
   require("a natural frequency", model.frequency.squaredNorm());
   require("the excitation", model.force_sine.squaredNorm() + model.force_cosine.squaredNorm());
@@ -153,11 +156,13 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
   if (n_loose == 0) return;
   const bool has_supports = !std::holds_alternative<ModalModel>(scene.model);
   throw RefusedError(fmt::format(
-      "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free even "
+      "rigid-body: {} of the {} modes are rigid-body motions and nothing holds them ({} stay free "
+      "even "
       "with every contact point stuck): {}",
       n_rigid, model.frequency.size(), n_loose,
-      has_supports ? "name the clamped surfaces in [supports] clamped"
-                   : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
+      has_supports
+          ? "name the clamped surfaces in [supports] clamped"
+          : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {
@@ -219,12 +224,13 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   result.preload = preload_of(request, model);
   if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
   if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
-    options.residual_tolerance = solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
+    options.residual_tolerance =
+        solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
     options.corrector = solver::ContinuationOptions::Corrector::newton;
-    result.curve = solver::trace_linear(limit_scene(model),
-                                        *limit == LimitName::free ? solver::LinearLimit::free
-                                                                  : solver::LinearLimit::stuck,
-                                        options);
+    result.curve = solver::trace_linear(
+        limit_scene(model),
+        *limit == LimitName::free ? solver::LinearLimit::free : solver::LinearLimit::stuck,
+        options);
     add_limit_shares(model, result);
     return result;
   }
@@ -276,12 +282,12 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
       const ResponseDescription& range = *scene.response;
-      const bool solved_there = *frequency == range.frequency_begin_hz &&
-                                *frequency == range.frequency_end_hz;
+      const bool solved_there =
+          *frequency == range.frequency_begin_hz && *frequency == range.frequency_end_hz;
       const auto points =
           solved_there ? result.curve.points
-                       : solver::points_at_frequency(balanced_scene(model, *load, options), result.curve,
-                                                     two_pi * *frequency, options);
+                       : solver::points_at_frequency(balanced_scene(model, *load, options),
+                                                     result.curve, two_pi * *frequency, options);
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }

@@ -20,9 +20,9 @@ namespace microslip::pipelines {
 
 /// One patch at one solution.
 struct NamedMap {
-  std::string name;           ///< e.g. "preload_1000_peak": stem of the files
+  std::string name;  ///< e.g. "preload_1000_peak": stem of the files
   double frequency_hz = 0.0;
-  double amplitude = 0.0;     ///< of the output, half peak-to-peak [m]
+  double amplitude = 0.0;  ///< of the output, half peak-to-peak [m]
   solver::Stability stability = solver::Stability::not_assessed;
   std::size_t patch = 0;         ///< of the model
   contact::ContactMap points;    ///< at the contact points (cells)
@@ -31,17 +31,17 @@ struct NamedMap {
 
 /// What one patch did at every point of a curve.
 struct PatchShares {
-  std::string patch;  ///< its name
+  std::string patch;                          ///< its name
   std::vector<contact::CycleReport> reports;  ///< as many as the curve has points
 };
 
 struct CurveResult {
-  std::string name;  ///< stem of the CSV
+  std::string name;                         ///< stem of the CSV
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
   std::vector<PatchShares> patch_shares;  ///< where there are several patches, else empty
-  std::optional<double> gap;  ///< the preload was given as this length [m]
+  std::optional<double> gap;              ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
 };
 

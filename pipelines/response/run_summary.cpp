@@ -75,8 +75,8 @@ std::vector<ModeSummary> summarise_modes(const Eigen::VectorXd& frequency,
   const Eigen::Index n = frequency.size();
   std::vector<ModeSummary> modes;
   for (Eigen::Index mode = 0; mode < n; ++mode) {
-    modes.push_back({frequency[mode], entry(damping_ratio, mode).value_or(0.0), entry(residual, mode),
-                     entry(fit_error, mode), mode >= n - n_attachment});
+    modes.push_back({frequency[mode], entry(damping_ratio, mode).value_or(0.0),
+                     entry(residual, mode), entry(fit_error, mode), mode >= n - n_attachment});
   }
   return modes;
 }

@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/system/machine.hpp"
 #include "pipelines/model/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/system/machine.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -63,9 +63,10 @@ struct CurveSummary {
   double largest_energy_imbalance = 0.0;
   double largest_dissipation_mismatch = 0.0;
   double largest_three_states_share = 0.0;
-  std::set<int> harmonic_orders;    ///< that were unknowns at some point, beside the mean
-  std::size_t most_harmonics = 0;   ///< at one point
-  double largest_left_out = 0.0;    ///< of the amplitude, where harmonics are chosen: by those left out
+  std::set<int> harmonic_orders;   ///< that were unknowns at some point, beside the mean
+  std::size_t most_harmonics = 0;  ///< at one point
+  double largest_left_out =
+      0.0;  ///< of the amplitude, where harmonics are chosen: by those left out
   std::vector<std::string> maps;  ///< stems in maps/
   std::string certificate;        ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;

@@ -57,7 +57,8 @@ struct Irregular {
     if (n_subharmonic == 0) return;
     if (!curve.message.empty()) curve.message += "; ";
     curve.message += fmt::format(
-        "at {} of {} frequencies, the first {:.6g} Hz, the motion repeats after several periods of the "
+        "at {} of {} frequencies, the first {:.6g} Hz, the motion repeats after several periods of "
+        "the "
         "excitation only: not the solution of harmonic balance there (stable = -1)",
         n_subharmonic, n, first / (2.0 * std::numbers::pi));
   }
@@ -82,7 +83,8 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescriptio
       curve.points.push_back(point.response);
     } catch (const solver::TimeError& error) {
       curve.diagnosis = error.diagnosis();
-      curve.message = fmt::format("at {:g} Hz: {}", frequency / (2.0 * std::numbers::pi), error.what());
+      curve.message =
+          fmt::format("at {:g} Hz: {}", frequency / (2.0 * std::numbers::pi), error.what());
       return curve;
     }
     if (observe && !observe(curve.points.back())) {
@@ -98,14 +100,16 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescriptio
 
 void require_steps(const solver::Scene& scene, const ResponseDescription& response) {
   if (response.steps_per_period == 0) return;
-  const double lowest_hz = std::min(response.frequency_begin_hz, response.frequency_end_hz);  // the longest period
+  const double lowest_hz =
+      std::min(response.frequency_begin_hz, response.frequency_end_hz);  // the longest period
   const solver::TimeSystem system(scene, 2.0 * std::numbers::pi * lowest_hz);
   if (response.steps_per_period >= system.least_steps()) return;
   throw SceneError(fmt::format(
-      "{}: {} steps per period are too few: with its contacts stuck the structure moves at up to {:.6g} Hz, and at "
+      "{}: {} steps per period are too few: with its contacts stuck the structure moves at up to "
+      "{:.6g} Hz, and at "
       "{:.6g} Hz excitation that takes at least {}; 0 locates every change of contact instead",
-      response.steps_place, response.steps_per_period, system.largest_frequency() / (2.0 * std::numbers::pi), lowest_hz,
-      system.least_steps()));
+      response.steps_place, response.steps_per_period,
+      system.largest_frequency() / (2.0 * std::numbers::pi), lowest_hz, system.least_steps()));
 }
 
 solver::ResponseCurve integrate_curve(const solver::Scene& scene,

@@ -17,10 +17,10 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/preload_shape.hpp"
-#include "pipelines/system/interrupt.hpp"
-#include "pipelines/response/response_stage.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/structure_stage.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
@@ -33,7 +33,8 @@ constexpr double searches_of_an_optimum = 5 * 6.0;
 constexpr double closed_form_cost = 1.4e-6;
 constexpr double event_cost = 1e-5;
 constexpr double planar_cost = 1.5e-4;
-constexpr double chosen_cost = 5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
+constexpr double chosen_cost =
+    5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
 constexpr double iterations_per_curve = 350.0;
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 
@@ -42,7 +43,8 @@ double curve_seconds(const SceneDescription& scene, bool second_direction) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
   for (const ContactDescription& contact : scene.contacts) n_points += contact.n_points;
-  const bool simple = scene.response->harmonics == 1 && !is_rate_dependent(scene) && !is_rough(scene);
+  const bool simple =
+      scene.response->harmonics == 1 && !is_rate_dependent(scene) && !is_rough(scene);
   const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
   const bool chosen = scene.response->harmonic_tolerance > 0.0;
   const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
@@ -82,11 +84,12 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
 }
 
 void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
-  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB", forecast.degrees_of_freedom,
-             forecast.modes_seconds, forecast.memory_gb);
+  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB",
+             forecast.degrees_of_freedom, forecast.modes_seconds, forecast.memory_gb);
   if (has_curves) fmt::print(out, "; curves {:.1f} s", forecast.curves_seconds);
   if (forecast.curves_seconds_along_r) {
-    fmt::print(out, ", {:.0f} s if friction along r is called for", *forecast.curves_seconds_along_r);
+    fmt::print(out, ", {:.0f} s if friction along r is called for",
+               *forecast.curves_seconds_along_r);
   }
   out << '\n';
 }
@@ -130,14 +133,17 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
     if (preload < 0.0) ++n_gaps;
   }
   if (modal.load_measure == LoadMeasure::force) {
-    fmt::print(out, "{} contact point{}\n", modal.points.size(), modal.points.size() == 1 ? "" : "s");
+    fmt::print(out, "{} contact point{}\n", modal.points.size(),
+               modal.points.size() == 1 ? "" : "s");
     return;
   }
   fmt::print(out, "{} contact point{}: weights sum to {:.6g}, preload to {:.6g} N, {} with a gap\n",
-             modal.points.size(), modal.points.size() == 1 ? "" : "s", modal.weights.sum(), load, n_gaps);
+             modal.points.size(), modal.points.size() == 1 ? "" : "s", modal.weights.sum(), load,
+             n_gaps);
 }
 
-ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene, std::ostream& out) {
+ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
+                         std::ostream& out) {
   fmt::print(out, "{} modes\n", modal.frequency_hz.size());
   ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
@@ -172,10 +178,12 @@ CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
     if (interrupt_requested()) throw InterruptedError("interrupted");
     check_names(mesh, scene);
     out << describe_mesh(mesh, scene.material.density) << '\n';
-    for (std::string& warning : mesh::shape_warnings(mesh)) result.warnings.push_back(std::move(warning));
+    for (std::string& warning : mesh::shape_warnings(mesh))
+      result.warnings.push_back(std::move(warning));
     if (scene.clamped.empty() && scene.response) {
       result.warnings.emplace_back(
-          "nothing is clamped: the structure has rigid-body modes, which only a contact that sticks holds");
+          "nothing is clamped: the structure has rigid-body modes, which only a contact that "
+          "sticks holds");
     }
     if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
     result.forecast = forecast_of(mesh, scene);
@@ -184,8 +192,9 @@ CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
   }
   for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
   describe(result.effects, out);
-  out << (scene.response ? "the scene is complete and consistent\n"
-                         : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
+  out << (scene.response
+              ? "the scene is complete and consistent\n"
+              : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");
   return result;
 }
 

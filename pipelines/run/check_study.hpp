@@ -17,7 +17,8 @@ struct Forecast {
   double degrees_of_freedom = 0.0;  ///< 0: the scene gives its modes
   double modes_seconds = 0.0;
   double curves_seconds = 0.0;
-  std::optional<double> curves_seconds_along_r;  ///< where it is not known yet whether friction along r is called for
+  std::optional<double>
+      curves_seconds_along_r;  ///< where it is not known yet whether friction along r is called for
   double memory_gb = 0.0;
 };
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <thread>
 
-#include "pipelines/system/interrupt.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/interrupt.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -63,9 +63,9 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, preload_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
-      record.progress().point(requests[i].name, point,
-                              (static_cast<double>(done) + share) /
-                                  static_cast<double>(requests.size()));
+      record.progress().point(
+          requests[i].name, point,
+          (static_cast<double>(done) + share) / static_cast<double>(requests.size()));
       return !interrupt_requested();
     });
     ++done;

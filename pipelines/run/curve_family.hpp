@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/run/run_record.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/run/run_record.hpp"
 
 namespace microslip::pipelines {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/system/machine.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/system/machine.hpp"
 
 namespace spdlog {
 class logger;

@@ -16,9 +16,16 @@ namespace microslip::pipelines {
 namespace {
 
 /// What a run writes and the next one removes: it would stand beside new files and be taken for theirs.
-constexpr std::array result_names{"curves",    "maps",    "motion",    "plots",
-                                  "modes.csv", "modes.vtu", "model.h5", "report.md",
-                                  "summary.json", "peak_against_preload.csv",
+constexpr std::array result_names{"curves",
+                                  "maps",
+                                  "motion",
+                                  "plots",
+                                  "modes.csv",
+                                  "modes.vtu",
+                                  "model.h5",
+                                  "report.md",
+                                  "summary.json",
+                                  "peak_against_preload.csv",
                                   "peak_against_parameter.csv"};
 
 }  // namespace
@@ -41,9 +48,10 @@ void require_own(const std::filesystem::path& folder) {
   names.push_back("scene.toml");
   for (const char* name : names) {
     if (!holds(name)) continue;
-    throw SceneError(fmt::format("-o {}: holds \"{}\", which no run has written and a run would replace; "
-                                 "choose another folder",
-                                 folder.string(), name));
+    throw SceneError(
+        fmt::format("-o {}: holds \"{}\", which no run has written and a run would replace; "
+                    "choose another folder",
+                    folder.string(), name));
   }
 }
 

@@ -25,14 +25,14 @@ std::vector<std::string> modes_text(const StructureModes& modes) {
       modes.timings.eigensolve, modes.timings.inertia));
   if (modes.basis.n_rigid_body > 0) {
     lines.push_back(fmt::format("{} rigid-body modes: nothing holds the structure against them",
-                               modes.basis.n_rigid_body));
+                                modes.basis.n_rigid_body));
   }
   for (Eigen::Index i = 0; i < modes.basis.n_free(); ++i) {
     lines.push_back(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
-                               to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
+                                to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
   }
   lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
-                             modes.basis.inertia_count, modes.basis.n_free()));
+                              modes.basis.inertia_count, modes.basis.n_free()));
   if (!modes.attachment_text.empty()) lines.push_back(modes.attachment_text);
   return lines;
 }
@@ -40,23 +40,26 @@ std::vector<std::string> modes_text(const StructureModes& modes) {
 std::string outcome_text(const CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
   const auto* peak = highest_peak(curve);
-  const std::string outcome = curve.complete ? std::string("complete")
-                                             : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
-  return fmt::format("curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name, curve.points.size(),
-                     curve.iterations, curve.seconds, outcome,
-                     peak != nullptr
-                         ? fmt::format("; largest {:.6g} m at {:.6g} Hz", peak->amplitude, to_hz * peak->frequency)
-                         : std::string());
+  const std::string outcome =
+      curve.complete ? std::string("complete")
+                     : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
+  return fmt::format("curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name,
+                     curve.points.size(), curve.iterations, curve.seconds, outcome,
+                     peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz",
+                                                   peak->amplitude, to_hz * peak->frequency)
+                                     : std::string());
 }
 
 std::vector<std::string> detached_text(const CurveResult& result) {
   std::vector<std::string> lines;
   for (const solver::DetachedBranch& branch : result.curve.detached) {
-    const auto highest = std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
+    const auto highest =
+        std::ranges::max_element(branch.points, {}, &solver::ResponsePoint::amplitude);
     if (highest == branch.points.end()) continue;
     lines.push_back(fmt::format(
         "curve {}: beside it {}; largest {:.6g} m at {:.6g} Hz{}", result.name,
-        branch.points.size() == 1 ? "another solution" : fmt::format("a branch of {} points", branch.points.size()),
+        branch.points.size() == 1 ? "another solution"
+                                  : fmt::format("a branch of {} points", branch.points.size()),
         highest->amplitude, to_hz * highest->frequency,
         highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
   }
@@ -70,9 +73,12 @@ std::string precision_text(const CurveSummary& curve, const ReducedModel& model)
                        curve.largest_energy_imbalance <= certified && mismatch <= certified;
   if (all_are) return {};  // none is NaN either
   return fmt::format(
-      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} and a "
-      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work is done",
-      curve.name, curve.largest_residual, curve.largest_energy_imbalance, curve.largest_dissipation_mismatch);
+      "precision: curve {}: rounding leaves a residual of {:.1e}, an energy imbalance of {:.1e} "
+      "and a "
+      "dissipation mismatch of {:.1e} (1e-10 is customary): forces nearly cancel, or little work "
+      "is done",
+      curve.name, curve.largest_residual, curve.largest_energy_imbalance,
+      curve.largest_dissipation_mismatch);
 }
 
 std::string amplitude_text(const solver::PeakOfParameter& best) {
@@ -83,7 +89,8 @@ std::string amplitude_text(const solver::PeakOfParameter& best) {
     case solver::PeakPlace::range_end:
       return fmt::format("largest amplitude {:.6g} m at {:.6g} Hz, the end of the frequency range",
                          best.amplitude, frequency_hz);
-    case solver::PeakPlace::unsolved: break;
+    case solver::PeakPlace::unsolved:
+      break;
   }
   return fmt::format("amplitude at least {:.6g} m, at {:.6g} Hz", best.amplitude, frequency_hz);
 }
@@ -93,9 +100,11 @@ std::string lowest_text(const solver::Optimum& optimum) {
 }
 
 std::string range_text(const OptimumOfFactor& entry) {
-  return entry.widened ? fmt::format(" (searched from {:.6g} to {:.6g}, wider than the range as given: the best preload "
-                                     "moves with 1/friction)",
-                                     entry.range[0], entry.range[1])
+  return entry.widened ? fmt::format(
+                             " (searched from {:.6g} to {:.6g}, wider than the range as given: the "
+                             "best preload "
+                             "moves with 1/friction)",
+                             entry.range[0], entry.range[1])
                        : "";
 }
 

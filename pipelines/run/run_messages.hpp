@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/response/run_results.hpp"
 #include "pipelines/model/structure_stage.hpp"
+#include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
 #include "solver/peak.hpp"
 

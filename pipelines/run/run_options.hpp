@@ -12,7 +12,7 @@ struct RunOptions {
   std::filesystem::path output;  ///< run folder; for `mesh` the file
   int jobs = 1;                  ///< curves traced at the same time, ≥ 1
   Verbosity verbosity = Verbosity::normal;
-  int rank = 0;                  ///< MPI rank: rank 0 alone writes
+  int rank = 0;  ///< MPI rank: rank 0 alone writes
 };
 
 }  // namespace microslip::pipelines

@@ -16,21 +16,21 @@
 
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
+#include "pipelines/files/model_file.hpp"
+#include "pipelines/files/write_csv.hpp"
+#include "pipelines/files/write_map.hpp"
+#include "pipelines/files/write_summary.hpp"
+#include "pipelines/files/write_vtk.hpp"
+#include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/effects.hpp"
+#include "pipelines/response/harmonics_effect.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/run_folder.hpp"
+#include "pipelines/run/run_messages.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
-#include "pipelines/response/harmonics_effect.hpp"
-#include "pipelines/response/response_stage.hpp"
-#include "pipelines/files/write_summary.hpp"
-#include "pipelines/run/run_folder.hpp"
-#include "pipelines/run/run_messages.hpp"
 #include "pipelines/system/scene_error.hpp"
-#include "pipelines/files/write_csv.hpp"
-#include "pipelines/files/model_file.hpp"
-#include "pipelines/model/contact_effects.hpp"
-#include "pipelines/files/write_map.hpp"
-#include "pipelines/files/write_vtk.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -99,7 +99,8 @@ int RunRecord::run(const std::function<void()>& stages) {
       std::this_thread::sleep_for(20ms);
     }
     keep_unfinished();
-    fail(ExitCode::incomplete, "interrupted");  // a library or a long evaluation is in the way: end here
+    fail(ExitCode::incomplete,
+         "interrupted");  // a library or a long evaluation is in the way: end here
     std::_Exit(static_cast<int>(ExitCode::incomplete));
   });
   try {
@@ -127,8 +128,8 @@ void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   progress_.info(describe_mesh(mesh, density));
   for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
-  summary_.mesh = MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(),
-                              density * mesh.volume()};
+  summary_.mesh =
+      MeshSummary{mesh.n_nodes(), mesh.n_elements(), 0, mesh.volume(), density * mesh.volume()};
 }
 
 void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
@@ -194,10 +195,11 @@ void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, d
   summary.preload_carried = rest.carried;
   summary.preload_integral = rest.integral;
   if (rest.partly_open) {
-    progress_.info(fmt::format(
-        "curve {}: the contact carries {:.6g} N and is open on a part of it; its preload integrates to {:.6g} N "
-        "with the gaps counted as pull",
-        summary.name, *summary.preload_carried, *summary.preload_integral));
+    progress_.info(
+        fmt::format("curve {}: the contact carries {:.6g} N and is open on a part of it; its "
+                    "preload integrates to {:.6g} N "
+                    "with the gaps counted as pull",
+                    summary.name, *summary.preload_carried, *summary.preload_integral));
   }
 }
 
@@ -205,23 +207,27 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   const auto& curve = result.curve;
   progress_.info(outcome_text(result));
   CurveSummary summary = summarise(result);
-  if (const auto* load = std::get_if<double>(&result.preload); load != nullptr && !model.patches.empty()) {
+  if (const auto* load = std::get_if<double>(&result.preload);
+      load != nullptr && !model.patches.empty()) {
     keep_preload(summary, model, *load);
   }
   if (!result.integrated) {
-    if (const std::string text = precision_text(summary, model); !text.empty()) progress_.warning(text);
+    if (const std::string text = precision_text(summary, model); !text.empty())
+      progress_.warning(text);
   }
   warn_of_unsolved(result);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && !in_newtons(model)) {
     summary.preload_scale = *scale;
-    summary.preload = *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
+    summary.preload =
+        *summary.preload_carried > 0.0 ? *summary.preload_carried : *summary.preload_integral;
   }
   if (curve.complete && !curve.message.empty()) {
     progress_.warning(fmt::format("curve {}: {}", result.name, curve.message));
   }
   for (const std::string& line : detached_text(result)) progress_.info(line);
-  if (!curve.certificate.empty()) progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
+  if (!curve.certificate.empty())
+    progress_.info(fmt::format("curve {}: {}", result.name, curve.certificate));
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
   unfinished_.erase(result.name);
@@ -267,7 +273,9 @@ void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                              const solver::Optimum& optimum) {
-  const std::string unit = !request.of_preload() ? "" : in_newtons(model) ? " N" : " of the points' preload";
+  const std::string unit = !request.of_preload() ? ""
+                           : in_newtons(model)   ? " N"
+                                                 : " of the points' preload";
   const std::string what =
       request.of_preload() ? "best preload"
                            : fmt::format("best {} under preload {:g}", request.key, request.load);
@@ -289,9 +297,9 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
     const solver::Optimum& optimum = entry.optimum;
     progress_.info(fmt::format(
         "with {} x {:g}{}: {}", entry.parameter, entry.factor, range_text(entry),
-        optimum.found ? fmt::format("best {:.6g}, {}", optimum.best.parameter,
-                                    amplitude_text(optimum.best))
-                      : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));
+        optimum.found
+            ? fmt::format("best {:.6g}, {}", optimum.best.parameter, amplitude_text(optimum.best))
+            : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));
   }
   for (const std::string& reason : bracket.left_out) {
     progress_.info("not varied: " + reason);

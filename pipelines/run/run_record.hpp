@@ -13,12 +13,12 @@
 #include <variant>
 
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/run/progress.hpp"
-#include "pipelines/response/run_results.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/model/structure_stage.hpp"
-#include "pipelines/run/run_options.hpp"
+#include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
+#include "pipelines/run/progress.hpp"
+#include "pipelines/run/run_options.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "pipelines/scene/bar_modes.hpp"
-#include "pipelines/text/expression.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/expression.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
@@ -61,7 +61,8 @@ Eigen::VectorXd load_of_text(const SectionReader& s, const std::string& text,
     return Eigen::VectorXd::Constant(x.size(), to_si(text, "N/m"));
   } catch (const UnitError&) {  // then it is a formula, or the formula's message tells
     const std::string place = place_of(s.node("load"), s.file()) + ": contact.load";
-    return Expression(text, place, {{"L", length}}, {"x", ""}).at(x, Eigen::VectorXd::Zero(x.size()));
+    return Expression(text, place, {{"L", length}}, {"x", ""})
+        .at(x, Eigen::VectorXd::Zero(x.size()));
   }
 }
 

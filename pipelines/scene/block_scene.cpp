@@ -31,9 +31,9 @@ Eigen::Vector3d read_vector3(const SectionReader& s, std::string_view key) {
 
 /// The contact rectangle, its cells counted and seen from its centre.
 struct Rectangle {
-  contact::PlanarCells cells;  // weights [m²]
-  Eigen::Vector3d centre;      // from the centre of mass [m]
-  double area = 0.0;           // [m²]
+  contact::PlanarCells cells;              // weights [m²]
+  Eigen::Vector3d centre;                  // from the centre of mass [m]
+  double area = 0.0;                       // [m²]
   std::array<double, 2> moment{0.0, 0.0};  // of the preload, about p and r [N m]
 };
 
@@ -126,8 +126,8 @@ void set_contact(ModalModel& model, const SectionReader& s, const Rectangle& rec
   model.positions.resize(cells.n_cells(), 2);
   model.positions << rectangle.cells.z, rectangle.cells.y;
   if (rectangle.moment != std::array{0.0, 0.0}) {
-    model.tilted_areas.push_back({"contact.preload_moment", 0, rectangle.cells.z,
-                                  rectangle.cells.y, 1.0, rectangle.moment});
+    model.tilted_areas.push_back(
+        {"contact.preload_moment", 0, rectangle.cells.z, rectangle.cells.y, 1.0, rectangle.moment});
   }
 }
 
@@ -166,7 +166,8 @@ Eigen::Matrix<double, 3, 6> point_motion(const Eigen::Vector3d& c) {
 
 BlockOutput read_block_output(SectionReader& s) {
   const toml::node& node = *s.node("output");
-  if (!node.is_table()) s.fail("output", "expected { at = [p, q, r], direction = [p, q, r] }", &node);
+  if (!node.is_table())
+    s.fail("output", "expected { at = [p, q, r], direction = [p, q, r] }", &node);
   toml::table complete;
   complete.is_inline(true);
   const SectionReader output(node.as_table(), section_spec("output.block"), "response.output",
@@ -190,13 +191,15 @@ ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& o
   wear_coefficient = sections.contact.number("wear_coefficient");
   set_contact(model, sections.contact, read_rectangle(sections.model, sections.contact),
               system.shapes, friction);
-  if (rules.roughness && rules.roughness->height() > 0.0 && !(model.points[0].normal_stiffness > 0.0)) {
+  if (rules.roughness && rules.roughness->height() > 0.0 &&
+      !(model.points[0].normal_stiffness > 0.0)) {
     sections.contact.fail("roughness", "rough surfaces need a normal_stiffness above 0",
                           sections.contact.node("roughness"));
   }
   model.output = Eigen::VectorXd::Zero(n_modes);
   if (output) {
-    model.output = (output->direction.transpose() * point_motion(output->at) * system.shapes).transpose();
+    model.output =
+        (output->direction.transpose() * point_motion(output->at) * system.shapes).transpose();
   }
   return model;
 }

@@ -160,8 +160,12 @@ void add_cells(ModalModel& model, const Contact& contact, const ChainSystem& sys
   }
   if (contact.moment_p == 0.0 && contact.moment_r == 0.0) return;
   const auto cells = model.positions.middleRows(begin, row - begin);
-  model.tilted_areas.push_back({"contact.points.preload_moment", begin, cells.col(0), cells.col(1),
-                                contact.whole.preload, {contact.moment_p, contact.moment_r}});
+  model.tilted_areas.push_back({"contact.points.preload_moment",
+                                begin,
+                                cells.col(0),
+                                cells.col(1),
+                                contact.whole.preload,
+                                {contact.moment_p, contact.moment_r}});
 }
 
 void set_contacts(ModalModel& model, const std::vector<Contact>& contacts,

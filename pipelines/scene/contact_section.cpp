@@ -54,8 +54,10 @@ std::string law_of(const SectionReader& s, std::string_view key, const toml::tab
     s.fail(key, fmt::format("law: expected one of: {}", fmt::join(laws, ", ")), &table);
   }
   for (const auto& [name, value] : table) {
-    if (name.str() == "law" || std::find(keys.begin(), keys.end(), name.str()) != keys.end()) continue;
-    s.fail(key, fmt::format("unknown key \"{}\"; known: law, {}", name.str(), fmt::join(keys, ", ")),
+    if (name.str() == "law" || std::find(keys.begin(), keys.end(), name.str()) != keys.end())
+      continue;
+    s.fail(key,
+           fmt::format("unknown key \"{}\"; known: law, {}", name.str(), fmt::join(keys, ", ")),
            &value);
   }
   return *law;
@@ -165,8 +167,8 @@ std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
   const auto add = [&](const toml::node& entry) {
     const toml::table* table = entry.as_table();
     if (table == nullptr) {
-      s.fail("roughness", "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two",
-             &entry);
+      s.fail("roughness",
+             "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two", &entry);
     }
     const std::string one = law_of(s, "roughness", *table, laws, {"height"});
     if (!law.empty() && one != law) {
@@ -176,7 +178,8 @@ std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
     height = std::hypot(height, entry_of(s, "roughness", *table, "height", "m"));
   };
   if (const toml::array* list = node.as_array()) {
-    if (list->empty() || list->size() > 2) s.fail("roughness", "expected one or two surfaces", &node);
+    if (list->empty() || list->size() > 2)
+      s.fail("roughness", "expected one or two surfaces", &node);
     for (const toml::node& entry : *list) add(entry);
   } else {
     add(node);
@@ -228,7 +231,8 @@ contact::SurfaceRules read_surface_rules(const SectionReader& s, double& wear_co
   contact::SurfaceRules rules;
   if (s.given("friction_law")) {
     const toml::node& node = *s.node("friction_law");
-    if (!node.is_table()) s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
+    if (!node.is_table())
+      s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
     rules.friction = friction_law_in(s, "friction_law", *node.as_table());
   }
   rules.roughness = read_roughness(s);

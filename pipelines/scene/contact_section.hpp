@@ -16,7 +16,8 @@ namespace microslip::pipelines {
 
 /// Modal scenes: laws beside the constants that the points carry.
 /// @param wear_coefficient  [m²/N], written.
-[[nodiscard]] contact::SurfaceRules read_surface_rules(const SectionReader& section, double& wear_coefficient);
+[[nodiscard]] contact::SurfaceRules read_surface_rules(const SectionReader& section,
+                                                       double& wear_coefficient);
 
 /// `friction_coefficient` as a number or a law, which goes into `rules`. @return μ at rest.
 [[nodiscard]] double read_friction(const SectionReader& section, contact::SurfaceRules& rules);

@@ -13,7 +13,7 @@ namespace microslip::pipelines {
 /// What one curve is asked for: a preload, a scale of the preload (modal scenes and bars), or a linear
 /// limit.
 struct CurveRequest {
-  std::string name;                          ///< stem of the CSV
+  std::string name;      ///< stem of the CSV
   PreloadEntry preload;  ///< [N], or the scale
 };
 

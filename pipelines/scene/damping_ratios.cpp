@@ -13,7 +13,8 @@ Eigen::VectorXd damping_ratios(const ModesDescription& modes, const Eigen::Vecto
                                Eigen::Index n_attachment) {
   if (const auto* rayleigh = std::get_if<RayleighDamping>(&modes.damping)) {
     if (rayleigh->alpha != 0.0 && frequency.minCoeff() == 0.0) {
-      throw SceneError("modes.damping_ratio: alpha acts on a rigid-body mode; ζ = α/(2ω) is infinite");
+      throw SceneError(
+          "modes.damping_ratio: alpha acts on a rigid-body mode; ζ = α/(2ω) is infinite");
     }
     Eigen::VectorXd ratio = 0.5 * rayleigh->beta * frequency;
     if (rayleigh->alpha != 0.0) ratio += 0.5 * rayleigh->alpha * frequency.cwiseInverse();
@@ -23,8 +24,9 @@ Eigen::VectorXd damping_ratios(const ModesDescription& modes, const Eigen::Vecto
   if (list.size() == 1) return Eigen::VectorXd::Constant(frequency.size(), list.front());
   const auto n_given = static_cast<Eigen::Index>(list.size());
   if (n_given != frequency.size() - n_attachment) {
-    throw SceneError(fmt::format("modes.damping_ratio: {} values for {} modes; give one, or one each",
-                                 n_given, frequency.size() - n_attachment));
+    throw SceneError(
+        fmt::format("modes.damping_ratio: {} values for {} modes; give one, or one each", n_given,
+                    frequency.size() - n_attachment));
   }
   Eigen::VectorXd ratios = Eigen::VectorXd::Constant(frequency.size(), list.back());
   ratios.head(n_given) = Eigen::Map<const Eigen::VectorXd>(list.data(), n_given);

@@ -14,8 +14,7 @@ namespace microslip::pipelines {
 /// name → auto | on | off, in the order of the keys.
 /// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
 /// @throws SceneError  a setting that another section contradicts.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
-                                                                            const SceneDescription& scene,
-                                                                            bool has_residual);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> read_effects(
+    const SectionReader& s, const SceneDescription& scene, bool has_residual);
 
 }  // namespace microslip::pipelines

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "pipelines/text/csv_table.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/csv_table.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -91,7 +91,8 @@ std::optional<int> read_attachment_degree(const SectionReader& s) {
   const auto degree = node.value<std::int64_t>();
   if (!node.is_integer() || *degree < 0 || *degree > highest_attachment_degree) {
     s.fail("attachment_degree",
-           fmt::format("expected a degree from 0 to {}, or \"auto\"", highest_attachment_degree), &node);
+           fmt::format("expected a degree from 0 to {}, or \"auto\"", highest_attachment_degree),
+           &node);
   }
   return static_cast<int>(*degree);
 }
@@ -118,7 +119,8 @@ ModesDescription read_modes(const SectionReader& s) {
   modes.residual_given = s.given("residual");
   modes.attachment_degree = read_attachment_degree(s);
   if (modes.attachment_degree && modes.residual != ResidualKind::attachment) {
-    s.fail("attachment_degree", fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
+    s.fail("attachment_degree",
+           fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
            s.node("attachment_degree"));
   }
   return modes;
@@ -132,14 +134,16 @@ void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDes
   if (modes.residual_given || modes.attachment_degree) {
     const char* key = modes.residual_given ? "residual" : "attachment_degree";
     s.fail(key,
-           fmt::format("attachment shapes leave the contact its local stiffness alone, and contact.{} = \"rigid\" "
+           fmt::format("attachment shapes leave the contact its local stiffness alone, and "
+                       "contact.{} = \"rigid\" "
                        "gives none; give a stiffness in N/m^3, or modes.residual = \"stiffness\"",
                        rigid),
            s.node(key));
   }
   modes.residual = ResidualKind::stiffness;
   modes.residual_note = fmt::format(
-      "contact.{} = \"rigid\": modes.residual = \"stiffness\" is used, the omitted modes are all the stiffness "
+      "contact.{} = \"rigid\": modes.residual = \"stiffness\" is used, the omitted modes are all "
+      "the stiffness "
       "there is",
       rigid);
   s.complete("residual", "stiffness");

@@ -93,9 +93,18 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
 }
 
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
-  std::vector<std::string> names{
-      "id",      "weight", "tangential_stiffness", "tangential_stiffness_r", "normal_stiffness",
-      "friction_coefficient", "preload", "residual_p", "residual_q", "residual_r", "p", "r"};
+  std::vector<std::string> names{"id",
+                                 "weight",
+                                 "tangential_stiffness",
+                                 "tangential_stiffness_r",
+                                 "normal_stiffness",
+                                 "friction_coefficient",
+                                 "preload",
+                                 "residual_p",
+                                 "residual_q",
+                                 "residual_r",
+                                 "p",
+                                 "r"};
   for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
     for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
   }
@@ -139,8 +148,10 @@ double in_series(double local, double flexibility, const std::string& place) {
   if (local == 0.0 || flexibility == 0.0) return local;
   const double whole = 1.0 / local + flexibility;
   if (!(whole > 0.0)) {
-    throw SceneError(place + fmt::format("{:g} m^3/N makes the contact stiffness not positive: 1/k_local is {:g}",
-                                         flexibility, 1.0 / local));
+    throw SceneError(
+        place +
+        fmt::format("{:g} m^3/N makes the contact stiffness not positive: 1/k_local is {:g}",
+                    flexibility, 1.0 / local));
   }
   return 1.0 / whole;
 }
@@ -148,7 +159,9 @@ double in_series(double local, double flexibility, const std::string& place) {
 /// Flexibility of omitted modes at the points, where the table has it, into their stiffness.
 void add_residual(ModalModel& model, const CsvTable& table) {
   const std::array names{"residual_p", "residual_q", "residual_r"};
-  if (std::none_of(names.begin(), names.end(), [&](const char* name) { return table.find(name).has_value(); })) return;
+  if (std::none_of(names.begin(), names.end(),
+                   [&](const char* name) { return table.find(name).has_value(); }))
+    return;
   const Eigen::Index n = model.weights.size();
   model.residual = ResidualKind::stiffness;
   model.compliance = Eigen::MatrixX3d::Zero(n, 3);
@@ -225,7 +238,8 @@ ModalModel read_modal(SectionReader section, const std::filesystem::path& folder
   model.output = per_mode(section, "output", n);
   model.n_attachment = section.integer("attachment");
   if (model.n_attachment >= n) {
-    section.fail("attachment", fmt::format("{} of {} modes: at least one is free", model.n_attachment, n),
+    section.fail("attachment",
+                 fmt::format("{} of {} modes: at least one is free", model.n_attachment, n),
                  section.node("attachment"));
   }
   if (model.n_attachment > 0) model.residual = ResidualKind::attachment;

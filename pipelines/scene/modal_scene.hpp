@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "pipelines/text/csv_table.hpp"
 #include "pipelines/scene/scene_description.hpp"
+#include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/section_reader.hpp"
 
 namespace microslip::pipelines {
@@ -13,8 +13,7 @@ namespace microslip::pipelines {
 /// @param section  the [modal] section.
 /// @param folder   what a relative points file is relative to.
 /// @throws SceneError  lengths that do not fit, a bad value, a bad points table.
-[[nodiscard]] ModalModel read_modal(SectionReader section,
-                                    const std::filesystem::path& folder);
+[[nodiscard]] ModalModel read_modal(SectionReader section, const std::filesystem::path& folder);
 
 /// Fills weights, points, shapes and positions of the model from a table.
 /// @throws SceneError  missing or unknown column, negative stiffness, … with line and column.

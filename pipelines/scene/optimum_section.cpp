@@ -94,7 +94,8 @@ std::array<double, 2> range_in(const SectionReader& s, const std::string& unit, 
 /// Different positive preloads, or scales, of the curves.
 std::set<double> positive_preloads(const ResponseDescription& response) {
   std::set<double> positive;
-  for (const double scale : response.preload.empty() ? response.preload_scale : std::vector<double>()) {
+  for (const double scale :
+       response.preload.empty() ? response.preload_scale : std::vector<double>()) {
     if (scale > 0.0) positive.insert(scale);
   }
   for (const PreloadEntry& entry : response.preload) {
@@ -110,8 +111,9 @@ double load_of(const SectionReader& s, const ResponseDescription& response) {
   const std::set<double> positive = positive_preloads(response);
   if (positive.size() != 1) {
     s.fail("optimum_at",
-           fmt::format("is missing: the scene has {} positive preloads; under which is \"{}\" searched?",
-                       positive.size(), s.text("optimum")),
+           fmt::format(
+               "is missing: the scene has {} positive preloads; under which is \"{}\" searched?",
+               positive.size(), s.text("optimum")),
            s.node("optimum"));
   }
   return *positive.begin();
@@ -138,7 +140,8 @@ std::optional<OptimumRequest> read_optimum(const SectionReader& s,
   if (request.of_preload()) {
     if (s.given("optimum_range")) request.range = range_in(s, "N", true);
     if (!request.range && positive_preloads(response).size() < 2) {
-      s.fail("optimum", "needs optimum_range = [low, high], or two positive preloads", s.node("optimum"));
+      s.fail("optimum", "needs optimum_range = [low, high], or two positive preloads",
+             s.node("optimum"));
     }
     if (s.given("optimum_at")) {
       s.fail("optimum_at", "has no meaning with optimum = \"preload\"", s.node("optimum_at"));

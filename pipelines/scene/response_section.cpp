@@ -98,14 +98,16 @@ void read_harmonics(const SectionReader& s, ResponseDescription& response) {
 /// What time integration has no equations for would be dropped in silence.
 void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response) {
   if (response.harmonic_tolerance > 0.0) {
-    s.fail("harmonics",
-           "\"auto\" chooses the equations of harmonic balance; a motion integrated in time has all "
-           "harmonics: give the number to be written, or method = \"harmonic_balance\"",
-           s.node("harmonics"));
+    s.fail(
+        "harmonics",
+        "\"auto\" chooses the equations of harmonic balance; a motion integrated in time has all "
+        "harmonics: give the number to be written, or method = \"harmonic_balance\"",
+        s.node("harmonics"));
   }
   if (response.search_starts > 0) {
     s.fail("search_starts",
-           "looks for detached branches of harmonic balance; integration in time follows the motion from "
+           "looks for detached branches of harmonic balance; integration in time follows the "
+           "motion from "
            "point to point: sweep both ways, or give method = \"harmonic_balance\"",
            s.node("search_starts"));
   }
@@ -176,7 +178,9 @@ ResponseDescription read_modal_response(const SectionReader& s, std::string_view
   const auto add = [&](const toml::node& entry) {
     const double factor = s.number_in(entry, "preload_scale");
     if (factor < 0.0) {
-      s.fail("preload_scale", "expected at least 0: a negative factor would turn pressure into gaps and gaps into pressure",
+      s.fail("preload_scale",
+             "expected at least 0: a negative factor would turn pressure into gaps and gaps into "
+             "pressure",
              &entry);
     }
     response.preload_scale.push_back(factor);

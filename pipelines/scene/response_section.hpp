@@ -17,6 +17,7 @@ namespace microslip::pipelines {
 [[nodiscard]] ResponseDescription read_loads(const SectionReader& s, std::string_view kind);
 /// Of kinds whose preload stands with the points and is scaled.
 /// @throws SceneError  as above.
-[[nodiscard]] ResponseDescription read_modal_response(const SectionReader& s, std::string_view kind);
+[[nodiscard]] ResponseDescription read_modal_response(const SectionReader& s,
+                                                      std::string_view kind);
 
 }  // namespace microslip::pipelines

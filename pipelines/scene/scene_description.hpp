@@ -46,12 +46,12 @@ struct ModalModel {
   std::vector<contact::PointParameters> points;
   contact::ModalShapes shapes;
   Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
-  Eigen::MatrixX2d positions;  ///< (p, r) per point [m]; 0 rows when the scene gives none
+  Eigen::MatrixX2d positions;        ///< (p, r) per point [m]; 0 rows when the scene gives none
   LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
   std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
   ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
-  Eigen::MatrixX3d compliance;            ///< that residual along p, q, r [m³/N]; 0 rows: not known apart
-  Eigen::Index n_attachment = 0;          ///< so many modes, the last, are attachment shapes
+  Eigen::MatrixX3d compliance;    ///< that residual along p, q, r [m³/N]; 0 rows: not known apart
+  Eigen::Index n_attachment = 0;  ///< so many modes, the last, are attachment shapes
   std::optional<double> local_stiffness;  ///< contact.tangential_stiffness where that is so [N/m²]
 };
 
@@ -62,11 +62,12 @@ struct RayleighDamping {
 
 struct ModesDescription {
   int count = 10;
-  std::variant<std::vector<double>, RayleighDamping> damping;  ///< ratios: one for all, or one per mode
+  std::variant<std::vector<double>, RayleighDamping>
+      damping;  ///< ratios: one for all, or one per mode
   ResidualKind residual = ResidualKind::attachment;
   std::optional<int> attachment_degree;  ///< of the tractions; without value: chosen
-  bool residual_given = false;           ///< the scene says which; else a rigid contact takes `stiffness`
-  std::string residual_note;             ///< that it did so, for the log; else empty
+  bool residual_given = false;  ///< the scene says which; else a rigid contact takes `stiffness`
+  std::string residual_note;    ///< that it did so, for the log; else empty
 };
 
 /// One patch of a meshed scene.
@@ -76,17 +77,18 @@ struct ContactDescription {
   std::string surface;
   std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
-  FieldDescription friction;                       ///< μ over the patch, in p and r from its centroid
+  FieldDescription friction;  ///< μ over the patch, in p and r from its centroid
   std::optional<FieldDescription> preload_field;   ///< shape of the preload; none: uniform
   std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
-  std::optional<double> normal_stiffness;      ///< [N/m³]; without value: "rigid"
-  std::optional<double> tangential_stiffness;  ///< [N/m³]; without value: "rigid"
+  std::optional<double> normal_stiffness;          ///< [N/m³]; without value: "rigid"
+  std::optional<double> tangential_stiffness;      ///< [N/m³]; without value: "rigid"
   enum class Fit { automatic, degree, none } fit = Fit::automatic;
   int fit_degree = 0;
   double wear_coefficient = 0.0;  ///< Archard [m²/N]
   int n_points = 300;             ///< at least so many contact points
-  std::optional<double> preload_share;  ///< of the load of a curve, relative to the others; none: by area
-  contact::SurfaceRules rules;    ///< friction law and roughness; their local stiffness is that above
+  std::optional<double>
+      preload_share;            ///< of the load of a curve, relative to the others; none: by area
+  contact::SurfaceRules rules;  ///< friction law and roughness; their local stiffness is that above
 };
 
 struct ForceDescription {
@@ -109,7 +111,8 @@ struct UniformGap {
   double width = 0.0;  ///< [m], > 0
   [[nodiscard]] bool operator==(const UniformGap&) const = default;
 };
-using PreloadEntry = std::variant<double, LimitName, UniformGap>;  ///< [N], a linear limit, or a gap
+using PreloadEntry =
+    std::variant<double, LimitName, UniformGap>;  ///< [N], a linear limit, or a gap
 enum class MapName { peak, folds };
 using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 
@@ -129,20 +132,21 @@ struct OptimumRequest {
 };
 
 struct ResponseDescription {
-  OutputDescription output;         ///< kinds with a mesh
+  OutputDescription output;  ///< kinds with a mesh
   double frequency_begin_hz = 0.0;
-  double frequency_end_hz = 0.0;    ///< equal to begin: the solution at one frequency
-  int harmonics = 1;                  ///< highest; with harmonic_tolerance the highest that may be added
-  std::vector<int> harmonic_orders;   ///< the only ones; empty: 1 … harmonics
-  double harmonic_tolerance = 0.0;    ///< above 0: chosen point by point, see solver::ContinuationOptions
+  double frequency_end_hz = 0.0;  ///< equal to begin: the solution at one frequency
+  int harmonics = 1;  ///< highest; with harmonic_tolerance the highest that may be added
+  std::vector<int> harmonic_orders;  ///< the only ones; empty: 1 … harmonics
+  double harmonic_tolerance =
+      0.0;  ///< above 0: chosen point by point, see solver::ContinuationOptions
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
-  int search_starts = 0;   ///< of a search for detached branches; 0: none
-  int n_time_points = 40;  ///< frequencies of method = "time"
+  int search_starts = 0;     ///< of a search for detached branches; 0: none
+  int n_time_points = 40;    ///< frequencies of method = "time"
   int steps_per_period = 0;  ///< of method = "time": fixed steps; 0: changes of contact are located
   std::string steps_place;   ///< "file:line: key" of it, for messages
-  std::vector<PreloadEntry> preload;      ///< kinds with a mesh; one curve each
-  std::vector<double> preload_scale{1.0}; ///< modal scenes; one curve each
-  bool limits = true;                     ///< modal scenes: free and stuck curves as well
+  std::vector<PreloadEntry> preload;       ///< kinds with a mesh; one curve each
+  std::vector<double> preload_scale{1.0};  ///< modal scenes; one curve each
+  bool limits = true;                      ///< modal scenes: free and stuck curves as well
   std::optional<OptimumRequest> optimum;
   std::vector<MapEntry> maps;
   int map_phases = 72;
@@ -157,8 +161,8 @@ struct SceneDescription {
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   ModesDescription modes;
   std::vector<ContactDescription> contacts;  ///< kinds with a mesh; none: nothing rubs
-  contact::SurfaceRules rules;  ///< of modal scenes
-  double wear_coefficient = 0.0;  ///< of modal scenes, Archard [m²/N]
+  contact::SurfaceRules rules;               ///< of modal scenes
+  double wear_coefficient = 0.0;             ///< of modal scenes, Archard [m²/N]
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
   /// Why `run` refuses: [response] speaks of a contact the scene does not have. Empty: it does not.
@@ -177,12 +181,14 @@ struct SceneDescription {
 }
 
 [[nodiscard]] inline bool is_rough(const SceneDescription& scene) {
-  return std::ranges::any_of(surface_rules(scene), [](const auto& rules) { return rules.roughness.has_value(); });
+  return std::ranges::any_of(surface_rules(scene),
+                             [](const auto& rules) { return rules.roughness.has_value(); });
 }
 
 /// Whether a friction coefficient depends on the slip speed.
 [[nodiscard]] inline bool is_rate_dependent(const SceneDescription& scene) {
-  return std::ranges::any_of(surface_rules(scene), [](const auto& rules) { return rules.friction.has_value(); });
+  return std::ranges::any_of(surface_rules(scene),
+                             [](const auto& rules) { return rules.friction.has_value(); });
 }
 
 }  // namespace microslip::pipelines

@@ -12,17 +12,17 @@
 #include "pipelines/scene/block_scene.hpp"
 #include "pipelines/scene/chain_scene.hpp"
 #include "pipelines/scene/contact_section.hpp"
-#include "pipelines/text/csv_table.hpp"
 #include "pipelines/scene/effects_section.hpp"
 #include "pipelines/scene/meshed_section.hpp"
 #include "pipelines/scene/modal_scene.hpp"
-#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/scene/response_section.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/scene/scene_overrides.hpp"
+#include "pipelines/scene/write_scene.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/csv_table.hpp"
+#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/text/section_reader.hpp"
 #include "pipelines/text/toml_text.hpp"
-#include "pipelines/scene/write_scene.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -41,11 +41,12 @@ struct Reading {
     const toml::node* node = given.get(name);
     if (node == nullptr) return nullptr;
     if (const toml::table* found = node->as_table()) return found;
-    throw SceneError(fmt::format("{}: {}: {}", place_of(node, file), name,
-                                 node->is_array() && name == "contact"
-                                     ? "several contact patches are for kinds with a mesh"
-                                     : fmt::format("expected a section [{}]{}", name,
-                                                   node->is_array() ? ", once; found a list, or [[…]]" : "")));
+    throw SceneError(
+        fmt::format("{}: {}: {}", place_of(node, file), name,
+                    node->is_array() && name == "contact"
+                        ? "several contact patches are for kinds with a mesh"
+                        : fmt::format("expected a section [{}]{}", name,
+                                      node->is_array() ? ", once; found a list, or [[…]]" : "")));
   }
 
   /// [contact], or every [[contact]].
@@ -61,10 +62,12 @@ struct Reading {
       const std::string path = fmt::format("contact[{}]", i);
       const toml::table* entry = list->get(i)->as_table();
       if (entry == nullptr) {
-        throw SceneError(fmt::format("{}: {}: expected a section [[contact]]", place_of(list->get(i), file), path));
+        throw SceneError(fmt::format("{}: {}: expected a section [[contact]]",
+                                     place_of(list->get(i), file), path));
       }
       completed.push_back(toml::table{});
-      sections.emplace_back(entry, section_spec("contact"), path, file, *completed.back().as_table());
+      sections.emplace_back(entry, section_spec("contact"), path, file,
+                            *completed.back().as_table());
     }
     return sections;
   }
@@ -130,7 +133,8 @@ void require_distinct(const std::vector<ContactDescription>& contacts) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactDescription& contact = contacts[i];
     const auto refuse = [&](const std::string& why) {
-      throw SceneError(fmt::format("{} (the contact \"{}\"): {}", contact.place, contact.name, why));
+      throw SceneError(
+          fmt::format("{} (the contact \"{}\"): {}", contact.place, contact.name, why));
     };
     if (contacts.size() > 1 && contact.name.find_first_of("/\\,\"\n") != std::string::npos) {
       refuse("a name with one of / \\ , \" can be no file or column; give contact.name");
@@ -176,7 +180,8 @@ void read_modal_scene(Reading& reading, SceneDescription& scene) {
   ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
   scene.modes.residual = model.residual;
   scene.model = std::move(model);
-  scene.rules = read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
+  scene.rules =
+      read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
   }
@@ -193,14 +198,15 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   std::optional<BlockOutput> output;
   if (reading.given.contains("response")) {
     SectionReader response = section("response");
-    scene.response = kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
+    scene.response =
+        kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
     if (kind == "chain") coordinate = response.text("output");
     if (kind == "block") output = read_block_output(response);
   }
-  const ModalModel model =
-      kind == "bar"     ? read_bar(sections)
-      : kind == "chain" ? read_chain(sections, coordinate)
-                        : read_block(sections, output, scene.rules, scene.wear_coefficient);
+  const ModalModel model = kind == "bar" ? read_bar(sections)
+                           : kind == "chain"
+                               ? read_chain(sections, coordinate)
+                               : read_block(sections, output, scene.rules, scene.wear_coefficient);
   if (model.points.empty() && reading.given.contains("response")) {
     scene.without_contact = contact_keys_without_contact(section("response"));
   }

@@ -60,7 +60,8 @@ toml::table value_of(const std::string& text, const std::string& assignment) {
     toml::table table = toml::parse("x = " + text, source);
     if (table.size() == 1) return table;  // more: a line break smuggled in further keys
   } catch (const toml::parse_error& error) {
-    // 2.5 mm, stuck, … is meant as a text; what begins like a list, a table or a text is meant as TOML.
+    // 2.5 mm, stuck, … is meant as a text; what begins like a list, a table or a text is meant as
+    // TOML.
     const std::size_t first = text.find_first_not_of(" \t");
     constexpr std::string_view toml_begins = "[{\"'";
     if (first != std::string::npos && toml_begins.find(text[first]) != std::string_view::npos) {
@@ -95,8 +96,9 @@ toml::table& descend(toml::table& table, const Step& step, const std::string& as
   }
   toml::table* below = node->as_table();
   if (below == nullptr) {
-    refuse(assignment, node->is_array() ? fmt::format("{0} is a list: say which entry, as {0}[0]", step.key)
-                                        : fmt::format("{} is not a table", step.key));
+    refuse(assignment, node->is_array()
+                           ? fmt::format("{0} is a list: say which entry, as {0}[0]", step.key)
+                           : fmt::format("{} is not a table", step.key));
   }
   return *below;
 }

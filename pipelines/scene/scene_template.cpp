@@ -158,7 +158,8 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
 }  // namespace
 
 std::string scene_template(std::string_view kind) {
-  constexpr std::array<std::string_view, 6> kinds{"blade", "mesh", "modal", "bar", "chain", "block"};
+  constexpr std::array<std::string_view, 6> kinds{"blade", "mesh",  "modal",
+                                                  "bar",   "chain", "block"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: {}", kind,
                                  fmt::join(kinds, ", ")));

@@ -112,7 +112,8 @@ ChildResult run_child(const std::vector<std::string>& command, std::chrono::mill
   }
   pipe.close_writer();
   std::string output;
-  if (const Reading outcome = read_until(pipe.reader(), deadline, output); outcome != Reading::ended) {
+  if (const Reading outcome = read_until(pipe.reader(), deadline, output);
+      outcome != Reading::ended) {
     ::kill(-child, SIGKILL);
     wait_for(child);
     if (outcome == Reading::interrupted) {

@@ -96,14 +96,16 @@ std::filesystem::path file_on_the_way(const std::filesystem::path& path) {
 void require_folder_name(const std::filesystem::path& folder, const std::string& option) {
   const std::filesystem::path file = file_on_the_way(folder);
   if (file.empty()) return;
-  throw SceneError(fmt::format("{} {}: {} is a file; expected the name of a folder, new or there already", option,
-                               folder.string(), file.string()));
+  throw SceneError(
+      fmt::format("{} {}: {} is a file; expected the name of a folder, new or there already",
+                  option, folder.string(), file.string()));
 }
 
 void require_file_name(const std::filesystem::path& file, const std::string& option) {
   std::error_code code;
   if (std::filesystem::is_directory(file, code)) {
-    throw SceneError(fmt::format("{} {}: is a folder; expected the name of a file", option, file.string()));
+    throw SceneError(
+        fmt::format("{} {}: is a folder; expected the name of a file", option, file.string()));
   }
   require_folder_name(std::filesystem::absolute(file, code).parent_path(), option);
 }

@@ -18,7 +18,8 @@ class TemporaryFolder {
     const std::filesystem::path parent = std::filesystem::temp_directory_path(none);
     std::string pattern = (parent / "microslip-XXXXXX").string();
     if (none || ::mkdtemp(pattern.data()) == nullptr) {
-      throw ExhaustedError("no temporary folder can be made: TMPDIR or /tmp is missing or not writable");
+      throw ExhaustedError(
+          "no temporary folder can be made: TMPDIR or /tmp is missing or not writable");
     }
     path_ = pattern;
   }

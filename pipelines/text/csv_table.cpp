@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
@@ -74,7 +74,8 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
     content.append(part.data(), static_cast<std::size_t>(stream.gcount()));
     if (content.size() > limit) {
-      throw SceneError(fmt::format("{}: more than the {} bytes that are read at most", file.string(), limit));
+      throw SceneError(
+          fmt::format("{}: more than the {} bytes that are read at most", file.string(), limit));
     }
   }
   if (stream.bad()) throw SceneError(fmt::format("{}: cannot be read", file.string()));
@@ -126,8 +127,8 @@ void CsvTable::read_header(const std::vector<std::string_view>& cells, std::size
 void CsvTable::read_row(const std::vector<std::string_view>& cells, std::size_t line,
                         std::optional<std::size_t> id_column) {
   if (cells.size() != columns_.size()) {
-    throw SceneError(fmt::format("{}:{}: {} value{} under {} column names{}", name_, line, cells.size(),
-                                 cells.size() == 1 ? "" : "s", columns_.size(),
+    throw SceneError(fmt::format("{}:{}: {} value{} under {} column names{}", name_, line,
+                                 cells.size(), cells.size() == 1 ? "" : "s", columns_.size(),
                                  cells.size() == 1 ? "; values are separated by commas" : ""));
   }
   lines_.push_back(line);

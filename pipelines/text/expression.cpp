@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
-#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/nearest_name.hpp"
 
 namespace microslip::pipelines {
 
@@ -64,7 +64,8 @@ std::string unknown_name(const mu::Parser& parser, const std::string& token) {
                      fmt::join(names, ", "));
 }
 
-// The message without its position, which the library counts from 0, and without the blank it adds to tokens.
+// The message without its position, which the library counts from 0, and without the blank it adds
+// to tokens.
 std::string in_our_count(const std::string& message) {
   static const std::regex position(" (found )?at (expression )?position [0-9]+|[.]$");
   static const std::regex token("\"([^\"]*[^\" ]) +\"");
@@ -77,11 +78,13 @@ SceneError syntax_error(const mu::Parser& parser, const std::string& text, const
   const bool is_name = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !error.GetToken().empty() &&
                        (std::isalpha(static_cast<unsigned char>(error.GetToken()[0])) != 0 ||
                         error.GetToken()[0] == '_');
-  const std::string what = is_name ? unknown_name(parser, error.GetToken()) : in_our_count(error.GetMsg());
+  const std::string what =
+      is_name ? unknown_name(parser, error.GetToken()) : in_our_count(error.GetMsg());
   const auto end = static_cast<int>(text.size());
   const int position = std::clamp(error.GetPos() + 1, 1, end + 1);
-  return SceneError(fmt::format("{}: expression \"{}\", {}: {}", place, text,
-                                fmt::format("character {}{}", position, position > end ? ", its end" : ""), what));
+  return SceneError(fmt::format(
+      "{}: expression \"{}\", {}: {}", place, text,
+      fmt::format("character {}{}", position, position > end ? ", its end" : ""), what));
 }
 
 void define(mu::Parser& parser, const std::string& place,
@@ -127,7 +130,10 @@ void require_writable(const std::string& text, const std::string& place) {
 Expression::Expression(const std::string& text, std::string place,
                        const std::map<std::string, double>& constants,
                        const std::array<std::string, 2>& coordinates)
-    : parser_(std::make_unique<Parser>()), text_(text), place_(std::move(place)), coordinates_(coordinates) {
+    : parser_(std::make_unique<Parser>()),
+      text_(text),
+      place_(std::move(place)),
+      coordinates_(coordinates) {
   require_writable(text, place_);
   mu::Parser& parser = parser_->parser;
   define(parser, place_, constants);
@@ -166,8 +172,8 @@ Eigen::VectorXd Expression::at(const Eigen::VectorXd& p, const Eigen::VectorXd& 
     if (!std::isfinite(values[i])) {
       const std::string second =
           coordinates_[1].empty() ? "" : fmt::format(", {} = {} m", coordinates_[1], r_here);
-      throw SceneError(fmt::format("{}: expression \"{}\" is {} at {} = {} m{}", place_,
-                                   text_, values[i], coordinates_[0], p_here, second));
+      throw SceneError(fmt::format("{}: expression \"{}\" is {} at {} = {} m{}", place_, text_,
+                                   values[i], coordinates_[0], p_here, second));
     }
   }
   return values;

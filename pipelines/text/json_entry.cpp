@@ -15,7 +15,8 @@ void JsonEntry::expected(const char* what) const {
   std::string found = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
   constexpr std::size_t longest = 40;  // what helps to find the place; the rest is in the file
   if (found.size() > longest) found = value_->type_name();
-  throw SceneError(fmt::format("{}: expected {}, found {}: the file is damaged", path_, what, found));
+  throw SceneError(
+      fmt::format("{}: expected {}, found {}: the file is damaged", path_, what, found));
 }
 
 bool JsonEntry::has(const std::string& key) const {
@@ -28,7 +29,8 @@ JsonEntry JsonEntry::at(const std::string& key) const {
   if (!value_->is_object()) expected("an object");
   const auto found = value_->find(key);
   if (found == value_->end()) {
-    throw SceneError(fmt::format("{}: \"{}\" is missing: the file is damaged, or no run has written it", path_, key));
+    throw SceneError(fmt::format(
+        "{}: \"{}\" is missing: the file is damaged, or no run has written it", path_, key));
   }
   return {*found, fmt::format("{}{}{}", path_, path_.ends_with(".json") ? ": " : ".", key)};
 }
@@ -76,10 +78,12 @@ Json parse_json(const std::string& text, const std::string& name) {
     }
     const std::string_view before(text.data(), read);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t column = read - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0: the first line
+    const std::size_t column =
+        read - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0: the first line
     throw SceneError(fmt::format("{}:{}:{}: {}", name, line, column,
-                                 read >= text.size() ? "the file ends too early: it was cut off"
-                                                     : "no JSON from here on: the file is damaged"));
+                                 read >= text.size()
+                                     ? "the file ends too early: it was cut off"
+                                     : "no JSON from here on: the file is damaged"));
   }
 }
 

@@ -14,7 +14,8 @@ namespace microslip::pipelines {
 class JsonEntry {
  public:
   /// @param path  how messages call the value: the file, then the keys that lead to it.
-  JsonEntry(const nlohmann::ordered_json& value, std::string path) : value_(&value), path_(std::move(path)) {}
+  JsonEntry(const nlohmann::ordered_json& value, std::string path)
+      : value_(&value), path_(std::move(path)) {}
 
   /// Whether the key is there and holds anything: files of older versions lack some.
   /// @throws SceneError  this is no object.

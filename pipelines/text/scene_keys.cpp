@@ -20,7 +20,8 @@ constexpr KeySpec length_key(std::string_view name, std::string_view preset,
   return {name, number, "m", preset, 0.0, 10.0, true, meaning};
 }
 
-constexpr KeySpec kind_key{"kind", text, "", "", 0, 0, false, "blade | mesh | modal | bar | chain | block"};
+constexpr KeySpec kind_key{"kind", text, "",    "",
+                           0,      0,    false, "blade | mesh | modal | bar | chain | block"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
 constexpr std::array blade_keys{
@@ -30,7 +31,8 @@ constexpr std::array blade_keys{
     length_key("root_width", "\"6.6 mm\"", "root block along x (circumferential)"),
     length_key("root_height", "\"25 mm\"", "root block along y (radial); its foot lies in y = 0"),
     length_key("root_length", "\"50 mm\"", "root block along z (axial)"),
-    length_key("platform_width", "\"60 mm\"", "platform along x; its right side face is the contact"),
+    length_key("platform_width", "\"60 mm\"",
+               "platform along x; its right side face is the contact"),
     length_key("platform_height", "\"10 mm\"", "platform along y"),
     length_key("platform_length", "\"60 mm\"", "platform along z"),
     length_key("span", "\"114.1 mm\"", "aerofoil above the platform"),
@@ -41,14 +43,17 @@ constexpr std::array blade_keys{
     KeySpec{"root_stagger", number, "rad", "0.1", -1.5, 1.5, false,
             "angle of the chord to z about y at the platform"},
     KeySpec{"tip_stagger", number, "rad", "0.6", -1.5, 1.5, false, "the same at the tip"},
-    KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false, "height of the camber line over the chord"},
+    KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false,
+            "height of the camber line over the chord"},
     KeySpec{"lean", number, "m", "\"-3 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
 };
 
 constexpr std::array mesh_keys{
     kind_key,
-    KeySpec{"file", text, "", "", 0, 0, false, "gmsh mesh (.msh 2.2 or 4.1), relative to the scene"},
-    KeySpec{"length_unit", other, "m", "\"m\"", 0, 0, false, "unit of the file's coordinates: \"mm\", or metres per unit"},
+    KeySpec{"file", text, "", "", 0, 0, false,
+            "gmsh mesh (.msh 2.2 or 4.1), relative to the scene"},
+    KeySpec{"length_unit", other, "m", "\"m\"", 0, 0, false,
+            "unit of the file's coordinates: \"mm\", or metres per unit"},
     order_key,
 };
 
@@ -59,7 +64,8 @@ constexpr std::array bar_model_keys{
     KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
     KeySpec{"area", number, "m^2", "", 0.0, unbounded, true, "A, cross-section"},
     KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
-    KeySpec{"length", number, "m", "", 0.0, unbounded, true, "L; the left end is x = 0, the right one is free"},
+    KeySpec{"length", number, "m", "", 0.0, unbounded, true,
+            "L; the left end is x = 0, the right one is free"},
     KeySpec{"end_stiffness", other, "N/m", "\"clamped\"", 0, 0, false,
             "β, spring that holds the left end: a stiffness, \"clamped\", or 0 (free)"},
 };
@@ -72,22 +78,33 @@ constexpr std::array chain_model_keys{
             "a chain: m1 … mn (with springs; the alternatives are matrices, or modes)", true},
     KeySpec{"springs", other, "N/m", "", 0, 0, false,
             "a chain: ground–m1, m1–m2, …, and, if one more is given, mn–ground; 0: none", true},
-    KeySpec{"mass_matrix", other, "kg", "", 0, 0, false, "any system: M, symmetric, a list of rows", true},
-    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false, "any system: K, symmetric, a list of rows", true},
-    KeySpec{"frequency", other, "Hz", "", 0, 0, false, "given modes: natural frequencies, one per mode", true},
+    KeySpec{"mass_matrix", other, "kg", "", 0, 0, false, "any system: M, symmetric, a list of rows",
+            true},
+    KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false,
+            "any system: K, symmetric, a list of rows", true},
+    KeySpec{"frequency", other, "Hz", "", 0, 0, false,
+            "given modes: natural frequencies, one per mode", true},
     KeySpec{"mode_shapes", other, "1/kg^0.5", "", 0, 0, false,
             "given modes: one row per mode, mass-normalised, a number per coordinate", true},
 };
 
 constexpr std::array block_model_keys{
     kind_key,
-    KeySpec{"mass", number, "kg", "", 0.0, unbounded, true, "of the block; vectors of this scene are told along p, q, r: q points out of the block into the ground"},
-    KeySpec{"moments_of_inertia", other, "kg*m^2", "", 0.0, unbounded, false, "about p, q, r through the centre of mass: the principal axes"},
-    KeySpec{"height", number, "m", "0", -unbounded, unbounded, false, "of the centre of mass above the contact plane"},
-    KeySpec{"stiffness", other, "N/m", "", 0.0, unbounded, false, "springs at the centre of mass along p, q, r", true},
-    KeySpec{"rotational_stiffness", other, "N*m", "", 0.0, unbounded, false, "springs that turn about p, q, r, per rad", true},
+    KeySpec{"mass", number, "kg", "", 0.0, unbounded, true,
+            "of the block; vectors of this scene are told along p, q, r: q points out of the block "
+            "into the ground"},
+    KeySpec{"moments_of_inertia", other, "kg*m^2", "", 0.0, unbounded, false,
+            "about p, q, r through the centre of mass: the principal axes"},
+    KeySpec{"height", number, "m", "0", -unbounded, unbounded, false,
+            "of the centre of mass above the contact plane"},
+    KeySpec{"stiffness", other, "N/m", "", 0.0, unbounded, false,
+            "springs at the centre of mass along p, q, r", true},
+    KeySpec{"rotational_stiffness", other, "N*m", "", 0.0, unbounded, false,
+            "springs that turn about p, q, r, per rad", true},
     KeySpec{"stiffness_matrix", other, "N/m", "", 0, 0, false,
-            "6 x 6 instead, SI, of the displacements along p, q, r and the rotations about them, at the centre of mass", true},
+            "6 x 6 instead, SI, of the displacements along p, q, r and the rotations about them, "
+            "at the centre of mass",
+            true},
 };
 
 constexpr std::array material_keys{
@@ -97,20 +114,31 @@ constexpr std::array material_keys{
 };
 
 constexpr std::array support_keys{
-    KeySpec{"clamped", other, "", "[]", 0, 0, false, "names of surfaces, or sets of edges or nodes, that are held"},
+    KeySpec{"clamped", other, "", "[]", 0, 0, false,
+            "names of surfaces, or sets of edges or nodes, that are held"},
 };
 
-constexpr KeySpec damping_key{"damping_ratio", other, "1", "0.002", 0, 0, false,
-                              "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"};
+constexpr KeySpec damping_key{
+    "damping_ratio",
+    other,
+    "1",
+    "0.002",
+    0,
+    0,
+    false,
+    "one for all modes, a list with one each, or { alpha = …, beta = … } (C = αM + βK)"};
 
 constexpr std::array mode_keys{
     KeySpec{"count", integer, "", "10", 1, 1000, false, "number of modes"},
     damping_key,
     KeySpec{"residual", text, "", "\"attachment\"", 0, 0, false,
-            "omitted modes on the contact: attachment (static shapes; they take the last damping ratio of a "
-            "list) | stiffness (in series with the contact, paper A; what a rigid contact takes) | none"},
+            "omitted modes on the contact: attachment (static shapes; they take the last damping "
+            "ratio of a "
+            "list) | stiffness (in series with the contact, paper A; what a rigid contact takes) | "
+            "none"},
     KeySpec{"attachment_degree", other, "", "\"auto\"", 0, 0, false,
-            "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest that leaves no "
+            "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest "
+            "that leaves no "
             "traction of the next degree more than 30 % of its residual flexibility short"},
 };
 
@@ -124,23 +152,27 @@ constexpr std::array bar_mode_keys{
 };
 
 constexpr std::array chain_mode_keys{
-    KeySpec{"count", integer, "", "", 1, 1000, false, "number of modes, the lowest ones; else all", true},
+    KeySpec{"count", integer, "", "", 1, 1000, false, "number of modes, the lowest ones; else all",
+            true},
     damping_key,
 };
 
 constexpr KeySpec friction_key{"friction_coefficient", number, "1", "", 0.0, unbounded, false, "μ"};
 
 constexpr std::array bar_contact_keys{
-    KeySpec{"tangential_stiffness", number, "N/m^2", "", 0.0, unbounded, false, "per length of the bar"},
+    KeySpec{"tangential_stiffness", number, "N/m^2", "", 0.0, unbounded, false,
+            "per length of the bar"},
     friction_key,
-    KeySpec{"load", other, "N/m", "", 0, 0, false,
-            "normal force per length, constant in time: a number, or an expression in x and L such as "
-            "\"2000*(0.2 + 0.8*(2*x/L - 1)^2)\""},
+    KeySpec{
+        "load", other, "N/m", "", 0, 0, false,
+        "normal force per length, constant in time: a number, or an expression in x and L such as "
+        "\"2000*(0.2 + 0.8*(2*x/L - 1)^2)\""},
     KeySpec{"points", integer, "", "200", 1, 10'000'000, false, "contact points along the bar"},
 };
 
 constexpr std::array bar_excitation_keys{
-    KeySpec{"force", number, "N", "", -unbounded, unbounded, false, "F in F sin θ along the bar, at its right end"},
+    KeySpec{"force", number, "N", "", -unbounded, unbounded, false,
+            "F in F sin θ along the bar, at its right end"},
 };
 
 constexpr std::array block_excitation_keys{
@@ -148,14 +180,18 @@ constexpr std::array block_excitation_keys{
 };
 
 constexpr std::array block_force_keys{
-    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] where the force acts, from the centre of mass"},
-    KeySpec{"force", other, "N", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes along p, q, r"},
-    KeySpec{"moment", other, "N*m", "[0, 0, 0]", -unbounded, unbounded, false, "amplitudes about p, q, r"},
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false,
+            "point [p, q, r] where the force acts, from the centre of mass"},
+    KeySpec{"force", other, "N", "[0, 0, 0]", -unbounded, unbounded, false,
+            "amplitudes along p, q, r"},
+    KeySpec{"moment", other, "N*m", "[0, 0, 0]", -unbounded, unbounded, false,
+            "amplitudes about p, q, r"},
     KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
 };
 
 constexpr std::array block_output_keys{
-    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false, "point [p, q, r] from the centre of mass"},
+    KeySpec{"at", other, "m", "[0, 0, 0]", -unbounded, unbounded, false,
+            "point [p, q, r] from the centre of mass"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "along p, q, r"},
 };
 
@@ -166,14 +202,18 @@ constexpr std::array chain_contact_keys{
 constexpr std::array chain_contact_point_keys{
     KeySpec{"slip", other, "1", "", 0, 0, false,
             "coordinate that rubs, or a relative motion { m1 = 1, m2 = -1 }"},
-    KeySpec{"approach", other, "1", "", 0, 0, false, "the same for the normal motion, positive when it closes", true},
+    KeySpec{"approach", other, "1", "", 0, 0, false,
+            "the same for the normal motion, positive when it closes", true},
     KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "k_u of the contact"},
     KeySpec{"normal_stiffness", number, "N/m", "0", 0.0, unbounded, false, "k_v; 0: constant load"},
     friction_key,
-    KeySpec{"share", number, "1", "1", 0.0, unbounded, false, "of the total preload, relative to the other contacts"},
-    KeySpec{"cells", other, "", "[1, 1]", 0, 0, false, "an area instead of a point: cells along p (slip) and r"},
+    KeySpec{"share", number, "1", "1", 0.0, unbounded, false,
+            "of the total preload, relative to the other contacts"},
+    KeySpec{"cells", other, "", "[1, 1]", 0, 0, false,
+            "an area instead of a point: cells along p (slip) and r"},
     KeySpec{"size", other, "m", "", 0.0, unbounded, true, "of the area along p and r", true},
-    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false, "about p and r, given to the cells beside the force"},
+    KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
+            "about p and r, given to the cells beside the force"},
 };
 
 constexpr std::array chain_force_keys{
@@ -182,57 +222,87 @@ constexpr std::array chain_force_keys{
     KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
 };
 
-constexpr KeySpec roughness_key{"roughness", other, "m", "", 0.0, unbounded, false,
-                                "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two", true};
-constexpr KeySpec wear_key{"wear_coefficient", number, "m^2/N", "0", 0.0, unbounded, false,
+constexpr KeySpec roughness_key{
+    "roughness",
+    other,
+    "m",
+    "",
+    0.0,
+    unbounded,
+    false,
+    "rough surfaces: { law = \"cubic\" | \"gaussian\", height = \"10 um\" }, or a list of two",
+    true};
+constexpr KeySpec wear_key{"wear_coefficient",
+                           number,
+                           "m^2/N",
+                           "0",
+                           0.0,
+                           unbounded,
+                           false,
                            "Archard: depth per (pressure × slip distance)"};
 
 constexpr std::array block_contact_keys{
     KeySpec{"cells", other, "", "[4, 4]", 0, 0, false, "along p and r"},
-    KeySpec{"size", other, "m", "", 0.0, unbounded, false, "of the contact rectangle along p and r"},
-    KeySpec{"centre", other, "m", "[0, 0]", -unbounded, unbounded, false, "of the rectangle along p and r, from below the centre of mass"},
-    KeySpec{"normal_stiffness", number, "N/m", "", 0.0, unbounded, false, "of all cells together, in full contact; 0: constant load"},
-    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false, "the same along p and along r"},
+    KeySpec{"size", other, "m", "", 0.0, unbounded, false,
+            "of the contact rectangle along p and r"},
+    KeySpec{"centre", other, "m", "[0, 0]", -unbounded, unbounded, false,
+            "of the rectangle along p and r, from below the centre of mass"},
+    KeySpec{"normal_stiffness", number, "N/m", "", 0.0, unbounded, false,
+            "of all cells together, in full contact; 0: constant load"},
+    KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false,
+            "the same along p and along r"},
     KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
-            "μ: a number, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "μ: a number, or a law of the slip speed: { law = \"exponential\", static = …, kinetic "
+            "= …, rate = \"… s/m\" } or "
             "{ law = \"hyperbolic\", static = …, rate = … }"},
     roughness_key,
     KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
-            "about p and r through the centre of the rectangle, beside each preload; cells may lift off"},
+            "about p and r through the centre of the rectangle, beside each preload; cells may "
+            "lift off"},
     wear_key,
 };
 
 constexpr std::array modal_contact_keys{
     KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
-            "of all points that rub, in place of their coefficient: { law = \"exponential\", static = …, "
-            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }", true},
+            "of all points that rub, in place of their coefficient: { law = \"exponential\", "
+            "static = …, "
+            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }",
+            true},
     roughness_key,
     wear_key,
 };
 
 constexpr std::array contact_keys{
     KeySpec{"surface", text, "", "", 0, 0, false,
-            "named plane face that rubs; several: [[contact]] once for each, --set contact[0].KEY=… for one"},
+            "named plane face that rubs; several: [[contact]] once for each, --set "
+            "contact[0].KEY=… for one"},
     KeySpec{"name", text, "", "", 0, 0, false,
-            "of columns and files where there are several contacts; else that of the surface", true},
+            "of columns and files where there are several contacts; else that of the surface",
+            true},
     KeySpec{"preload_share", number, "1", "", 0.0, unbounded, true,
-            "of each preload, relative to the other contacts, all of them or none; else by area", true},
-    KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false, "p axis, projected on the patch"},
+            "of each preload, relative to the other contacts, all of them or none; else by area",
+            true},
+    KeySpec{"slip_direction", direction, "", "[0, 0, 1]", 0, 0, false,
+            "p axis, projected on the patch"},
     KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
-            "μ: a number, an expression in p and r [m] from the centroid of the patch, { file = \"mu.csv\" } with "
-            "columns p, r, value, or a law of the slip speed: { law = \"exponential\", static = …, kinetic = …, rate = \"… s/m\" } or "
+            "μ: a number, an expression in p and r [m] from the centroid of the patch, { file = "
+            "\"mu.csv\" } with "
+            "columns p, r, value, or a law of the slip speed: { law = \"exponential\", static = …, "
+            "kinetic = …, rate = \"… s/m\" } or "
             "{ law = \"hyperbolic\", static = …, rate = … }"},
     roughness_key,
     KeySpec{"preload_field", other, "Pa", "\"uniform\"", -unbounded, unbounded, false,
-            "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or { file = … }; "
+            "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or "
+            "{ file = … }; "
             "negative: a gap; a total is what the pressed part carries"},
     KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
             "about p and r through the centroid, beside each preload; cells may lift off"},
     KeySpec{"normal_stiffness", other, "N/m^3", "", 0.0, unbounded, false,
             "local stiffness per area, or \"rigid\": the residual stiffness alone"},
     KeySpec{"tangential_stiffness", other, "N/m^3", "", 0.0, unbounded, false, "the same along p"},
-    KeySpec{"fit", other, "", "\"auto\"", 0, 0, false,
-            "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
+    KeySpec{
+        "fit", other, "", "\"auto\"", 0, 0, false,
+        "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
     wear_key,
     KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
 };
@@ -244,7 +314,8 @@ constexpr std::array excitation_keys{
 constexpr std::array force_keys{
     KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
-    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false, "in all, spread evenly over the nodes"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false,
+            "in all, spread evenly over the nodes"},
     KeySpec{"phase", number, "deg", "0", -unbounded, unbounded, false, "in degrees"},
 };
 
@@ -259,7 +330,8 @@ constexpr std::array output_keys{
 
 constexpr std::array modal_keys{
     KeySpec{"frequency", other, "Hz", "", 0, 0, false, "natural frequencies, one per mode", true},
-    KeySpec{"angular_frequency", other, "rad/s", "", 0, 0, false, "the same in rad/s, instead", true},
+    KeySpec{"angular_frequency", other, "rad/s", "", 0, 0, false, "the same in rad/s, instead",
+            true},
     KeySpec{"damping_ratio", other, "1", "", 0, 0, false, "one per mode, or one number"},
     KeySpec{"force_sine", other, "N/kg^0.5", "", 0, 0, false, "modal force amplitudes of sin θ"},
     KeySpec{"force_cosine", other, "N/kg^0.5", "0", 0, 0, false, "of cos θ"},
@@ -268,7 +340,8 @@ constexpr std::array modal_keys{
     KeySpec{"attachment", integer, "", "0", 0, 1000, false,
             "so many of the modes, the last, are static shapes that stand for omitted modes"},
     KeySpec{"points", other, "", "[]", 0, 0, false,
-            "contact points: a CSV file, or a list of tables; residual_p, residual_q, residual_r [m^3/N]: flexibility "
+            "contact points: a CSV file, or a list of tables; residual_p, residual_q, residual_r "
+            "[m^3/N]: flexibility "
             "of omitted modes in series with the stiffness of a point"},
 };
 
@@ -279,7 +352,8 @@ constexpr std::array effect_keys{
     KeySpec{"second_direction", text, "", "\"auto\"", 0, 0, false, "friction along r as well"},
     KeySpec{"higher_harmonics", text, "", "\"auto\"", 0, 0, false, "harmonics above the first"},
     KeySpec{"roughness", text, "", "\"auto\"", 0, 0, false, "rough surfaces"},
-    KeySpec{"rate_dependence", text, "", "\"auto\"", 0, 0, false, "friction coefficient by slip speed"},
+    KeySpec{"rate_dependence", text, "", "\"auto\"", 0, 0, false,
+            "friction coefficient by slip speed"},
     KeySpec{"residual", text, "", "\"auto\"", 0, 0, false, "residual flexibility of omitted modes"},
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
@@ -326,7 +400,8 @@ constexpr std::array<std::string_view, 8> mesh_sections{
     "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
 constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
                                                          "effects"};
-constexpr std::array<std::string_view, 6> lean_sections{  // bar, chain, block
+constexpr std::array<std::string_view, 6> lean_sections{
+    // bar, chain, block
     "model", "modes", "contact", "excitation", "response", "effects"};
 
 }  // namespace

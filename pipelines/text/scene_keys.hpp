@@ -14,7 +14,7 @@ namespace microslip::pipelines {
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 enum class KeyType {
-  number,     ///< a number, or a string with a unit
+  number,  ///< a number, or a string with a unit
   integer,
   text,
   direction,  ///< three numbers
@@ -28,9 +28,9 @@ struct KeySpec {
   std::string_view preset;  ///< default as it would be written; empty: the key must be given
   double low = -unbounded;  ///< range of a number: low ≤ value ≤ high,
   double high = unbounded;
-  bool above_low = false;   ///< … or low < value
+  bool above_low = false;  ///< … or low < value
   std::string_view meaning;
-  bool optional = false;    ///< may be absent without a default
+  bool optional = false;  ///< may be absent without a default
 };
 
 struct SectionSpec {

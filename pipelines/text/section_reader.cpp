@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/nearest_name.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
@@ -177,7 +177,9 @@ int SectionReader::integer(std::string_view key) const {
   const auto value = found.value<std::int64_t>();
   if (!found.is_integer() || !value) {
     const bool has_range = spec.low != 0.0 || spec.high != 0.0;
-    fail(key, fmt::format("expected a whole number{}{}", has_range ? ", " : "", has_range ? range_text(spec) : ""),
+    fail(key,
+         fmt::format("expected a whole number{}{}", has_range ? ", " : "",
+                     has_range ? range_text(spec) : ""),
          &found);
   }
   const auto number = static_cast<double>(*value);
@@ -232,8 +234,9 @@ void SectionReader::fail(std::string_view key, const std::string& message,
                          const toml::node* at) const {
   const toml::node* node = at != nullptr ? at : given_;
   const bool wants = message.starts_with("expected") && at != nullptr;
-  throw SceneError(fmt::format("{}: {}{}{}: {}{}", place_of(node, file_), path_, path_.empty() ? "" : ".", key,
-                               message, wants ? "; found " + shown(*at) : ""));
+  throw SceneError(fmt::format("{}: {}{}{}: {}{}", place_of(node, file_), path_,
+                               path_.empty() ? "" : ".", key, message,
+                               wants ? "; found " + shown(*at) : ""));
 }
 
 }  // namespace microslip::pipelines

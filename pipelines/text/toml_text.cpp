@@ -11,7 +11,8 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr std::size_t longest_line = 1000;  // of those searched for keys: scenes are written by hand
+constexpr std::size_t longest_line =
+    1000;  // of those searched for keys: scenes are written by hand
 
 /// The part of a line that may hold a key or the name of a section.
 std::string searched(std::string_view line) { return std::string(line.substr(0, longest_line)); }
@@ -46,8 +47,11 @@ std::size_t offset_of(const toml::source_position& place, std::string_view text)
   for (std::size_t line = 1; line < place.line && at < text.size(); ++line) {
     at = std::min(text.find('\n', at), text.size() - 1) + 1;
   }
-  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
-  for (std::size_t column = 1; column < place.column && at < text.size() && text[at] != '\n'; ++column) {
+  const auto continues = [&](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
+  };
+  for (std::size_t column = 1; column < place.column && at < text.size() && text[at] != '\n';
+       ++column) {
     do ++at;
     while (at < text.size() && continues(at));
   }
@@ -60,14 +64,17 @@ std::string description_of(const toml::parse_error& error) {
   const std::string text(error.description());
   std::smatch found;
   if (std::regex_search(text, found, std::regex("'([^']*)' could not be interpreted as a value"))) {
-    return fmt::format("{} is out of range: expected a number of at most 1.797e308 in size", found[1].str());
-  }
-  if (std::regex_search(text, found, std::regex("'([^']*)' is not representable in 64 bits"))) {
-    return fmt::format("{} is out of range: whole numbers end at 9.2e18; write 1e20 with a point or an e",
+    return fmt::format("{} is out of range: expected a number of at most 1.797e308 in size",
                        found[1].str());
   }
+  if (std::regex_search(text, found, std::regex("'([^']*)' is not representable in 64 bits"))) {
+    return fmt::format(
+        "{} is out of range: whole numbers end at 9.2e18; write 1e20 with a point or an e",
+        found[1].str());
+  }
   constexpr std::string_view preface = "Error while parsing ";
-  return text.starts_with(preface) ? "cannot be read as TOML: " + text.substr(preface.size()) : text;
+  return text.starts_with(preface) ? "cannot be read as TOML: " + text.substr(preface.size())
+                                   : text;
 }
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
@@ -76,8 +83,8 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     const toml::source_position place = error.source().begin;
     const std::string key = key_at_end_of(text.substr(0, offset_of(place, text)));
-    throw SceneError(fmt::format("{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
-                                 description_of(error)));
+    throw SceneError(fmt::format("{}:{}:{}: {}{}{}", name, place.line, place.column, key,
+                                 key.empty() ? "" : ": ", description_of(error)));
   }
 }
 

@@ -89,9 +89,11 @@ bool is_below_one(std::string_view number) {
     if (!significant && in_fraction) --order;
   }
   if (i == number.size()) return order <= 0;
-  const std::string_view exponent = number.substr(i + (number.substr(i, 2) == "e+" || number.substr(i, 2) == "E+" ? 2 : 1));
+  const std::string_view exponent =
+      number.substr(i + (number.substr(i, 2) == "e+" || number.substr(i, 2) == "E+" ? 2 : 1));
   long power = 0;
-  const auto [end, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+  const auto [end, error] =
+      std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
   if (error != std::errc()) return exponent.starts_with('-');  // more than any text has digits
   return order + power <= 0;
 }

@@ -13,7 +13,7 @@ libraries="libeigen3-dev libslepc-real-dev libgmsh-dev libopenblas-pthread-dev l
 # The build makes the tests as well unless it is told not to, so their libraries belong here.
 testing="libgtest-dev librapidcheck-dev libbenchmark-dev libsundials-dev"
 plots="python3-numpy python3-matplotlib python3-meshio python3-h5py"
-test_programs="calculix-ccx openmpi-bin"
+test_programs="calculix-ccx openmpi-bin clang-format"
 
 wanted="$build $libraries $testing $plots"
 case "${1:-}" in

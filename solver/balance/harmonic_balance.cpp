@@ -234,7 +234,8 @@ double HarmonicBalance::force_scale(double frequency) const {
 
 double HarmonicBalance::largest_terms(const Eigen::VectorXd& x, double frequency) const {
   const Harmonics q = harmonics(x);
-  // A stiff contact holds its points still: motions of the modes cancel there, their rounding does not.
+  // A stiff contact holds its points still: motions of the modes cancel there, their rounding does
+  // not.
   double sum = (q.rows() * stiffness_.asDiagonal()).norm() +
                (q.rows().cwiseAbs() * stuck_stiffness_.cwiseAbs()).norm();
   for (const int k : set_.orders()) {

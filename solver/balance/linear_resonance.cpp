@@ -32,8 +32,7 @@ std::optional<double> unbounded_resonance(const Scene& scene, const Eigen::Matri
   for (Eigen::Index i = 0; i < omega.size(); ++i) {
     const Eigen::VectorXd shape = modes->vectors.col(i);
     const double resonance = std::sqrt(std::max(0.0, modes->values[i]));
-    const double damping =
-        (shape.array().square() * scene.damping_ratio.array() * omega).sum();
+    const double damping = (shape.array().square() * scene.damping_ratio.array() * omega).sum();
     if (damping > rounding * resonance) continue;
     for (int order = 1; order <= scene.excitation.n_harmonics(); ++order) {
       const double frequency = resonance / order;

@@ -13,7 +13,8 @@
 namespace microslip::solver {
 
 /// R(x, p) and its derivatives.
-using ParametricSystem = std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
+using ParametricSystem =
+    std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
 
 /// Sizes that make unknowns, parameter and residual numbers of order one. All > 0.
 struct Scaling {

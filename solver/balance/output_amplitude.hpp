@@ -13,7 +13,7 @@ struct OutputAmplitude {
   double first_harmonic = 0.0;     ///< [m]
   double mean = 0.0;               ///< [m]
   double phase = 0.0;              ///< atan2(y_c, y_s) of the first harmonic [rad]
-  Eigen::VectorXd gradient;        ///< ∂(half_peak_to_peak)/∂x, in the order of Harmonics::vector()
+  Eigen::VectorXd gradient;  ///< ∂(half_peak_to_peak)/∂x, in the order of Harmonics::vector()
 };
 
 /// @param output  y = output · q, n_modes.

@@ -73,9 +73,10 @@ NewtonResult BranchWalker::solved(const BranchVector& predicted, const BranchVec
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
-  // The sign of the determinant is that of the branch: another one is another branch's, or a kink at which
-  // the branch turns back lies in between.
-  const bool same = trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
+  // The sign of the determinant is that of the branch: another one is another branch's, or a kink
+  // at which the branch turns back lies in between.
+  const bool same =
+      trial.orientation == 0.0 || orientation_ == 0.0 || trial.orientation == orientation_;
   return same && trial.cosine > cosine_limit && trial.correction < correction_limit;
 }
 
@@ -226,8 +227,8 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
   chord.parameter /= size;
   const double width = b.share - a.share;
   const double u = (share - a.share) / width;
-  for (const BranchVector& start :
-       starts_between(Knot(a.point, chord, size, scaling), Knot(b.point, chord, size, scaling), u, width)) {
+  for (const BranchVector& start : starts_between(Knot(a.point, chord, size, scaling),
+                                                  Knot(b.point, chord, size, scaling), u, width)) {
     if (auto point = corrected(start, chord)) return StepPoint{share, std::move(*point)};
   }
   return std::nullopt;

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "solver/branch/predictor.hpp"
-#include "solver/branch/branch_geometry.hpp"
 #include "solver/balance/newton.hpp"
+#include "solver/branch/branch_geometry.hpp"
+#include "solver/branch/predictor.hpp"
 #include "solver/branch/step_states.hpp"
 
 namespace microslip::solver {

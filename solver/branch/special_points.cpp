@@ -22,19 +22,20 @@ constexpr double suspicious_slope = 0.3;
 constexpr double hopeless_slope = 0.02;
 constexpr int max_parabolas = 8;
 
-// Angles of the tangents with the chord are equal on an arc; a kink, where points begin to slip, to stick or
-// to separate, makes them differ by more than this factor, and the cubic is not the branch.
+// Angles of the tangents with the chord are equal on an arc; a kink, where points begin to slip, to
+// stick or to separate, makes them differ by more than this factor, and the cubic is not the
+// branch.
 constexpr double uneven = 1.5;
 constexpr double slight_turn = 0.01;  // rad: what turns less hides nothing that a curve could show
-// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does not. Steep
-// parts of a branch, where folds may hide, are few.
+// A slope that is this small beside what the tangent turns may pass zero twice where the cubic does
+// not. Steep parts of a branch, where folds may hide, are few.
 constexpr double level_at_peak = 0.1;
 constexpr double level_at_fold = 0.3;
 // The motion along the branch jumps at a kink by about this share of itself; the slope no more.
 constexpr double kink_reach = 0.3;
 // Of more points each is a small part of the force: their kinks together are a smooth curve.
 constexpr std::size_t most_kinks = 32;
-constexpr int max_splits = 7;         // of a step, at its kinks: to less than a hundredth of it
+constexpr int max_splits = 7;  // of a step, at its kinks: to less than a hundredth of it
 
 /// Something that varies along a segment, with its slope by arc length in the scaling of now().
 struct Value {

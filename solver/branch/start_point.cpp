@@ -12,8 +12,8 @@ namespace microslip::solver {
 namespace {
 
 constexpr int homotopy_steps = 2000;
-// Where rounding errors are larger than this share of the forces, no digits are left that could be called
-// a solution: the iteration is to fail there.
+// Where rounding errors are larger than this share of the forces, no digits are left that could be
+// called a solution: the iteration is to fail there.
 constexpr double coarsest = 1e-7;
 
 struct Guess {

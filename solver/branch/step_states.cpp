@@ -15,12 +15,14 @@ constexpr std::size_t most_seen = 32;
 constexpr double largest_turn = 0.25;  // of the period of one of them
 constexpr std::size_t handful = 8;
 
-// In scaled variables, of the amplitude or the width of a resonance: what is shorter shows on no curve.
+// In scaled variables, of the amplitude or the width of a resonance: what is shorter shows on no
+// curve.
 constexpr double shortest_cut = 1e-3;
 // Where more than (1) changes within the shortest, it changes at once: a step across.
 constexpr double across = 0.02;
-// A step to be cut counts 2, another takes 1 back: beyond the patience the least length doubles with each. Ten
-// changes may follow one another closely; states that chatter at every third step run the patience out.
+// A step to be cut counts 2, another takes 1 back: beyond the patience the least length doubles
+// with each. Ten changes may follow one another closely; states that chatter at every third step
+// run the patience out.
 constexpr int patience = 20;
 constexpr int most_impatient = 40;
 constexpr int n_bisections = 6;
@@ -35,7 +37,9 @@ class Way {
         from_(from, chord_, size_, from.scaling),
         to_(to, chord_, size_, from.scaling) {}
 
-  [[nodiscard]] BranchVector at(double share) const { return cubic_between(from_, to_, share, 1.0); }
+  [[nodiscard]] BranchVector at(double share) const {
+    return cubic_between(from_, to_, share, 1.0);
+  }
 
  private:
   static double normalise(BranchVector& chord) {
@@ -149,8 +153,7 @@ StepStates::Place StepStates::look(const BranchVector& at, double share) {
 }
 
 double StepStates::next_length(double length) const {
-  const bool is_bound =
-      reader_ && !is_few() && !is_at_once_ && change_.share > 0.5 * share_wanted;
+  const bool is_bound = reader_ && !is_few() && !is_at_once_ && change_.share > 0.5 * share_wanted;
   if (!is_bound) return std::numeric_limits<double>::infinity();
   return std::max(share_wanted / change_.share * length, least_length(across));
 }

@@ -10,16 +10,16 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "solver/branch/start_point.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/curve/solved_point.hpp"
-#include "solver/branch/start_point.hpp"
 
 namespace microslip::solver {
 namespace {
 
 constexpr int n_inside = 7;  // frequencies, evenly
-// Of the range. At a fold two known solutions meet and the equations are singular; this far beside it they
-// are apart, or not there.
+// Of the range. At a fold two known solutions meet and the equations are singular; this far beside
+// it they are apart, or not there.
 constexpr double beside_fold = 1e-3;
 constexpr double same_frequency = 1e-6;
 constexpr int most_iterations = 60;
@@ -70,7 +70,8 @@ class Search {
       : scene_(scene), options_(options), curve_(curve) {}
 
   void run() {
-    for (const double frequency : search_frequencies(scene_, options_, curve_)) search_at(frequency);
+    for (const double frequency : search_frequencies(scene_, options_, curve_))
+      search_at(frequency);
   }
 
  private:
@@ -144,12 +145,13 @@ class Search {
     const int n_bases = 2 + static_cast<int>(known.size());
     const int base = index % n_bases;
     const int round = index / n_bases;
-    Eigen::VectorXd x = base == 0 ? balance_->linear_response(frequency, balance_->stuck_stiffness())
-                        : base == 1
-                            ? balance_->linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
-                            : known[static_cast<std::size_t>(base - 2)];
+    Eigen::VectorXd x =
+        base == 0   ? balance_->linear_response(frequency, balance_->stuck_stiffness())
+        : base == 1 ? balance_->linear_response(frequency, Eigen::MatrixXd::Zero(n, n))
+                    : known[static_cast<std::size_t>(base - 2)];
     if (!x.allFinite()) x = Eigen::VectorXd::Ones(x.size());
-    Harmonics q = balance_->harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
+    Harmonics q =
+        balance_->harmonics(factors[static_cast<std::size_t>(round) % factors.size()] * x);
     const double turn = 1.0 * round;  // rad: never the same twice
     for (int k = 1; k <= q.n_harmonics(); ++k) {
       const Eigen::RowVectorXd sine = q.sine(k);
@@ -222,8 +224,7 @@ class Search {
   void keep_branch(NewtonResult start) {
     if (options_.frequency_begin == options_.frequency_end) {
       DetachedBranch branch;
-      branch.points.push_back(
-          solved_point(*balance_, start));
+      branch.points.push_back(solved_point(*balance_, start));
       curve_.detached.push_back(std::move(branch));
       return;
     }
@@ -235,7 +236,8 @@ class Search {
     DetachedBranch branch;
     branch.closed = ahead.diagnosis == "loop";
     if (!branch.closed) {
-      const ResponseCurve back = CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
+      const ResponseCurve back =
+          CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());
       count_work(back);
       branch.points.assign(back.points.rbegin(), back.points.rend() - 1);
     }

@@ -59,7 +59,8 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
   const double exchanged = std::max(std::abs(excited), damped + rubbed);
   const double load = balance.excitation().norm();
-  // Without a load a motion is what rounding of the forces at rest leaves, and all work is that of the residual.
+  // Without a load a motion is what rounding of the forces at rest leaves, and all work is that of
+  // the residual.
   const double size = std::numbers::pi * point.q.vector().norm() * load;
   if (load > 0.0 && exchanged > vanishing * size) {
     point.energy_imbalance = std::abs(excited - damped - rubbed) / exchanged;

@@ -9,16 +9,16 @@
 #include <string>
 #include <utility>
 
+#include "solver/balance/linear_force.hpp"
+#include "solver/balance/linear_resonance.hpp"
+#include "solver/branch/start_point.hpp"
 #include "solver/curve/branch_search.hpp"
 #include "solver/curve/chosen_curve.hpp"
 #include "solver/curve/curve_tracer.hpp"
+#include "solver/curve/linear_certificate.hpp"
+#include "solver/curve/solved_point.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/peak_harmonics.hpp"
-#include "solver/curve/linear_certificate.hpp"
-#include "solver/balance/linear_force.hpp"
-#include "solver/balance/linear_resonance.hpp"
-#include "solver/curve/solved_point.hpp"
-#include "solver/branch/start_point.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -164,7 +164,8 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
   const Stopwatch watch;
   std::optional<ResponseCurve> certified = trace_certified(scene, options, observe);
   if (!certified) certified = trace_at_rest(scene, options, observe);
-  if (!certified && options.harmonic_tolerance > 0.0) return trace_choosing(scene, options, observe);
+  if (!certified && options.harmonic_tolerance > 0.0)
+    return trace_choosing(scene, options, observe);
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
   if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
@@ -173,8 +174,9 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
     const long readings = curve.state_readings + other.state_readings;
     const long cuts = curve.state_cuts + other.state_cuts;
-    const bool two_sides = curve.diagnosis == "unbounded" && other.diagnosis == "unbounded" &&
-                           curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
+    const bool two_sides =
+        curve.diagnosis == "unbounded" && other.diagnosis == "unbounded" &&
+        curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
     if (two_sides) {
       curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
       curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
@@ -261,9 +263,8 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   std::unique_ptr<contact::ModalForce> force;
   if (scene.contact) {
     const bool stuck = limit == LinearLimit::stuck;
-    force = std::make_unique<LinearForce>(stiffness, stuck
-                                                         ? contact::CycleReport{1.0, 0.0, 0.0}
-                                                         : contact::CycleReport{0.0, 0.0, 1.0});
+    force = std::make_unique<LinearForce>(stiffness, stuck ? contact::CycleReport{1.0, 0.0, 0.0}
+                                                           : contact::CycleReport{0.0, 0.0, 1.0});
   }
   const Scene linear = with_force(scene, std::move(force));
   ContinuationOptions alone = options;

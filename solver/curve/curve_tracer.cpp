@@ -157,8 +157,9 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   walker_readings_ = walker_cuts_ = 0;
   n_remedies_ = 0;
   const double forward = options_.frequency_end > options_.frequency_begin ? 1.0 : -1.0;
-  BranchWalker walker(system, [this](const NewtonResult& at) { return scaling_at(at); },
-                      std::move(start), forward, options_.residual_tolerance);
+  BranchWalker walker(
+      system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start), forward,
+      options_.residual_tolerance);
   if (options_.corrector == ContinuationOptions::Corrector::few_jacobians) {
     walker.economise([this](const Eigen::VectorXd& x, double frequency) {
       return balance_->residual(x, frequency);

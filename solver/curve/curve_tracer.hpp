@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/branch/branch_walker.hpp"
-#include "solver/continuation.hpp"
 #include "solver/balance/harmonic_balance.hpp"
+#include "solver/branch/branch_walker.hpp"
 #include "solver/branch/special_points.hpp"
+#include "solver/continuation.hpp"
 #include "solver/stability/stability.hpp"
 
 namespace microslip::solver {
@@ -64,15 +64,16 @@ class CurveTracer {
   const Scene& scene_;
   ContinuationOptions options_;
   std::unique_ptr<HarmonicBalance> balance_;
-  std::optional<double> unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
+  std::optional<double>
+      unbounded_;  ///< undamped resonance of the free structure in the range [rad/s]
   const PointObserver& observe_;
   ResponseCurve curve_;
   double range_;
   StabilityReport last_stability_;
-  Eigen::VectorXd last_x_;             ///< of last_stability_
-  std::optional<Entry> entry_;         ///< where a jump entered the branch walked now
-  std::size_t n_remedies_ = 0;         ///< of the walker, in the log already
-  long walker_evaluations_ = 0;        ///< of the walker, counted already
+  Eigen::VectorXd last_x_;       ///< of last_stability_
+  std::optional<Entry> entry_;   ///< where a jump entered the branch walked now
+  std::size_t n_remedies_ = 0;   ///< of the walker, in the log already
+  long walker_evaluations_ = 0;  ///< of the walker, counted already
   long walker_iterations_ = 0;
   long walker_readings_ = 0;
   long walker_cuts_ = 0;

@@ -1,14 +1,14 @@
-// The part of CurveTracer that makes rows of the curve: points with their proof, peaks and folds of a step, and
-// the end of the range.
+// The part of CurveTracer that makes rows of the curve: points with their proof, peaks and folds of
+// a step, and the end of the range.
 
 #include <chrono>
 #include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "solver/branch/special_points.hpp"
 #include "solver/curve/certificate.hpp"
 #include "solver/curve/curve_tracer.hpp"
-#include "solver/branch/special_points.hpp"
 
 namespace microslip::solver {
 
@@ -20,8 +20,8 @@ std::string CurveTracer::at_hertz(const std::string& text, double frequency) {
 }
 
 ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  StabilityReport stability = hill_stability(*balance_, at.evaluation.jacobian,
-                                             at.point.parameter, stability_at(at));
+  StabilityReport stability =
+      hill_stability(*balance_, at.evaluation.jacobian, at.point.parameter, stability_at(at));
   if (mark != PointMark::fold) {
     const bool is_peak = mark == PointMark::peak;
     stability = stability_in_time(

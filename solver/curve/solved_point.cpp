@@ -7,10 +7,10 @@ namespace microslip::solver {
 
 ResponsePoint solved_point(const HarmonicBalance& balance, const NewtonResult& solution) {
   const double frequency = solution.point.parameter;
-  const auto stability = stability_in_time(
-      balance, balance.harmonics(solution.point.x), frequency,
-      assess_stability(balance, solution.evaluation.jacobian, frequency),
-      PeriodMapEffort::few_points);
+  const auto stability =
+      stability_in_time(balance, balance.harmonics(solution.point.x), frequency,
+                        assess_stability(balance, solution.evaluation.jacobian, frequency),
+                        PeriodMapEffort::few_points);
   return certified_point(balance, solution, frequency, stability);
 }
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/LU>
 
-#include "solver/enrichment/enrichment.hpp"
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/enrichment/enrichment.hpp"
 
 namespace microslip::solver {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/LU>
 
-#include "solver/branch/branch_geometry.hpp"
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/branch/branch_geometry.hpp"
 
 namespace microslip::solver {
 namespace {

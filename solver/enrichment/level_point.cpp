@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/enrichment/enrichment.hpp"
-#include "solver/balance/output_amplitude.hpp"
 
 namespace microslip::solver {
 namespace {

@@ -27,7 +27,8 @@ ContinuationOptions with_common_harmonics(const SceneFamily& family,
   return with_harmonics(range, set);
 }
 
-double left_out_at(const Scene& scene, const ResponsePoint& peak, const ContinuationOptions& range) {
+double left_out_at(const Scene& scene, const ResponsePoint& peak,
+                   const ContinuationOptions& range) {
   const HarmonicSet set(peak.orders);
   const auto place = local_peak(HarmonicBalance(scene, set), peak);
   return place ? PeakHarmonicsChoice(scene, range).left_out(set, *place) : 0.0;

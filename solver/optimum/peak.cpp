@@ -145,15 +145,16 @@ class Search {
       static_cast<void>(peaks_.confirm(parameter));
       return peaks_.highest(parameter).amplitude;
     };
-    // A peak that only the curve at the optimum shows is followed from there, a valley that only its edges
-    // show is searched, and all repeated; each round finds one more.
+    // A peak that only the curve at the optimum shows is followed from there, a valley that only
+    // its edges show is searched, and all repeated; each round finds one more.
     constexpr int rounds = 4;
     for (int i = 0; i < rounds; ++i) {
       refine(followed);
       if (settled() && open_valleys(peaks_.result().peaks).empty()) return finished();
     }
     result_.notes.emplace_back(
-        "peaks followed kept missing the highest one, or valleys kept appearing; search on whole curves");
+        "peaks followed kept missing the highest one, or valleys kept appearing; search on whole "
+        "curves");
     refine(on_whole_curves);
     static_cast<void>(settled());
     return finished();
@@ -187,8 +188,7 @@ class Search {
     constexpr double close = 0.05;  // of the way to the neighbour
     const Place neighbour = place == peaks.begin() ? std::next(place) : std::prev(place);
     const double here = position(place->parameter);
-    static_cast<void>(
-        amplitude(parameter(here + close * (position(neighbour->parameter) - here))));
+    static_cast<void>(amplitude(parameter(here + close * (position(neighbour->parameter) - here))));
   }
 
   /// The minimum between the neighbours of a peak, neither of them lower.
@@ -210,7 +210,8 @@ class Search {
     const double limit = rival * lowest(peaks)->amplitude;
     for (auto one = std::next(peaks.begin()); std::next(one) != peaks.end(); ++one) {
       const double beside = std::min(std::prev(one)->amplitude, std::next(one)->amplitude);
-      const double width = position(std::next(one)->parameter) - position(std::prev(one)->parameter);
+      const double width =
+          position(std::next(one)->parameter) - position(std::prev(one)->parameter);
       // Less deep than the_same is the rounding of a flat stretch.
       const bool valley = one->amplitude * the_same < beside && one->amplitude < limit;
       const bool wide = width > bracket_left * on_scale(options_, rough);
@@ -252,7 +253,8 @@ class Search {
 
   /// Searches the valleys that may hold the minimum until their values show no other.
   void refine(const PeakFunction& amplitude) {
-    constexpr int most_searches = 8;  // each finds what the one before laid open, seldom more than once
+    constexpr int most_searches =
+        8;  // each finds what the one before laid open, seldom more than once
     if (peaks_.result().peaks.empty()) return;
     searched_.clear();  // amplitudes may have changed: a peak more is followed
     for (int i = 0; i < most_searches; ++i) {
@@ -307,8 +309,7 @@ class Search {
       const std::vector<PeakOfParameter>& trace) const {
     const auto [first, end] = below(trace, result_.best, the_same * result_.best.amplitude);
     const std::array<double, 2> flat{first->parameter, std::prev(end)->parameter};
-    const bool wide =
-        position(flat[1]) - position(flat[0]) > on_scale(options_, flat_width);
+    const bool wide = position(flat[1]) - position(flat[0]) > on_scale(options_, flat_width);
     return wide ? std::optional(flat) : std::nullopt;
   }
 
@@ -326,7 +327,8 @@ class Search {
       return sentence("flat: the smallest amplitude is the same from ", (*result_.flat)[0]) +
              sentence(" to ", (*result_.flat)[1]);
     }
-    if (at_bound()) return sentence("the smallest amplitude lies at the bound ", result_.best.parameter);
+    if (at_bound())
+      return sentence("the smallest amplitude lies at the bound ", result_.best.parameter);
     const double here = result_.best.parameter;
     if (here == result_.trace.front().parameter || here == result_.trace.back().parameter) {
       return sentence("beside the smallest amplitude, at ", here) +
@@ -373,7 +375,8 @@ class Search {
   OptimumOptions options_;
   bool one_frequency_;
   PeakFamilies peaks_;
-  std::set<std::array<double, 3>> searched_;  // valleys of the present search, with their neighbours
+  std::set<std::array<double, 3>>
+      searched_;  // valleys of the present search, with their neighbours
   Optimum result_;
 };
 

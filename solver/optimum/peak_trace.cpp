@@ -158,14 +158,16 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
   result_.contact_evaluations += curve.contact_evaluations;
   if (!curve.complete) note("curve incomplete (" + curve.diagnosis + ")", position);
   Curve kept{high_points(scene, curve, range_), curve.complete};
-  if (std::any_of(kept.high.begin(), kept.high.end(), [](const auto& one) { return one.climbed; })) {
+  if (std::any_of(kept.high.begin(), kept.high.end(),
+                  [](const auto& one) { return one.climbed; })) {
     note("a peak that the curve passes was solved for from the points beside it", position);
   }
   if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
     note("the highest point of the curve is not a solved peak: the peak may be higher", position);
   }
   if (!kept.high.empty() && kept.high.front().detached) {
-    warn("the highest peak stands on a branch detached from the curve: no sweep meets it", position);
+    warn("the highest peak stands on a branch detached from the curve: no sweep meets it",
+         position);
   }
   if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
       left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {

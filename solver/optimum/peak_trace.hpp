@@ -57,10 +57,11 @@ struct PeakTraceOptions {
 };
 
 struct PeakTrace {
-  std::vector<PeakOfParameter> peaks;  ///< sorted by parameter; values without a solution are left out
-  std::vector<std::string> notes;      ///< what following met, in words; the fall-backs among them
-  std::vector<std::string> warnings;   ///< the notes that tell of peaks beside the curves
-  int n_curves = 0;                    ///< traced whole
+  std::vector<PeakOfParameter>
+      peaks;                       ///< sorted by parameter; values without a solution are left out
+  std::vector<std::string> notes;  ///< what following met, in words; the fall-backs among them
+  std::vector<std::string> warnings;  ///< the notes that tell of peaks beside the curves
+  int n_curves = 0;                   ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;
   double seconds = 0.0;

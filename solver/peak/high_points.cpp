@@ -7,8 +7,9 @@
 namespace microslip::solver {
 namespace {
 
-// Amplitudes of neighbours on one level differ by rounding; a peak missed by less is of no interest.
-constexpr double rounding = 1e-7;  // relative
+// Amplitudes of neighbours on one level differ by rounding; a peak missed by less is of no
+// interest.
+constexpr double rounding = 1e-7;         // relative
 constexpr double same_frequency = 1e-12;  // relative: the walker ends on the ends of the range
 
 bool is_at(const ResponsePoint& point, double frequency) {

@@ -14,7 +14,7 @@ namespace microslip::solver {
 struct HighPoint {
   ResponsePoint point;
   PeakPlace place = PeakPlace::peak;
-  bool climbed = false;  ///< a peak that the curve itself lacks
+  bool climbed = false;   ///< a peak that the curve itself lacks
   bool detached = false;  ///< on a branch that the sweep does not meet
 };
 

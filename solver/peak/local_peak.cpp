@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "solver/branch/branch_walker.hpp"
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/branch/branch_walker.hpp"
 #include "solver/branch/special_points.hpp"
-#include "solver/stability/stability.hpp"
 #include "solver/branch/start_point.hpp"
+#include "solver/stability/stability.hpp"
 
 namespace microslip::solver {
 namespace {

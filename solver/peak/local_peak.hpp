@@ -15,8 +15,8 @@
 
 #include <optional>
 
-#include "solver/continuation.hpp"
 #include "solver/balance/newton.hpp"
+#include "solver/continuation.hpp"
 
 namespace microslip::solver {
 
@@ -32,7 +32,7 @@ struct LocalPeak {
   BranchVector point;    ///< x, ω
   BranchVector tangent;  ///< of the branch, in scaled variables
   Scaling scaling;
-  double amplitude = 0.0;  ///< [m]
+  double amplitude = 0.0;             ///< [m]
   PeakPlace place = PeakPlace::peak;  ///< never unsolved
   bool rises = false;  ///< at an end of the range: the amplitude grows into the range
 };

@@ -15,12 +15,12 @@ namespace {
 
 using contact::ContactState;
 
-// Of the largest motion. Central differences of a period err by its square times the curvature of P, and by
-// the step tolerance over it: some 1e-5.
+// Of the largest motion. Central differences of a period err by its square times the curvature of
+// P, and by the step tolerance over it: some 1e-5.
 constexpr double difference = 1e-4;
 constexpr double step_tolerance = 1e-9;
-// Multipliers nearer than this to the positive axis, in angle, count as real: a double one splits by the
-// root of the error of M.
+// Multipliers nearer than this to the positive axis, in angle, count as real: a double one splits
+// by the root of the error of M.
 constexpr double real_angle = 1e-2;
 
 TimeOptions period_options() {
@@ -58,7 +58,8 @@ class Coordinates {
         sliders_.push_back(k);
       }
       // In a plane the direction of slip is a state of its own, one per point.
-      const bool turns = state_[point] == ContactState::slip && at.memory.internal.size() == n_points;
+      const bool turns =
+          state_[point] == ContactState::slip && at.memory.internal.size() == n_points;
       if (turns) directions_.push_back(i);
     }
     if (reach_ == 0.0) sliders_.clear();
@@ -83,12 +84,12 @@ class Coordinates {
   }
 
   /// b − a; empty where the states of the points have changed.
-  [[nodiscard]] std::optional<Eigen::VectorXd> between(const TimeState& a, const TimeState& b) const {
+  [[nodiscard]] std::optional<Eigen::VectorXd> between(const TimeState& a,
+                                                       const TimeState& b) const {
     if (a.memory.state != state_ || b.memory.state != state_) return std::nullopt;
     Eigen::VectorXd change(size());
     change.head(n_modes_) = (b.motion.q - a.motion.q) / size_.displacement;
-    change.segment(n_modes_, n_modes_) =
-        (b.motion.velocity - a.motion.velocity) / size_.velocity;
+    change.segment(n_modes_, n_modes_) = (b.motion.velocity - a.motion.velocity) / size_.velocity;
     Eigen::Index row = 2 * n_modes_;
     for (const Eigen::Index k : sliders_) {
       change[row++] = (b.memory.slider[k] - a.memory.slider[k]) / reach_;
@@ -120,9 +121,9 @@ std::optional<Eigen::MatrixXd> monodromy(const TimeSystem& system, const TimeSta
   const Eigen::Index n = coordinates.size();
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index column = 0; column < n; ++column) {
-    const auto change = coordinates.between(
-        after_period(system, coordinates.moved(at, column, -difference)),
-        after_period(system, coordinates.moved(at, column, difference)));
+    const auto change =
+        coordinates.between(after_period(system, coordinates.moved(at, column, -difference)),
+                            after_period(system, coordinates.moved(at, column, difference)));
     if (!change) return std::nullopt;
     matrix.col(column) = *change / (2.0 * difference);
   }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact/dense.hpp"
-#include "solver/stability/floquet.hpp"
 #include "solver/balance/linear_force.hpp"
+#include "solver/stability/floquet.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 // Eigenvalues of a matrix whose entries are of the size of ω carry errors of some 1e-13 ω; a growth
 // below this share of ω takes over 1e9 periods to show.
 constexpr double growth_tolerance = 1e-10;
-// Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in it,
-// and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
+// Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
+// it, and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
 // Of Hill's problem: some 0.1 s for its eigenvectors.
 constexpr Eigen::Index most_states = 160;
@@ -26,8 +26,8 @@ constexpr Eigen::Index most_states = 160;
 constexpr double real_tolerance = 1e-6;
 // Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
 constexpr Eigen::Index most_multipliers = 16;
-// The same where few points are judged: sliders at rest in the period are no states of the matrix, points cost time
-// in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).
+// The same where few points are judged: sliders at rest in the period are no states of the matrix,
+// points cost time in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).
 constexpr Eigen::Index most_multipliers_of_few = 60;
 constexpr Eigen::Index most_points_of_few = 100;
 // Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
@@ -186,8 +186,8 @@ bool is_damped_linear(const Scene& scene) {
 
 }  // namespace
 
-StabilityReport slow_flow_stability(const HarmonicBalance& balance,
-                                    const Eigen::MatrixXd& jacobian, double frequency) {
+StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
+                                    double frequency) {
   StabilityReport report;
   report.determinant_sign = sign_of_determinant(jacobian);
   const Eigen::MatrixXd flow = slow_flow(
@@ -260,8 +260,8 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
   if (few ? n_points > most_points_of_few : 2 * scene.n_modes() + n_points > most_multipliers) {
     return hill;
   }
-  const FloquetMultipliers floquet = floquet_multipliers(
-      scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
+  const FloquetMultipliers floquet =
+      floquet_multipliers(scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
   if (!floquet.known()) return hill;
   hill.basis = StabilityBasis::period_map;
   const double beyond = floquet.largest_oscillating() - 1.0;

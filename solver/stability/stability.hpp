@@ -50,7 +50,7 @@ struct StabilityReport {
 /// What a verdict may cost.
 enum class PeriodMapEffort {
   every_point,  ///< modes, two states each, and points together at most 16: some 10 ms
-  few_points,   ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
+  few_points,  ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
 };
 
 /// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the

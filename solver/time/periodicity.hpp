@@ -17,9 +17,9 @@
 namespace microslip::solver {
 
 struct PeriodState {
-  Eigen::VectorXd q;               ///< [m√kg]
-  Eigen::VectorXd velocity;        ///< [m√kg/s]
-  Eigen::VectorXd contact_force;   ///< G [N/√kg]: sliders that moved show in it
+  Eigen::VectorXd q;              ///< [m√kg]
+  Eigen::VectorXd velocity;       ///< [m√kg/s]
+  Eigen::VectorXd contact_force;  ///< G [N/√kg]: sliders that moved show in it
   /// Largest ‖q‖ of the period, > 0 unless all is at rest. Of the largest period so far, as the other sizes, where
   /// nothing drives the motion: it would decay together with the changes.
   double displacement_size = 0.0;

@@ -37,9 +37,10 @@ constexpr std::array<double, n_stages> error_weights{
 
 /// Of the highest coefficient of the dense output (Hairer, Nørsett & Wanner I, section II.6).
 constexpr std::array<double, n_stages> dense_weights{
-    -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
-    -10690763975.0 / 1880347072.0,  701980252875.0 / 199316789632.0,
-    -1453857185.0 / 822651844.0,    69997945.0 / 29380423.0};
+    -12715105075.0 / 11282082432.0,  0.0,
+    87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
+    701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0};
 
 /// Dense output of order four; the end is the last stage.
 InternalPolynomials internal_polynomials(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
@@ -136,7 +137,8 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
           ? 0.0
           : std::max(displacement_error / size.displacement, velocity_error / size.velocity);
   if (n_internal > 0) {
-    step.internal = internal_polynomials(state.memory.internal, moved.internal, length, internal_rate);
+    step.internal =
+        internal_polynomials(state.memory.internal, moved.internal, length, internal_rate);
     const Eigen::VectorXd importance = contact->internal_weights(state.motion, state.memory, size);
     const Eigen::VectorXd error = length * (internal_rate * weights);
     step.error = std::max(step.error, error.cwiseProduct(importance).lpNorm<Eigen::Infinity>());
@@ -164,8 +166,7 @@ EventStepper::Step EventStepper::accepted_step(double time, double& length,
   }
 }
 
-EventStepper::Taken EventStepper::smooth_step(double time, double& length,
-                                              const TimeState& state) {
+EventStepper::Taken EventStepper::smooth_step(double time, double& length, const TimeState& state) {
   const auto taken = [&] {
     Step step = accepted_step(time, length, state);
     TimeSegment segment(time, length, state.motion, step.displacement, step.velocity,

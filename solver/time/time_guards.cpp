@@ -158,8 +158,8 @@ std::optional<TimeEvent> first_event(const TransientForce& contact, const TimeSe
 }
 
 std::optional<double> first_kink(const TransientForce& contact, const TimeSegment& segment) {
-  // Of the width of a law: what a step leaves on the wrong side of a kink of its third derivative changes
-  // the force by the cube of this. A step that ends on a kink ends within it.
+  // Of the width of a law: what a step leaves on the wrong side of a kink of its third derivative
+  // changes the force by the cube of this. A step that ends on a kink ends within it.
   static constexpr double on_it = 1e-6;
   constexpr int n_halvings = 40;  // to 1e-12 of the step
   Eigen::VectorXd before = contact.kink_distances(segment.at(0.0));

@@ -18,8 +18,8 @@ void keep_largest(const TimeSystem& system, PeriodState& state, PeriodState& lar
   largest.displacement_size = std::max(largest.displacement_size, state.displacement_size);
   largest.force_size = std::max(largest.force_size, state.force_size);
   // Begun at rest there is none but the displacement that the static force holds.
-  largest.velocity_size = std::max({largest.velocity_size, state.velocity_size,
-                                    system.frequency() * largest.displacement_size});
+  largest.velocity_size = std::max(
+      {largest.velocity_size, state.velocity_size, system.frequency() * largest.displacement_size});
   state.displacement_size = largest.displacement_size;
   state.velocity_size = largest.velocity_size;
   state.force_size = largest.force_size;

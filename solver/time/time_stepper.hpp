@@ -6,9 +6,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "solver/time_options.hpp"
 #include "solver/time/time_segment.hpp"
 #include "solver/time/time_system.hpp"
+#include "solver/time_options.hpp"
 
 namespace microslip::solver {
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "contact/force/block_kernels.hpp"
-#include "contact/line/event_law.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/line/surface_event_law.hpp"
 #include "contact/patch/point_motions.hpp"
 #include "tests/support/sampled/sampled_cycle.hpp"
-#include "contact/line/surface_event_law.hpp"
 
 #include "contact/patch/preload_equilibrium.hpp"
 #include "contact/surface/surface_law.hpp"

@@ -10,8 +10,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "fem/elements/element_matrices.hpp"
 #include "fem/assembly/fe_system.hpp"
+#include "fem/elements/element_matrices.hpp"
 #include "fem/modal_analysis.hpp"
 #include "fem/slepc_session.hpp"
 #include "tests/benchmarks/blade_meshes.hpp"

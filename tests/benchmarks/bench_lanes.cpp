@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
+#include "contact/line/event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
 

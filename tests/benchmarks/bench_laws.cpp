@@ -15,8 +15,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
+#include "contact/line/event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace {

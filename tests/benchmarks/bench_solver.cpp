@@ -11,9 +11,9 @@
 
 #include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/patch_force.hpp"
+#include "solver/branch/start_point.hpp"
 #include "solver/continuation.hpp"
 #include "solver/optimum/peak_trace.hpp"
-#include "solver/branch/start_point.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/plane/planar_cycle.hpp"
 #include "contact/line/surface_event_law.hpp"
+#include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/planar_events.hpp"
 

@@ -101,7 +101,8 @@ TEST_P(PlaneMotion, BalancesItsWork) {
     const double scale = friction_scale(c) + second * amplitude(c.motion, 2);
     const double way =
         c.point.tangential_stiffness > 0.0 ? scale / c.point.tangential_stiffness : 0.0;
-    const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
+    const double done =
+        test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
     // Ten times the tolerance for each force; what the search did not reach on top.
     ASSERT_NEAR(done, history.dissipated_energy,
                 (20.0 * H * tight * scale + history.defect) * way + smallest)
@@ -386,7 +387,8 @@ TEST(PlanarPointHard, FrictionThatUnderflowsWithTheRateIsNone) {
         const double most = 2.0 * 0.3 * (preload + 1.0) * 4.0 / decay;
         EXPECT_LE(now.force.rows().col(0).cwiseAbs().maxCoeff(), most) << decay;
         const PointHistory history = law.history(c.motion, 1.0, {}, 1);
-        const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
+        const double done = test::cycle_work(c.motion, history.force, 0) +
+                            test::cycle_work(c.motion, history.force, 2);
         // Ten times the tolerance for each force, along the way.
         EXPECT_NEAR(done, history.dissipated_energy, 20.0 * tight) << decay << ", " << second;
       }

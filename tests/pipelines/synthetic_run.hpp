@@ -22,7 +22,7 @@ inline constexpr Eigen::Index n_modes = 2;
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / 
+      : path_(std::filesystem::temp_directory_path() /
               ("microslip_" + name + "_" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -86,7 +86,9 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   }
   cells.points.resize(patch.connectivity.rows(), 3);
   for (Eigen::Index cell = 0; cell < patch.connectivity.rows(); ++cell) {
-    cells.points.row(cell) = (vertices.points.row(patch.connectivity(cell, 0)) + vertices.points.row(patch.connectivity(cell, 2))) / 2;
+    cells.points.row(cell) = (vertices.points.row(patch.connectivity(cell, 0)) +
+                              vertices.points.row(patch.connectivity(cell, 2))) /
+                             2;
   }
   const Eigen::Index n = cells.points.rows();
   cells.weights = Eigen::VectorXd::Constant(n, length * width);
@@ -145,9 +147,9 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
   map.slip_distance = Eigen::VectorXd::LinSpaced(n, 0.0, 4e-6);
   map.wear_depth = Eigen::VectorXd::LinSpaced(n, 0.0, 1e-12);
   map.state_start.resize(n, 5);
-  map.state_start << Eigen::VectorXd::LinSpaced(n, 0.5, 1.0), Eigen::VectorXd::LinSpaced(n, 1.0, 2.0),
-      Eigen::VectorXd::LinSpaced(n, 4.0, 5.0), Eigen::VectorXd::LinSpaced(n, 3.0, 3.5),
-      Eigen::VectorXd::Zero(n);
+  map.state_start << Eigen::VectorXd::LinSpaced(n, 0.5, 1.0),
+      Eigen::VectorXd::LinSpaced(n, 1.0, 2.0), Eigen::VectorXd::LinSpaced(n, 4.0, 5.0),
+      Eigen::VectorXd::LinSpaced(n, 3.0, 3.5), Eigen::VectorXd::Zero(n);
   map.state_starts = map.state_start;
   map.state_share = Eigen::MatrixXd::Constant(n, 5, 0.2);
   map.state_share.col(3) = Eigen::VectorXd::LinSpaced(n, 0.3, 0.0);
@@ -161,7 +163,12 @@ inline contact::ContactMap map_at(const Eigen::MatrixX3d& x, int n_phases) {
 
 inline NamedMap named_map(const ReducedModel& m, const std::string& name, int n_phases = 8) {
   const contact::Patch& patch = m.patches.front();
-  return {name, 301.25, 2e-4, solver::Stability::stable, 0, map_at(patch.cells.points, n_phases),
+  return {name,
+          301.25,
+          2e-4,
+          solver::Stability::stable,
+          0,
+          map_at(patch.cells.points, n_phases),
           patch.connectivity.rows() > 0 ? map_at(patch.vertices.points, n_phases)
                                         : contact::ContactMap{}};
 }

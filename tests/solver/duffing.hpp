@@ -37,7 +37,7 @@ class CubicSpring final : public contact::ModalForce {
         (3 * b * b + 0.75 * square) * c;
     result.force.vector() *= alpha_;
     result.jacobian.resize(3, 3);
-    result.jacobian << 3 * b * b + 1.5 * square, 3 * b * s, 3 * b * c,  //
+    result.jacobian << 3 * b * b + 1.5 * square, 3 * b * s, 3 * b * c,    //
         6 * b * s, 3 * b * b + 0.75 * square + 1.5 * s * s, 1.5 * s * c,  //
         6 * b * c, 1.5 * s * c, 3 * b * b + 0.75 * square + 1.5 * c * c;
     result.jacobian *= alpha_;

@@ -10,19 +10,25 @@ namespace {
 using mesh::ElementType;
 using mesh::FaceType;
 
-bool is_tetrahedron(ElementType type) { return type == ElementType::tet4 || type == ElementType::tet10; }
-bool is_quadratic(ElementType type) { return type == ElementType::tet10 || type == ElementType::hex20; }
+bool is_tetrahedron(ElementType type) {
+  return type == ElementType::tet4 || type == ElementType::tet10;
+}
+bool is_quadratic(ElementType type) {
+  return type == ElementType::tet10 || type == ElementType::hex20;
+}
 
 constexpr int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 // Six tetrahedra around the diagonal 0–6 (Kuhn), all positively oriented; neighbours match.
-constexpr int kuhn[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+constexpr int kuhn[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                            {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
 constexpr int tet_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 constexpr int hex_edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                                   {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 // Outward faces.
 constexpr int tet_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-constexpr int hex_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr int hex_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 using Cells = std::vector<std::vector<Eigen::Index>>;
 
@@ -53,7 +59,8 @@ class Builder {
     for (int k = 0; k <= grid_.cells[2]; ++k) {
       for (int j = 0; j <= grid_.cells[1]; ++j) {
         for (int i = 0; i <= grid_.cells[0]; ++i) {
-          corners_.emplace_back(grid_.size[0] * i / grid_.cells[0], grid_.size[1] * j / grid_.cells[1],
+          corners_.emplace_back(grid_.size[0] * i / grid_.cells[0],
+                                grid_.size[1] * j / grid_.cells[1],
                                 grid_.size[2] * k / grid_.cells[2]);
         }
       }
@@ -71,8 +78,8 @@ class Builder {
             continue;
           }
           for (const auto& t : kuhn) {
-            cells_.push_back({hex[std::size_t(t[0])], hex[std::size_t(t[1])], hex[std::size_t(t[2])],
-                              hex[std::size_t(t[3])]});
+            cells_.push_back({hex[std::size_t(t[0])], hex[std::size_t(t[1])],
+                              hex[std::size_t(t[2])], hex[std::size_t(t[3])]});
           }
         }
       }
@@ -89,9 +96,11 @@ class Builder {
   void add_edge_nodes() {
     for (auto& cell : cells_) {
       if (is_tetrahedron(type_)) {
-        for (const auto& e : tet_edges) cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
+        for (const auto& e : tet_edges)
+          cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
       } else {
-        for (const auto& e : hex_edges) cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
+        for (const auto& e : hex_edges)
+          cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
       }
     }
   }
@@ -99,7 +108,8 @@ class Builder {
   [[nodiscard]] Eigen::MatrixX3d unmoved_with_edges(const Eigen::MatrixX3d& corners) const {
     Eigen::MatrixX3d all(std::ssize(corners_), 3);
     all.topRows(corners.rows()) = corners;
-    for (const auto& [ends, node] : edges_) all.row(node) = 0.5 * (corners.row(ends.first) + corners.row(ends.second));
+    for (const auto& [ends, node] : edges_)
+      all.row(node) = 0.5 * (corners.row(ends.first) + corners.row(ends.second));
     return all;
   }
 
@@ -114,7 +124,8 @@ class Builder {
     for (Eigen::Vector3d& x : points) x = grid_.map(x);
   }
 
-  [[nodiscard]] std::vector<std::vector<Eigen::Index>> faces_of(const std::vector<Eigen::Index>& cell) {
+  [[nodiscard]] std::vector<std::vector<Eigen::Index>> faces_of(
+      const std::vector<Eigen::Index>& cell) {
     std::vector<std::vector<Eigen::Index>> faces;
     const auto add = [&](const int* local, int n) {
       std::vector<Eigen::Index> face;
@@ -138,12 +149,14 @@ class Builder {
   mesh::Mesh finish(const Eigen::MatrixX3d& on_box) {
     std::map<std::string, std::vector<mesh::FaceBlock>> surfaces;
     for (int d = 0; d < 3; ++d) {
-      for (int end = 0; end < 2; ++end) surfaces[std::string(1, "xyz"[d]) + "01"[end]] = {side(on_box, d, end)};
+      for (int end = 0; end < 2; ++end)
+        surfaces[std::string(1, "xyz"[d]) + "01"[end]] = {side(on_box, d, end)};
     }
     mesh::ElementBlock block;
     block.type = type_;
     block.connectivity = table(cells_);
-    for (std::size_t e = 0; e < cells_.size(); ++e) block.tags.push_back(static_cast<std::int64_t>(e) + 1);
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      block.tags.push_back(static_cast<std::int64_t>(e) + 1);
     const Eigen::Index last = corner(grid_.cells[0], grid_.cells[1], grid_.cells[2]);
     return {coordinates(), {block}, std::move(surfaces), {{"corner", {last}}}};
   }
@@ -154,7 +167,8 @@ class Builder {
     for (const auto& cell : cells_) {
       for (const auto& face : faces_of(cell)) {
         bool inside = true;
-        for (const Eigen::Index node : face) inside = inside && std::abs(on_box(node, d) - at) < 1e-9 * grid_.size[d];
+        for (const Eigen::Index node : face)
+          inside = inside && std::abs(on_box(node, d) - at) < 1e-9 * grid_.size[d];
         if (inside) found.push_back(face);
       }
     }
@@ -167,7 +181,8 @@ class Builder {
   static mesh::Connectivity table(const Cells& rows) {
     mesh::Connectivity result(std::ssize(rows), rows.empty() ? 0 : std::ssize(rows.front()));
     for (Eigen::Index i = 0; i < result.rows(); ++i) {
-      for (Eigen::Index j = 0; j < result.cols(); ++j) result(i, j) = rows[std::size_t(i)][std::size_t(j)];
+      for (Eigen::Index j = 0; j < result.cols(); ++j)
+        result(i, j) = rows[std::size_t(i)][std::size_t(j)];
     }
     return result;
   }
@@ -181,7 +196,11 @@ class Builder {
 
 }  // namespace
 
-mesh::Mesh box_mesh(ElementType type, const BoxGrid& grid) { return Builder(type, grid).build(false); }
-mesh::Mesh straight_box_mesh(ElementType type, const BoxGrid& grid) { return Builder(type, grid).build(true); }
+mesh::Mesh box_mesh(ElementType type, const BoxGrid& grid) {
+  return Builder(type, grid).build(false);
+}
+mesh::Mesh straight_box_mesh(ElementType type, const BoxGrid& grid) {
+  return Builder(type, grid).build(true);
+}
 
 }  // namespace microslip::test

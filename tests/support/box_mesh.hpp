@@ -13,8 +13,8 @@
 namespace microslip::test {
 
 struct BoxGrid {
-  Eigen::Vector3d size{1.0, 1.0, 1.0};      ///< edge lengths [m], from the origin
-  std::array<int, 3> cells{1, 1, 1};        ///< hexahedra per direction; each makes six tetrahedra
+  Eigen::Vector3d size{1.0, 1.0, 1.0};  ///< edge lengths [m], from the origin
+  std::array<int, 3> cells{1, 1, 1};    ///< hexahedra per direction; each makes six tetrahedra
   /// Moves every node after the edge nodes were placed in the middle of straight edges: distorts
   /// elements, curves their edges where it is not linear. Empty: identity.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> map;

@@ -17,10 +17,14 @@ namespace fs = std::filesystem;
 
 const char* calculix_name(mesh::ElementType type) {
   switch (type) {
-    case mesh::ElementType::tet4: return "C3D4";
-    case mesh::ElementType::tet10: return "C3D10";
-    case mesh::ElementType::hex8: return "C3D8";
-    case mesh::ElementType::hex20: return "C3D20";
+    case mesh::ElementType::tet4:
+      return "C3D4";
+    case mesh::ElementType::tet10:
+      return "C3D10";
+    case mesh::ElementType::hex8:
+      return "C3D8";
+    case mesh::ElementType::hex20:
+      return "C3D20";
   }
   return "";
 }
@@ -53,9 +57,9 @@ void write_deck(const fs::path& file, const mesh::Mesh& mesh, const fem::Materia
   for (const std::string& name : clamped) {
     for (const Eigen::Index node : mesh.node_set(name)) held.insert(node);
   }
-  out << "*MATERIAL, NAME=metal\n*ELASTIC\n" << material.youngs_modulus << ", "
-      << material.poissons_ratio << "\n*DENSITY\n" << material.density
-      << "\n*SOLID SECTION, ELSET=all, MATERIAL=metal\n*BOUNDARY\n";
+  out << "*MATERIAL, NAME=metal\n*ELASTIC\n"
+      << material.youngs_modulus << ", " << material.poissons_ratio << "\n*DENSITY\n"
+      << material.density << "\n*SOLID SECTION, ELSET=all, MATERIAL=metal\n*BOUNDARY\n";
   for (const Eigen::Index node : held) out << node + 1 << ", 1, 3\n";
   out << "*STEP\n*FREQUENCY\n" << n_modes << "\n*END STEP\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());

@@ -20,7 +20,9 @@ namespace microslip::test {
 /// one and removes it.
 /// @param clamped  names of surfaces or node sets that are held.
 /// @throws std::runtime_error  ccx failed or printed fewer frequencies; with its last words.
-[[nodiscard]] Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh, const fem::Material& material,
-                                                   const std::vector<std::string>& clamped, int n_modes);
+[[nodiscard]] Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh,
+                                                   const fem::Material& material,
+                                                   const std::vector<std::string>& clamped,
+                                                   int n_modes);
 
 }  // namespace microslip::test

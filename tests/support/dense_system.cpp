@@ -13,7 +13,8 @@ Eigen::MatrixXd DenseSystem::expand(const Eigen::MatrixXd& free, Eigen::Index n_
 }
 
 Eigen::VectorXd DenseSystem::eigenvalues() const {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 DenseSystem dense_system(const mesh::Mesh& mesh, const fem::Material& material,

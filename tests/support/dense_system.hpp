@@ -14,12 +14,14 @@
 namespace microslip::test {
 
 struct DenseSystem {
-  Eigen::MatrixXd K;                ///< [N/m], free degrees of freedom
-  Eigen::MatrixXd M;                ///< [kg]
-  std::vector<Eigen::Index> dofs;   ///< 3 · mesh node + direction of each row
+  Eigen::MatrixXd K;               ///< [N/m], free degrees of freedom
+  Eigen::MatrixXd M;               ///< [kg]
+  std::vector<Eigen::Index> dofs;  ///< 3 · mesh node + direction of each row
 
   /// Rows of the free degrees of freedom, and back with zeros at supports.
-  [[nodiscard]] Eigen::MatrixXd reduce(const Eigen::MatrixXd& on_mesh) const { return on_mesh(dofs, Eigen::all); }
+  [[nodiscard]] Eigen::MatrixXd reduce(const Eigen::MatrixXd& on_mesh) const {
+    return on_mesh(dofs, Eigen::all);
+  }
   [[nodiscard]] Eigen::MatrixXd expand(const Eigen::MatrixXd& free, Eigen::Index n_mesh_dofs) const;
   /// All eigenvalues ω² [rad²/s²], ascending.
   [[nodiscard]] Eigen::VectorXd eigenvalues() const;

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/line/event_law.hpp"
 #include "contact/transient/patch_transient.hpp"
 
 namespace microslip::tests {

@@ -59,13 +59,13 @@ RandomScene random_scene(std::uint64_t seed) {
   const double normal_share = draw.uniform(0.0, 1.0) < 0.3 ? 0.0 : draw.log_uniform(0.05, 1.0);
   Eigen::VectorXd weights(n_points);
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(n_points));
-  contact::ModalShapes shapes{Eigen::MatrixXd(n_points, n_modes), Eigen::MatrixXd(n_points, n_modes),
-                              {}};
+  contact::ModalShapes shapes{
+      Eigen::MatrixXd(n_points, n_modes), Eigen::MatrixXd(n_points, n_modes), {}};
   for (int i = 0; i < n_points; ++i) {
     weights[i] = draw.uniform(0.5, 1.5);
-    points[static_cast<std::size_t>(i)] = {stiffness, normal_share > 0.0 ? ratio * stiffness : 0.0, mu,
-                                           (gap && normal_share > 0.0 ? -1.0 : 1.0) * load *
-                                               draw.uniform(0.5, 1.5)};
+    points[static_cast<std::size_t>(i)] = {
+        stiffness, normal_share > 0.0 ? ratio * stiffness : 0.0, mu,
+        (gap && normal_share > 0.0 ? -1.0 : 1.0) * load * draw.uniform(0.5, 1.5)};
     for (int k = 0; k < n_modes; ++k) {
       shapes.u(i, k) = draw.uniform(-1.0, 1.0);
       shapes.v(i, k) = normal_share * draw.uniform(-1.0, 1.0);
@@ -86,7 +86,8 @@ solver::Scene single_point_scene(const SinglePoint& single) {
   s.excitation = contact::Harmonics(1, 1);
   s.excitation.rows()(1, 0) = single.force;
   contact::ModalShapes shapes{Eigen::MatrixXd::Constant(1, 1, single.phi_u),
-                              Eigen::MatrixXd::Constant(1, 1, single.phi_v), {}};
+                              Eigen::MatrixXd::Constant(1, 1, single.phi_v),
+                              {}};
   s.contact = std::make_unique<contact::PatchForce>(
       contact::ContactPatch(Eigen::VectorXd::Ones(1), {single.point}), std::move(shapes));
   return s;

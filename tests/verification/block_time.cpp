@@ -1,14 +1,14 @@
-// The rigid block on rough cells (theory section 20.6, share/scenes/block_rough.toml) by harmonic balance
-// and by event-located integration in time: cells stick, slip in ellipses and part, normal force and moments
-// vary. Half peak-to-peak of the output; the named tolerance is 0.2 % of the peak, with 9 harmonics. Both
-// methods know the same laws by different code: collocation over given harmonics there, an ordinary
-// differential equation for the direction of slip here.
+// The rigid block on rough cells (theory section 20.6, share/scenes/block_rough.toml) by harmonic
+// balance and by event-located integration in time: cells stick, slip in ellipses and part, normal
+// force and moments vary. Half peak-to-peak of the output; the named tolerance is 0.2 % of the
+// peak, with 9 harmonics. Both methods know the same laws by different code: collocation over given
+// harmonics there, an ordinary differential equation for the direction of slip here.
 //
-// Integration starts from rest, so cells that never slip may keep a mean friction of their own (theory
-// section 4.2): first harmonics and amplitudes are compared, means are not.
+// Integration starts from rest, so cells that never slip may keep a mean friction of their own
+// (theory section 4.2): first harmonics and amplitudes are compared, means are not.
 //
-// The same for smooth surfaces, for friction that falls with the speed, and by the return map with fixed
-// steps, which is of first order: 2000 steps a period keep it within the tolerance too.
+// The same for smooth surfaces, for friction that falls with the speed, and by the return map with
+// fixed steps, which is of first order: 2000 steps a period keep it within the tolerance too.
 
 #include <algorithm>
 #include <cmath>
@@ -71,11 +71,11 @@ double difference(const Pair& pair) {
 
 void print(const char* name, double load, double hz, const Pair& pair) {
   const auto& report = pair.time.response.report;
-  std::printf("%-12s %3g N %5.1f Hz: %.6e m, in time %.6e m; stick %.2f slip %.2f open %.2f; %ld "
-              "events, %d periods\n",
-              name, load, hz, pair.balance.amplitude, pair.time.response.amplitude,
-              report.stick_share, report.slip_share, report.separated_share, pair.time.n_events,
-              pair.time.n_periods);
+  std::printf(
+      "%-12s %3g N %5.1f Hz: %.6e m, in time %.6e m; stick %.2f slip %.2f open %.2f; %ld "
+      "events, %d periods\n",
+      name, load, hz, pair.balance.amplitude, pair.time.response.amplitude, report.stick_share,
+      report.slip_share, report.separated_share, pair.time.n_events, pair.time.n_periods);
 }
 
 TEST(BlockInTime, AgreesWithHarmonicBalanceOnRoughCells) {

@@ -1,11 +1,12 @@
 // Natural frequencies against CalculiX, an independent code, on the same nodes and elements.
 //
-// With the same quadrature (four points for K and M of tet10) the matrices agree but for rounding and
-// the precision of the deck, 12 digits of a coordinate; what is left is the seventh digit CalculiX
-// prints: 1e-6. The mass of hex20 is integrated with 27 points there and exactly here, which shows in
-// the sixth digit on distorted elements: 1e-5. The blade is the default geometry as it is exported, of curved
-// tet10. Its modes are usually computed with the accurate rule, which is a little stiffer on curved elements:
-// that difference is printed and bounded too; it falls with the elements.
+// With the same quadrature (four points for K and M of tet10) the matrices agree but for rounding
+// and the precision of the deck, 12 digits of a coordinate; what is left is the seventh digit
+// CalculiX prints: 1e-6. The mass of hex20 is integrated with 27 points there and exactly here,
+// which shows in the sixth digit on distorted elements: 1e-5. The blade is the default geometry as
+// it is exported, of curved tet10. Its modes are usually computed with the accurate rule, which is
+// a little stiffer on curved elements: that difference is printed and bounded too; it falls with
+// the elements.
 //
 // CalculiX is run before PETSc is opened: nothing is started as a child once MPI is up.
 #include <cmath>
@@ -42,7 +43,8 @@ Eigen::Vector3d twist(const Eigen::Vector3d& x) {
   const double width = 1.0 - 0.4 * s;
   const double a = (x[0] - 0.02) * width;
   const double b = (x[1] - 0.003) * width + 12.0 * a * a;
-  return {a * std::cos(angle) - b * std::sin(angle), a * std::sin(angle) + b * std::cos(angle), x[2]};
+  return {a * std::cos(angle) - b * std::sin(angle), a * std::sin(angle) + b * std::cos(angle),
+          x[2]};
 }
 
 mesh::Mesh plate(mesh::ElementType type, bool curved) {
@@ -81,7 +83,8 @@ TEST(CalculiX, FindsTheSameTenFrequencies) {
     one.calculix = test::calculix_frequencies(one.mesh, titanium, {one.foot}, n_modes);
   }
   const fem::SlepcSession session;
-  std::printf("%-20s %16s %22s %22s\n", "mesh", "CalculiX [rad/s]", "same rule, largest", "accurate, largest");
+  std::printf("%-20s %16s %22s %22s\n", "mesh", "CalculiX [rad/s]", "same rule, largest",
+              "accurate, largest");
   double last = 0.0;
   for (const Case& one : all) {
     const double same = largest_error(one, fem::Tet10Rule::four_point);

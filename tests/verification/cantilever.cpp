@@ -1,10 +1,11 @@
 // Frequencies of a cantilever of rectangular section, and how fast they converge.
 //
-// Stretching, ν = 0: u_x = sin((2n−1)πx/2L), u_y = u_z = 0 solves the equations of elasticity exactly,
+// Stretching, ν = 0: u_x = sin((2n−1)πx/2L), u_y = u_z = 0 solves the equations of elasticity
+// exactly,
 //   ω_n = (2n−1) π/(2L) √(E/ρ).                                                             (1)
 // Eigenvalues of elements of degree p converge with h^{2p} (Strang & Fix, An Analysis of the Finite
-// Element Method, 1973, chapter 6): rate 2 for tet4 and hex8, 4 for tet10 and hex20. Asked: the rate
-// from the two finest of three sizes within 0.3 of it; coarse meshes are not yet in the limit.
+// Element Method, 1973, chapter 6): rate 2 for tet4 and hex8, 4 for tet10 and hex20. Asked: the
+// rate from the two finest of three sizes within 0.3 of it; coarse meshes are not yet in the limit.
 //
 // Bending, ν = 0: Timoshenko's beam with shear coefficient 5/6 (Cowper, J. Appl. Mech. 33 (1966)
 // 335–340, at ν = 0), solved here by the transfer matrix. The beam neglects the warping the clamp
@@ -15,8 +16,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "fem/modal_analysis.hpp"
@@ -29,17 +30,18 @@ using mesh::ElementType;
 
 const fem::Material material{2.0e11, 0.0, 8000.0};
 
-// Frequency of the mode, among the lowest, that moves most nearly along x alone. On a coarse mesh of
-// tetrahedra, which has no plane of symmetry, no mode does so exactly.
+// Frequency of the mode, among the lowest, that moves most nearly along x alone. On a coarse mesh
+// of tetrahedra, which has no plane of symmetry, no mode does so exactly.
 double stretching_frequency(ElementType type, int n) {
   const auto uneven = [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return {x[0] + 0.01 * std::sin(2.0 * std::numbers::pi * x[0] / 0.2), x[1], x[2]};
   };
-  const mesh::Mesh mesh =
-      test::straight_box_mesh(type, {.size = {0.2, 0.06, 0.05}, .cells = {2 * n, n, n}, .map = uneven});
+  const mesh::Mesh mesh = test::straight_box_mesh(
+      type, {.size = {0.2, 0.06, 0.05}, .cells = {2 * n, n, n}, .map = uneven});
   fem::Structure bar(mesh, material, {"x0"});
   const fem::ModalBasis basis = bar.solve_modes({.n_modes = 8});
-  const Eigen::RowVectorXd along = basis.shapes(Eigen::seq(0, Eigen::last, 3), Eigen::all).colwise().squaredNorm();
+  const Eigen::RowVectorXd along =
+      basis.shapes(Eigen::seq(0, Eigen::last, 3), Eigen::all).colwise().squaredNorm();
   Eigen::Index stretching = 0;
   along.cwiseQuotient(basis.shapes.colwise().squaredNorm()).maxCoeff(&stretching);
   return basis.frequency[stretching];
@@ -53,25 +55,29 @@ struct Expected {
 class Cantilever : public testing::TestWithParam<Expected> {};
 
 TEST_P(Cantilever, StretchesAtTheExactFrequencyWithTheRateOfItsElements) {
-  const double exact = 0.5 * std::numbers::pi / 0.2 * std::sqrt(material.youngs_modulus / material.density);
+  const double exact =
+      0.5 * std::numbers::pi / 0.2 * std::sqrt(material.youngs_modulus / material.density);
   const bool is_linear = GetParam().rate < 3.0;
   const std::array<int, 3> sizes = is_linear ? std::array{2, 4, 8} : std::array{1, 2, 4};
   std::array<double, 3> error{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double computed = stretching_frequency(GetParam().type, sizes[i]);
     error[i] = computed / exact - 1.0;
-    std::printf("%-6s n = %d: computed %.8f, exact %.8f, error %.2e\n", mesh::name(GetParam().type), sizes[i],
-                computed, exact, error[i]);
+    std::printf("%-6s n = %d: computed %.8f, exact %.8f, error %.2e\n", mesh::name(GetParam().type),
+                sizes[i], computed, exact, error[i]);
     EXPECT_GT(error[i], -1e-11) << "below the exact frequency by more than rounding";
   }
   const double rate = std::log2(error[1] / error[2]);
-  std::printf("%-6s rate %.2f, expected %.0f\n", mesh::name(GetParam().type), rate, GetParam().rate);
+  std::printf("%-6s rate %.2f, expected %.0f\n", mesh::name(GetParam().type), rate,
+              GetParam().rate);
   EXPECT_NEAR(rate, GetParam().rate, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, Cantilever,
-                         testing::Values(Expected{ElementType::tet4, 2.0}, Expected{ElementType::hex8, 2.0},
-                                         Expected{ElementType::tet10, 4.0}, Expected{ElementType::hex20, 4.0}),
+                         testing::Values(Expected{ElementType::tet4, 2.0},
+                                         Expected{ElementType::hex8, 2.0},
+                                         Expected{ElementType::tet10, 4.0},
+                                         Expected{ElementType::hex20, 4.0}),
                          [](const auto& type) { return std::string(mesh::name(type.param.type)); });
 
 // det of the free end's (V, M) over the clamped end's, state (w, ψ, V, M):
@@ -103,7 +109,8 @@ double timoshenko_frequency(double length, double width, double thickness) {
   double high = euler;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
-    (std::signbit(free_end(middle, length, width, thickness)) == std::signbit(free_end(low, length, width, thickness))
+    (std::signbit(free_end(middle, length, width, thickness)) ==
+             std::signbit(free_end(low, length, width, thickness))
          ? low
          : high) = middle;
   }
@@ -115,11 +122,12 @@ TEST(Cantilever, BendsLikeTimoshenkosBeamFromAbove) {
   double coarser = 1e300;
   double computed = 0.0;
   for (const int n : {1, 2, 4}) {
-    const mesh::Mesh mesh = test::box_mesh(ElementType::tet10, {.size = {0.2, 0.012, 0.01}, .cells = {10 * n, n, n}, .map = {}});
+    const mesh::Mesh mesh = test::box_mesh(
+        ElementType::tet10, {.size = {0.2, 0.012, 0.01}, .cells = {10 * n, n, n}, .map = {}});
     fem::Structure beam(mesh, material, {"x0"});
     computed = beam.solve_modes({.n_modes = 2}).frequency[0];
-    std::printf("bending, tet10 n = %d: computed %.6f, Timoshenko %.6f, difference %.1e\n", n, computed, expected,
-                computed / expected - 1.0);
+    std::printf("bending, tet10 n = %d: computed %.6f, Timoshenko %.6f, difference %.1e\n", n,
+                computed, expected, computed / expected - 1.0);
     EXPECT_LT(computed, coarser);
     coarser = computed;
   }

@@ -1,16 +1,16 @@
 // Patch test: a body of distorted elements whose boundary is moved linearly, u = A x + b, moves
 // linearly inside, with the uniform stress of A.
 //
-// Source: Irons & Razzaque, in Aziz (ed.), Mathematical Foundations of the FEM, Academic Press 1972;
-// Hughes, The Finite Element Method (1987), section 4.6. The fields are in the space of every element
-// and the quadrature is exact for them on straight edges: what is left is rounding of a direct
-// solution, condition of K (1e4) times 1e-16, and 1e-11 is asked.
+// Source: Irons & Razzaque, in Aziz (ed.), Mathematical Foundations of the FEM, Academic Press
+// 1972; Hughes, The Finite Element Method (1987), section 4.6. The fields are in the space of every
+// element and the quadrature is exact for them on straight edges: what is left is rounding of a
+// direct solution, condition of K (1e4) times 1e-16, and 1e-11 is asked.
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
@@ -24,7 +24,8 @@ const fem::Material titanium{1.14e11, 0.32, 4430.0};
 
 // Moves inner and outer nodes of a box of side 1 by up to a sixth of a cell.
 Eigen::Vector3d distort(const Eigen::Vector3d& x) {
-  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]), std::sin(5.0 * x[0] - 4.0 * x[2]),
+  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]),
+                                    std::sin(5.0 * x[0] - 4.0 * x[2]),
                                     std::cos(6.0 * x[0] + 2.0 * x[1]));
 }
 
@@ -36,7 +37,8 @@ struct Split {
 Split split(const mesh::Mesh& mesh) {
   std::vector<bool> is_outer(static_cast<std::size_t>(mesh.n_nodes()), false);
   for (const std::string& name : mesh.surface_names()) {
-    for (const Eigen::Index node : mesh.node_set(name)) is_outer[static_cast<std::size_t>(node)] = true;
+    for (const Eigen::Index node : mesh.node_set(name))
+      is_outer[static_cast<std::size_t>(node)] = true;
   }
   Split result;
   for (Eigen::Index dof = 0; dof < 3 * mesh.n_nodes(); ++dof) {
@@ -48,23 +50,27 @@ Split split(const mesh::Mesh& mesh) {
 class PatchTest : public testing::TestWithParam<ElementType> {};
 
 TEST_P(PatchTest, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
-  const mesh::Mesh mesh = test::straight_box_mesh(GetParam(), {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = distort});
+  const mesh::Mesh mesh = test::straight_box_mesh(
+      GetParam(), {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = distort});
   const Eigen::MatrixXd K = test::dense_system(mesh, titanium, {}).K;
   Eigen::Matrix3d A;
   A << 1.0, 0.3, -0.5, 0.2, -0.7, 0.4, 0.6, -0.1, 0.9;
-  const Eigen::MatrixX3d exact = (mesh.nodes() * A.transpose()).rowwise() + Eigen::RowVector3d(0.3, -0.2, 0.1);
+  const Eigen::MatrixX3d exact =
+      (mesh.nodes() * A.transpose()).rowwise() + Eigen::RowVector3d(0.3, -0.2, 0.1);
   const Eigen::VectorXd u = exact.transpose().reshaped();
   const Split dofs = split(mesh);
   ASSERT_FALSE(dofs.inner.empty());
   const Eigen::VectorXd load = -K(dofs.inner, dofs.outer) * u(dofs.outer);
   const Eigen::VectorXd inner = K(dofs.inner, dofs.inner).eval().llt().solve(load);
   const double error = (inner - u(dofs.inner)).norm() / u.norm();
-  std::printf("%-6s %5td inner degrees of freedom, error %.1e\n", mesh::name(GetParam()), std::ssize(dofs.inner), error);
+  std::printf("%-6s %5td inner degrees of freedom, error %.1e\n", mesh::name(GetParam()),
+              std::ssize(dofs.inner), error);
   EXPECT_LT(error, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, PatchTest,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20),
+                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
+                                         ElementType::hex20),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 }  // namespace

@@ -1,17 +1,22 @@
-// Time integration with two tangential directions, rough surfaces and friction by speed (theory sections
-// 9–11, 18) against what is known without it.
+// Time integration with two tangential directions, rough surfaces and friction by speed (theory
+// sections 9–11, 18) against what is known without it.
 //
-//   circle    a mass with one spring in all directions, driven around a circle: |f| = μ n turns with it and
+//   circle    a mass with one spring in all directions, driven around a circle: |f| = μ n turns
+//   with it and
 //             leads by β = arccos(μn/(k a)), so that (ω_n² − ω² + 2iζω_nω) a + μ n e^{iβ} = F and
 //             D = 2πμ n √(a² − (μn/k)²); integrated from rest to a distance of 1e-9, tolerance 1e-8
-//   line      the chains of theory sections 20.3 and 20.4 by the planar patch and by the patch with one
+//   line      the chains of theory sections 20.3 and 20.4 by the planar patch and by the patch with
+//   one
 //             direction, from rest: the same after ten periods to 1e-9, 1e-10 per step
-//   order     fixed steps against a solution with eight times as many: events of order 5 while surfaces are
+//   order     fixed steps against a solution with eight times as many: events of order 5 while
+//   surfaces are
 //             smooth and the slip does not separate; the return map with rk4 of order 1 at least
-//   balance   random scenes of three modes and two points, smooth, rough or by speed, k_u ≠ k_w, preloads and
-//             gaps, against harmonic balance with 15 harmonics (planar cycles by collocation): the named
-//             tolerance is 0.2 % of the motion, and half of it is what must be met; at least as near as 3
-//             harmonics are. Scenes that are not periodic in 400 periods are left out and counted
+//   balance   random scenes of three modes and two points, smooth, rough or by speed, k_u ≠ k_w,
+//   preloads and
+//             gaps, against harmonic balance with 15 harmonics (planar cycles by collocation): the
+//             named tolerance is 0.2 % of the motion, and half of it is what must be met; at least
+//             as near as 3 harmonics are. Scenes that are not periodic in 400 periods are left out
+//             and counted
 //   spring    stuck rough contact under a constant approach is a linear spring g k: exact to 1e-8
 
 #include <algorithm>
@@ -185,12 +190,14 @@ TEST(PlanarTime, EventsAreOfOrderFive) {
   EXPECT_GT(order("gaussian heights", orbit(rough), solver::TimeMethod::events, 64), 4.7);
   const SurfaceLaw series(point, 2.0, FrictionLaw::constant(0.5),
                           RoughSurface::matching_gaussian(3.0), {2.0, 0.0, 0.1});
-  EXPECT_GT(std::abs(series.at(0.0, 0.0).ratio_of_stiffness - series.at(1.0, 0.0).ratio_of_stiffness),
-            0.05);
+  EXPECT_GT(
+      std::abs(series.at(0.0, 0.0).ratio_of_stiffness - series.at(1.0, 0.0).ratio_of_stiffness),
+      0.05);
   EXPECT_GT(order("bodies in series", orbit(series), solver::TimeMethod::events, 64), 4.7);
   const SurfaceLaw cubic(point, 2.0, FrictionLaw::constant(0.5), RoughSurface::cubic(3.0));
   EXPECT_GT(order("cubic heights", orbit(cubic), solver::TimeMethod::events, 64), 4.7);
-  // In and out of the contact of all heights in every period: a kink of the force within a held state.
+  // In and out of the contact of all heights in every period: a kink of the force within a held
+  // state.
   const SurfaceLaw low(point, 2.0, FrictionLaw::constant(0.5), RoughSurface::cubic(1.6));
   const solver::Scene crossed = orbit(low);
   EXPECT_GT(n_crossings(crossed), 2);
@@ -230,7 +237,8 @@ SurfaceLaw random_law(Draw& draw, std::uint64_t kind) {
     return {p, k_w, FrictionLaw::constant(mu),
             kind == 2 ? RoughSurface::cubic(height) : RoughSurface::matching_gaussian(height)};
   }
-  // Bodies several times as soft as the surfaces along one direction: h of planar_point.hpp goes far from 1.
+  // Bodies several times as soft as the surfaces along one direction: h of planar_point.hpp goes
+  // far from 1.
   const double soft = draw(1.0, 4.0) / p.tangential_stiffness;
   const double stiff = draw(-0.3, 0.2) / k_w;
   const contact::SeriesCompliance series{kind == 4 ? soft : stiff, 0.0, kind == 4 ? stiff : soft};
@@ -256,8 +264,7 @@ solver::Scene random_planar_scene(std::uint64_t seed, std::uint64_t kind) {
     cycles.push_back(std::make_shared<contact::PlanarLaw>(laws.back(), 1e-11));
   }
   scene.contact = std::make_unique<contact::LawPatchForce>(weights, std::move(cycles), shapes);
-  scene.transient =
-      std::make_unique<contact::PlanarTransient>(weights, std::move(laws), shapes);
+  scene.transient = std::make_unique<contact::PlanarTransient>(weights, std::move(laws), shapes);
   return scene;
 }
 
@@ -312,8 +319,8 @@ TEST(PlanarTime, AgreesWithHarmonicBalanceOnRandomScenes) {
   constexpr std::uint64_t n_seeds = 24;
   Agreement all;
   for (std::uint64_t seed = 0; seed < n_seeds; ++seed) all.add(seed, seed % 4);
-  std::printf("largest difference %.1e; slip %.2f, open %.2f on average; %d left out\n", all.largest,
-              all.slip / n_seeds, all.separated / n_seeds, all.n_left_out);
+  std::printf("largest difference %.1e; slip %.2f, open %.2f on average; %d left out\n",
+              all.largest, all.slip / n_seeds, all.separated / n_seeds, all.n_left_out);
   EXPECT_LE(all.n_left_out, 3);
   EXPECT_GT(all.slip, 0.2 * n_seeds);
   EXPECT_GT(all.separated, 0.05 * n_seeds);
@@ -326,7 +333,8 @@ TEST(PlanarTime, AgreesWhereBodiesInSeriesDifferAlongPAndR) {
   std::printf("bodies in series: largest difference %.1e; slip %.2f; %d left out\n", all.largest,
               all.slip / n_seeds, all.n_left_out);
   EXPECT_LE(all.n_left_out, 1);
-  EXPECT_LT(all.largest, 2e-4);  // a tenth of the named tolerance; truncation leaves a sixth of that
+  EXPECT_LT(all.largest,
+            2e-4);  // a tenth of the named tolerance; truncation leaves a sixth of that
   EXPECT_GT(all.slip, 0.1 * n_seeds);
 }
 

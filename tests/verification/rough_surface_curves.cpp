@@ -18,8 +18,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/surface/rough_surface.hpp"
 #include "contact/line/surface_event_law.hpp"
+#include "contact/surface/rough_surface.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -95,7 +95,8 @@ TEST(FigureTwo, CurvesHaveTheMarksOfThePaper) {
          << ',' << x << ',' << c.share << ',' << g.share << '\n';
   }
   std::printf("cubic and Gaussian F* differ by at most %.4f\n", apart);
-  EXPECT_LE(apart, 0.01);  // "covered rather faithfully by means of the Gauss distribution", section 2.1
+  EXPECT_LE(apart,
+            0.01);  // "covered rather faithfully by means of the Gauss distribution", section 2.1
   EXPECT_GT(apart, 1e-4);  // and yet they are two laws
   EXPECT_TRUE(file.good());
 }

@@ -1,10 +1,12 @@
-// Stability of harmonic balance with five harmonics against time integration (theory sections 17, 20.4),
-// where three solutions coexist: 25, 30 and 50 N, at three frequencies inside the band between the folds.
+// Stability of harmonic balance with five harmonics against time integration (theory sections
+// 17, 20.4), where three solutions coexist: 25, 30 and 50 N, at three frequencies inside the band
+// between the folds.
 //
-// A solution judged stable is found again by integration from a start 1 % away in every harmonic; the one
-// judged unstable is left, for one of the other two. 1 % is above the error of five harmonics and far below
-// the distance of the solutions. Found again: within 2 % of the first harmonic, ten times the named
-// tolerance of the methods; left: farther than half of the way to the nearest other solution.
+// A solution judged stable is found again by integration from a start 1 % away in every harmonic;
+// the one judged unstable is left, for one of the other two. 1 % is above the error of five
+// harmonics and far below the distance of the solutions. Found again: within 2 % of the first
+// harmonic, ten times the named tolerance of the methods; left: farther than half of the way to the
+// nearest other solution.
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +108,9 @@ TEST(StabilityAgainstTime, StableSolutionsAreFoundAndTheMiddleOneIsLeft) {
 }
 
 TEST(StabilityAgainstTime, FewPointsOfTheCurvesAreLeftOpen) {
-  // Pairs of Hill's problem of a hysteretic force are no proof either way; multipliers in time are, but on
-  // the unit circle, and where a change of state falls on θ = 0 so closely that neighbours differ.
+  // Pairs of Hill's problem of a hysteretic force are no proof either way; multipliers in time are,
+  // but on the unit circle, and where a change of state falls on θ = 0 so closely that neighbours
+  // differ.
   int n_points = 0;
   int n_open = 0;
   for (const double preload : {0.0, 10.0, 25.0, 30.0, 50.0, 100.0, 200.0}) {
@@ -132,8 +135,9 @@ TEST(StabilityAgainstTime, FewPointsOfTheCurvesAreLeftOpen) {
 }
 
 TEST(StabilityAgainstTime, EveryFrequencyOfACurveWithoutFoldsIsJudgedAsTimeIntegrationFinds) {
-  // 15 N: the only motion of period one loses its stability by a pair of multipliers near 27.6 Hz, and no
-  // determinant changes sign there. Time integration from the solution itself stays or leaves.
+  // 15 N: the only motion of period one loses its stability by a pair of multipliers near 27.6 Hz,
+  // and no determinant changes sign there. Time integration from the solution itself stays or
+  // leaves.
   solver::Scene scene = tests::three_dof_scene(15.0);
   tests::add_transient(scene);
   tests::use_event_cycles(scene);

@@ -285,14 +285,15 @@ TEST(FrictionCycle, ForceAtAPhaseHasTheFourierCoefficients) {
 }
 
 TEST(FrictionCycle, ForceOfAPointThatHardlySticksIsExactToTheForceNotToItsSprings) {
-  // Constant load, k_u a up to 1e10 μn: sticks 1e-5 of the cycle (theory section 5, case b = 0). The
-  // springs alone would leave eps k_u a.
+  // Constant load, k_u a up to 1e10 μn: sticks 1e-5 of the cycle (theory section 5, case b = 0).
+  // The springs alone would leave eps k_u a.
   const PointParameters point{1.0, 0.0, 0.5, 2.0};
   const double q = 1.0;
   for (const double amplitude : {1e2, 1e4, 1e6, 1e8, 1e10}) {
-    const PointMotion motion{.u_sin = amplitude * std::cos(0.7), .u_cos = amplitude * std::sin(0.7)};
-    const long double a = std::hypot(static_cast<long double>(motion.u_sin),
-                                     static_cast<long double>(motion.u_cos));
+    const PointMotion motion{.u_sin = amplitude * std::cos(0.7),
+                             .u_cos = amplitude * std::sin(0.7)};
+    const long double a =
+        std::hypot(static_cast<long double>(motion.u_sin), static_cast<long double>(motion.u_cos));
     const long double psi = 2.0L * std::atan2(std::sqrt(1.0L), std::sqrt(a - 1.0L));
     const long double half_turn = 3.14159265358979323846264338327950288L;
     const long double in_phase = a / half_turn * (psi - 0.5L * std::sin(2.0L * psi));

@@ -25,8 +25,8 @@ TEST(SlipEnergy, ShortPhasesKeepTheirDigits) {
 }
 
 // The whole slip of one phase under a load that grows with it, by Simpson's rule on the slip rate.
-// A point that hardly moves and lifts off does no more work than its way under the largest load: rounding of the
-// angle of lift-off, squared, is 1e-31 of the load.
+// A point that hardly moves and lifts off does no more work than its way under the largest load:
+// rounding of the angle of lift-off, squared, is 1e-31 of the load.
 TEST(SlipEnergy, NoMotionDoesNoWork) {
   const PointParameters point{1.0, 1.0, 0.5, 0.3};
   for (const double u : {1e-300, 1e-100, 1e-20}) {
@@ -71,15 +71,16 @@ TEST(SlipEnergy, IsTheIntegralOfLoadTimesSlipRate) {
   EXPECT_GT(work, 0.1);
 }
 
-// A point that hardly ever slips does so in the last 1/μ of its contact, far from the extremum of its
-// slip function. Its work is that of the force over the cycle (theory section 7), which is known to
-// ε (k_u a + μ (|n₀| + B)).
+// A point that hardly ever slips does so in the last 1/μ of its contact, far from the extremum of
+// its slip function. Its work is that of the force over the cycle (theory section 7), which is
+// known to ε (k_u a + μ (|n₀| + B)).
 TEST(SlipEnergy, SlipJustBeforeLiftOffKeepsItsDigits) {
   for (const double mu : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     const PointParameters point{1.0, 1.0, mu, 0.4};
     const PointMotion m{.u_sin = 1.0, .u_cos = 0.3, .v_sin = -0.5, .v_cos = 1.0};
     const FrictionCycle cycle = friction_cycle(point, m);
-    const double work = std::numbers::pi * (m.u_sin * cycle.friction.cos - m.u_cos * cycle.friction.sin);
+    const double work =
+        std::numbers::pi * (m.u_sin * cycle.friction.cos - m.u_cos * cycle.friction.sin);
     EXPECT_GT(work, 0.1);
     EXPECT_NEAR(cycle.dissipated_energy, work, 1e-14 * mu * work) << mu;
   }

@@ -17,8 +17,9 @@ constexpr Eigen::Index n_modes = 2;
 
 /// Points that stick, slip and separate under waves of size one.
 ContactPatch some_patch() {
-  return {Eigen::Vector4d(1.0, 0.5, 0.8, 1.2),
-          {{1.0, 1.0, 0.3, 0.5}, {2.0, 0.5, 0.4, 5.0}, {1.0, 2.0, 0.2, -0.1}, {1.5, 0.0, 0.5, 0.3}}};
+  return {
+      Eigen::Vector4d(1.0, 0.5, 0.8, 1.2),
+      {{1.0, 1.0, 0.3, 0.5}, {2.0, 0.5, 0.4, 5.0}, {1.0, 2.0, 0.2, -0.1}, {1.5, 0.0, 0.5, 0.3}}};
 }
 
 ModalShapes some_shapes() {
@@ -36,7 +37,8 @@ ModalShapes some_shapes() {
 Harmonics wave(int n_harmonics) {
   Harmonics q(n_harmonics, n_modes);
   for (Eigen::Index i = 0; i < q.rows().size(); ++i) {
-    q.vector()[i] = std::cos(2.3 * static_cast<double>(i) + 0.4) / (1.0 + static_cast<double>(i / 4));
+    q.vector()[i] =
+        std::cos(2.3 * static_cast<double>(i) + 0.4) / (1.0 + static_cast<double>(i / 4));
   }
   return q;
 }

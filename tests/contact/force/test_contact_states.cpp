@@ -1,4 +1,5 @@
-// States of points over their period as numbers: what they say of a cycle, and what they say has changed.
+// States of points over their period as numbers: what they say of a cycle, and what they say has
+// changed.
 
 #include <cmath>
 #include <memory>
@@ -9,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "contact/closed_form/cycle_states.hpp"
-#include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/line/event_law.hpp"
+#include "contact/line/surface_event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/support/sampled/sampled_cycle.hpp"
-#include "contact/line/surface_event_law.hpp"
 
 namespace microslip::contact {
 namespace {

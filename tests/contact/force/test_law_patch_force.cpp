@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "contact/contact_map.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/contact_map.hpp"
 #include "contact/force/patch_force.hpp"
 
 namespace microslip::contact {
@@ -91,7 +91,8 @@ Patch random_patch(Eigen::Index n, double preload) {
   patch.weights.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     patch.weights[i] = 0.1 + u(random);
-    patch.points.push_back({0.5 + u(random), 0.5 + u(random), 0.3 + u(random), preload * u(random)});
+    patch.points.push_back(
+        {0.5 + u(random), 0.5 + u(random), 0.3 + u(random), preload * u(random)});
     patch.laws.push_back(std::make_shared<ClosedForm>(patch.points.back()));
   }
   std::srand(7);
@@ -139,7 +140,8 @@ TEST(LawPatchForce, CarriesTheDefectOfItsPoints) {
   EXPECT_EQ(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, 0.0);
   p.laws[1] = std::make_shared<Vague>(p.points[1]);
   const double expected =
-      0.25 * p.weights[1] * std::sqrt(p.shapes.u.row(1).squaredNorm() + p.shapes.v.row(1).squaredNorm());
+      0.25 * p.weights[1] *
+      std::sqrt(p.shapes.u.row(1).squaredNorm() + p.shapes.v.row(1).squaredNorm());
   EXPECT_NEAR(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, expected, 1e-15);
 }
 
@@ -173,8 +175,7 @@ TEST(LawPatchForce, ActsAlongTheSecondDirection) {
   flat.w.resize(0, 0);
   const LawPatchForce without(p.weights, p.laws, flat);
   const Harmonics q = random_motion();
-  const Eigen::MatrixXd K =
-      spring_r * p.shapes.w.transpose() * p.weights.asDiagonal() * p.shapes.w;
+  const Eigen::MatrixXd K = spring_r * p.shapes.w.transpose() * p.weights.asDiagonal() * p.shapes.w;
   const Eigen::MatrixXd extra =
       with.evaluate(q, 1.0).force.rows() - without.evaluate(q, 1.0).force.rows();
   EXPECT_LE((extra - q.rows() * K).cwiseAbs().maxCoeff(), rounding(n));
@@ -203,8 +204,8 @@ TEST(LawPatchForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
   // The test's law: ∂f/∂ω = ω f, with the whole load and not its change.
   Harmonics load(1, n_modes);
   for (Eigen::Index i = 0; i < 20; ++i) {
-    load.rows().row(0) += p.weights[i] * p.laws[static_cast<std::size_t>(i)]->load_at_rest() *
-                          p.shapes.v.row(i);
+    load.rows().row(0) +=
+        p.weights[i] * p.laws[static_cast<std::size_t>(i)]->load_at_rest() * p.shapes.v.row(i);
   }
   const Eigen::VectorXd whole = at.force.vector() + load.vector();
   EXPECT_LE((at.frequency_derivative - 3.0 * whole).cwiseAbs().maxCoeff(), rounding(20) * 3.0);

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "contact/force/any_harmonics_force.hpp"
-#include "contact/line/event_law.hpp"
 #include "contact/force/law_patch_force.hpp"
+#include "contact/line/event_law.hpp"
 #include "contact/line/surface_event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/support/sampled/sampled_cycle.hpp"

@@ -27,8 +27,7 @@ Patch random_patch(Eigen::Index n, std::mt19937_64& random) {
   for (Eigen::Index i = 0; i < n; ++i) {
     patch.weights[i] = 1.1 + u(random);
     patch.points.push_back({1.1 + u(random), i % 7 == 0 ? 0.0 : 1.1 + u(random),
-                            i % 5 == 0 ? 0.0 : 0.5 + 0.4 * u(random),
-                            6.0 * u(random) + 2.0});
+                            i % 5 == 0 ? 0.0 : 0.5 + 0.4 * u(random), 6.0 * u(random) + 2.0});
   }
   patch.shapes.u = Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
   patch.shapes.v = Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
@@ -44,8 +43,8 @@ Harmonics random_motion(double size, std::mt19937_64& random) {
   return q;
 }
 
-// A patch that has seen a walk of motions against one that has never seen any. One that sleeps adds in
-// another order: rounding of sums of n terms of size 10.
+// A patch that has seen a walk of motions against one that has never seen any. One that sleeps adds
+// in another order: rounding of sums of n terms of size 10.
 TEST(SleepingPoints, GiveWhatPointsEvaluatedOneByOneGive) {
   std::mt19937_64 random(1);
   double least_awake = 1.0;
@@ -85,7 +84,8 @@ TEST(SleepingPoints, LinearPartIsThatOfTheCycles) {
     const auto row = static_cast<Eigen::Index>(i);
     const FrictionCycle c = friction_cycle(p.points[i], motions[i]);
     Eigen::Vector3d f(c.friction.mean, c.friction.sin, c.friction.cos);
-    Eigen::Vector3d n(c.normal.mean - std::max(p.points[i].preload, 0.0), c.normal.sin, c.normal.cos);
+    Eigen::Vector3d n(c.normal.mean - std::max(p.points[i].preload, 0.0), c.normal.sin,
+                      c.normal.cos);
     expected.rows() += p.weights[row] * (f * p.shapes.u.row(row) + n * p.shapes.v.row(row));
   }
   EXPECT_LE((ours.force.rows() - expected.rows()).cwiseAbs().maxCoeff(), 3e-13);
@@ -100,8 +100,8 @@ TEST(SleepingPoints, ProofHoldsUpToItsRadius) {
     const auto row = static_cast<Eigen::Index>(i);
     const ModalShapes shapes{p.shapes.u.row(row), p.shapes.v.row(row), {}};
     const Harmonics q = random_motion(0.4, random);
-    const SleepProof proof = prove_asleep(p.points[i], point_motions(shapes, q)[0],
-                                          shapes.u.norm(), shapes.v.norm());
+    const SleepProof proof =
+        prove_asleep(p.points[i], point_motions(shapes, q)[0], shapes.u.norm(), shapes.v.norm());
     if (proof.state == SleepState::awake) {
       continue;
     }

@@ -15,9 +15,9 @@
 
 #include "contact/line/event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
-#include "tests/support/sampled/sampled_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
+#include "tests/support/sampled/sampled_cycle.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -208,7 +208,8 @@ TEST_P(SurfaceEventLaws, BalanceTheirWork) {
     const double u = friction_scale(c) / c.point.tangential_stiffness;
     const double v = c.motion.rows().col(1).tail(2 * H).cwiseAbs().sum();
     // 1e-13 for the forces, times the highest harmonic.
-    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 1)), 1e-12 * H * normal_scale(c) * v);
+    ASSERT_LE(std::abs(test::cycle_work(c.motion, history.force, 1)),
+              1e-12 * H * normal_scale(c) * v);
     if (!surface.is_smooth()) continue;
     ASSERT_NEAR(test::cycle_work(c.motion, history.force, 0), history.dissipated_energy,
                 1e-12 * H * friction_scale(c) * u);

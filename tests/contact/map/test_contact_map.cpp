@@ -1,7 +1,7 @@
-#include "contact/contact_map.hpp"
-#include "contact/closed_form/friction_cycle.hpp"
-#include "contact/patch/point_motions.hpp"
 #include <gtest/gtest.h>
+#include "contact/closed_form/friction_cycle.hpp"
+#include "contact/contact_map.hpp"
+#include "contact/patch/point_motions.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -73,7 +73,8 @@ TEST(ContactMap, PointsAreInTheStatesTheirMotionAsksFor) {
   EXPECT_TRUE((map.state.row(2).array() == 3).any());
 }
 
-// Under constant load stick starts where the motion turns back; a state that never occurs has no start.
+// Under constant load stick starts where the motion turns back; a state that never occurs has no
+// start.
 TEST(ContactMap, TransitionAnglesAreWhereStatesBegin) {
   const Scene s = three_points();
   const ContactMap map = contact_map(s.points, s.shapes, s.q, 1, 0.0);
@@ -81,7 +82,8 @@ TEST(ContactMap, TransitionAnglesAreWhereStatesBegin) {
   const double u_c = s.shapes.u.row(1).dot(s.q.cosine(1));
   const double at = map.state_start(1, 0);
   EXPECT_NEAR(u_s * std::cos(at) - u_c * std::sin(at), 0.0, 1e-14 * std::hypot(u_s, u_c));
-  EXPECT_NEAR(std::remainder(map.state_start(1, 2) - map.state_start(1, 1) - pi, 2.0 * pi), 0.0, 1e-14);
+  EXPECT_NEAR(std::remainder(map.state_start(1, 2) - map.state_start(1, 1) - pi, 2.0 * pi), 0.0,
+              1e-14);
   EXPECT_TRUE(std::isnan(map.state_start(1, 3)));
   EXPECT_TRUE(map.state_start.row(0).array().isNaN().all());  // sticks all the time
   constexpr double step = 1e-6;

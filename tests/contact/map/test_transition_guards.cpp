@@ -1,5 +1,5 @@
-#include "contact/map/transition_guards.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/map/transition_guards.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ namespace {
 PointMotion random_motion(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   PointMotion m;
-  for (double* x : {&m.u_mean, &m.u_sin, &m.u_cos, &m.v_mean, &m.v_sin, &m.v_cos}) *x = normal(random);
+  for (double* x : {&m.u_mean, &m.u_sin, &m.u_cos, &m.v_mean, &m.v_sin, &m.v_cos})
+    *x = normal(random);
   m.v_mean *= 0.3;
   return m;
 }
@@ -63,7 +64,8 @@ TEST(TransitionGuards, SampledOnesAreTheClosedForm) {
     const TransitionGuards sampled = transition_guards(law, harmonics_of(motion, 3), 1.0, false);
     const double size = point.tangential_stiffness * std::hypot(motion.u_sin, motion.u_cos) +
                         2.0 * std::hypot(motion.v_sin, motion.v_cos) + 1.0;
-    // A parabola through three of 256 samples of a sine errs by (π/128)⁴/384 of it; a crest between samples by more.
+    // A parabola through three of 256 samples of a sine errs by (π/128)⁴/384 of it; a crest between
+    // samples by more.
     EXPECT_NEAR(sampled.slip, exact.slip, 1e-6 * size);
     EXPECT_NEAR(sampled.smallest_load, exact.smallest_load, 1e-6 * size);
     EXPECT_NEAR(sampled.largest_load, exact.largest_load, 1e-6 * size);

@@ -46,8 +46,8 @@ ModalShapes first_mode(const ModalShapes& s) {
   return {s.u.leftCols(1), s.v.leftCols(1), s.w.leftCols(1)};
 }
 
-// Nodes of a strip of quadratic elements, one element wide: three lines, which a turned slip direction crosses
-// askew. Between them a polynomial of high degree is free.
+// Nodes of a strip of quadratic elements, one element wide: three lines, which a turned slip
+// direction crosses askew. Between them a polynomial of high degree is free.
 TEST(ModalContactField, StaysWithTheModesBetweenTheNodesOfATurnedStrip) {
   const auto turned = [](Eigen::Index along, Eigen::Index across, double degrees) {
     const double angle = degrees * M_PI / 180.0;
@@ -55,14 +55,17 @@ TEST(ModalContactField, StaysWithTheModesBetweenTheNodesOfATurnedStrip) {
     for (Eigen::Index i = 0; i < places.rows(); ++i) {
       const double x = 0.03 * static_cast<double>(i % along) / static_cast<double>(along - 1);
       const double y = 0.006 * static_cast<double>(i / along) / static_cast<double>(across - 1);
-      places.row(i) << std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y;
+      places.row(i) << std::cos(angle) * x - std::sin(angle) * y,
+          std::sin(angle) * x + std::cos(angle) * y;
     }
     return places;
   };
   const auto shapes = [](const Eigen::MatrixX2d& at, double degrees) {
     const double angle = -degrees * M_PI / 180.0;
-    const Eigen::ArrayXd x = std::cos(angle) * at.col(0).array() - std::sin(angle) * at.col(1).array();
-    const Eigen::ArrayXd y = std::sin(angle) * at.col(0).array() + std::cos(angle) * at.col(1).array();
+    const Eigen::ArrayXd x =
+        std::cos(angle) * at.col(0).array() - std::sin(angle) * at.col(1).array();
+    const Eigen::ArrayXd y =
+        std::sin(angle) * at.col(0).array() + std::cos(angle) * at.col(1).array();
     ModalShapes s{Eigen::MatrixXd(at.rows(), 1), Eigen::MatrixXd(at.rows(), 1), {}};
     s.u.col(0) = (60.0 * x).sin() + 20.0 * y;
     s.v.col(0) = (40.0 * x).cos() * (1.0 + 30.0 * y);

@@ -74,7 +74,8 @@ TEST(PreloadEquilibrium, SquareTipsOverBelowTwentySevenNewton) {
       // As scenes give them: [about p, about r].
       const auto& asked = error.why().request;
       std::ostringstream moments;
-      moments << "with moments " << asked.moment_z << " and " << asked.moment_y << " N m about p and r";
+      moments << "with moments " << asked.moment_z << " and " << asked.moment_y
+              << " N m about p and r";
       EXPECT_NE(std::string(error.what()).find(moments.str()), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("26.6667 N"), std::string::npos) << error.what();
     }

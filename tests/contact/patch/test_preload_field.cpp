@@ -118,7 +118,8 @@ TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
   EXPECT_LT((n / n[0] - shape / shape[0]).norm(), 1e-12);
 }
 
-// Hard case 21: without a mean; and a shape that scaling alone would turn round, gaps into pressure.
+// Hard case 21: without a mean; and a shape that scaling alone would turn round, gaps into
+// pressure.
 TEST(PreloadField, AShapeWithoutPositiveMeanIsNotScaled) {
   const PatchRule rule = square(-1.0, -1.0, 2.0, 4);
   EXPECT_NE(refusal([&] { return scaled_preload(rule.p, rule.weights, 750.0); }).find("above 0"),

@@ -254,8 +254,8 @@ TEST(PlanarLaw, RefusesWhatItCannotMeet) {
   EXPECT_THROW(PlanarLaw(surface).traction(Harmonics(1, 2), 1.0, traction), std::invalid_argument);
 }
 
-// Sixty deviations apart Gaussian heights carry less than the smallest number. A period was judged by its
-// middle: with that at θ = π all contact was missed, anywhere else it was found.
+// Sixty deviations apart Gaussian heights carry less than the smallest number. A period was judged
+// by its middle: with that at θ = π all contact was missed, anywhere else it was found.
 TEST(PlanarLaw, GaussianHeightsThatPartFarTouchAgain) {
   const SurfaceLaw law({2.0, 1.0, 0.4, 0.01}, 1.4, FrictionLaw::constant(0.4),
                        RoughSurface::matching_gaussian(0.1));

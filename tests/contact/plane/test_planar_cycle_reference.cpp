@@ -80,11 +80,13 @@ TEST(PlanarLawReference, WorkOfTheForceIsDissipatedBySlip) {
     const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), tolerance);
     const PointHistory history =
         law.history(c.motion, 1.0, Eigen::VectorXd(), c.motion.n_harmonics());
-    const double done = test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
+    const double done =
+        test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
     const double size = c.motion.rows().bottomRows(c.motion.rows().rows() - 1).norm();
     const double scale = test::planar_scale(c) * size * c.motion.n_harmonics();
     EXPECT_NEAR(done, history.dissipated_energy, 10.0 * tolerance * scale) << "case " << i;
-    EXPECT_NEAR(test::cycle_work(c.motion, history.force, 1), 0.0, 1e-12 * (history.force.rows().norm() + 1.0));
+    EXPECT_NEAR(test::cycle_work(c.motion, history.force, 1), 0.0,
+                1e-12 * (history.force.rows().norm() + 1.0));
     EXPECT_GE(history.dissipated_energy, 0.0);
   }
 }

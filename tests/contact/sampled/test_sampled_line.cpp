@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "contact/line/event_law.hpp"
-#include "contact/sampled/patch_force.hpp"
 #include "contact/line/surface_event_law.hpp"
+#include "contact/sampled/patch_force.hpp"
 #include "one_point.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
@@ -74,8 +74,9 @@ TEST_P(LineSurfaces, ConvergeToLocatedEventsInSecondOrder) {
   const double fine = rms(cases, GetParam(), exact, 2048);
   std::printf("rms error at 128, 512, 2048 instants: %.2e %.2e %.2e\n", coarse, middle, fine);
   EXPECT_LT(coarse, 1e-3);
-  // 256 in second order, 16 in first, 64 between them. A coefficient that rises with the speed has a sharp
-  // least where the motion turns, between two instants: where that holds the slider the order is one.
+  // 256 in second order, 16 in first, 64 between them. A coefficient that rises with the speed has
+  // a sharp least where the motion turns, between two instants: where that holds the slider the
+  // order is one.
   EXPECT_GT(coarse / fine, GetParam().name == "rising" ? 16.0 : 64.0);
 }
 

@@ -108,7 +108,8 @@ TEST(PatchTransient, HeldForceAgreesWithTheTrialForceWhereTheStateHolds) {
                                    Eigen::Vector2d(-0.9, 0.1), Eigen::Vector2d(0.3, -0.9)}) {
     TransientMemory memory = force.virgin_memory();
     force.commit(still(q), memory);
-    EXPECT_LT((force.held_force(still(q), memory) - force.trial_force(still(q), memory)).norm(), 1e-15);
+    EXPECT_LT((force.held_force(still(q), memory) - force.trial_force(still(q), memory)).norm(),
+              1e-15);
   }
 }
 

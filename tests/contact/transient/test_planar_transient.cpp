@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/force/law_patch_force.hpp"
-#include "contact/transient/patch_transient.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "contact/transient/patch_transient.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -30,7 +30,8 @@ PlanarTransient one_point(const SurfaceLaw& law, double weight = 1.0) {
 
 /// The same along p alone.
 PlanarTransient on_a_line(const SurfaceLaw& law) {
-  return {Eigen::VectorXd::Ones(1), {law},
+  return {Eigen::VectorXd::Ones(1),
+          {law},
           ModalShapes{Eigen::RowVector2d(1.0, 0.0), Eigen::RowVector2d(0.0, 1.0), {}}};
 }
 
@@ -65,8 +66,8 @@ TEST(PlanarTransient, CarriesNoDynamicForceAtRest) {
     for (const auto& roughness :
          {std::optional<RoughSurface>{}, std::optional(RoughSurface::cubic(0.3)),
           std::optional(RoughSurface::matching_gaussian(0.3))}) {
-      const PlanarTransient force = one_point(
-          {{5.0, 7.0, 0.4, preload}, 4.0, FrictionLaw::constant(0.4), roughness});
+      const PlanarTransient force =
+          one_point({{5.0, 7.0, 0.4, preload}, 4.0, FrictionLaw::constant(0.4), roughness});
       const TransientMemory memory = force.virgin_memory();
       const ModalMotion rest = still(Eigen::Vector3d::Zero());
       EXPECT_EQ(force.trial_force(rest, memory), Eigen::Vector3d::Zero());
@@ -130,8 +131,8 @@ TEST(PlanarTransient, OnALineItIsThePatchWithOneDirection) {
       line.switch_state(0, motion, b);
       ++n_switches;
     }
-    const bool slips = b.state[0] == ContactState::positive_slip ||
-                       b.state[0] == ContactState::negative_slip;
+    const bool slips =
+        b.state[0] == ContactState::positive_slip || b.state[0] == ContactState::negative_slip;
     EXPECT_EQ(a.state[0], slips ? ContactState::slip : b.state[0]) << i;
     EXPECT_EQ(planar.internal_rates(motion, a, unit_scale)[0], 0.0);
     EXPECT_LT((planar.held_force(motion, a) - line.held_force(motion, b)).norm(), 1e-14) << i;
@@ -151,10 +152,11 @@ TEST(PlanarTransient, InCircularMotionTheForceLeadsByAnAngle) {
   const double omega = 3.0;
   for (const double phase : {0.0, 1.0, 2.5, 4.0}) {
     memory.internal[0] = phase + std::acos(limit / (5.0 * a));
-    const ModalMotion motion{Eigen::Vector3d(a * std::cos(phase), 0.0, a * std::sin(phase)),
-                             omega *
-                                 Eigen::Vector3d(-a * std::sin(phase), 0.0, a * std::cos(phase))};
-    EXPECT_NEAR(force.internal_rates(motion, memory, unit_scale)[0], omega, 1e-7);  // (ε/r)⁴ of the turning
+    const ModalMotion motion{
+        Eigen::Vector3d(a * std::cos(phase), 0.0, a * std::sin(phase)),
+        omega * Eigen::Vector3d(-a * std::sin(phase), 0.0, a * std::cos(phase))};
+    EXPECT_NEAR(force.internal_rates(motion, memory, unit_scale)[0], omega,
+                1e-7);  // (ε/r)⁴ of the turning
     const double radius = std::sqrt(a * a - std::pow(limit / 5.0, 2));
     EXPECT_NEAR(force.slip_power(motion, memory), limit * omega * radius, 1e-14);
   }
@@ -216,7 +218,9 @@ TEST(PlanarTransient, RatesAreThoseOfTheSteadyCycle) {
                             omega * (sine * std::cos(phase) - cosine * std::sin(phase)),
                             -omega * omega * (sine * std::sin(phase) + cosine * std::cos(phase))};
       EXPECT_LT((force.held_force(now, memory) + Eigen::Vector3d(0.0, law.load_at_rest(), 0.0) -
-                 at[1].traction).norm(), 1e-9);
+                 at[1].traction)
+                    .norm(),
+                1e-9);
       const double turned = std::remainder(angle(2) - angle(0), 2.0 * pi) * omega / (2.0 * h);
       const double rate = force.internal_rates(now, memory, unit_scale)[0];
       // Central differences of 1e-4, and 1e-12 of the cycle over them.
@@ -304,8 +308,9 @@ TEST(PlanarTransient, ContactEndsFromEveryState) {
 
 TEST(PlanarTransient, WithoutFrictionOrStiffnessOnlyTheLoadActs) {
   const ModalMotion motion{Eigen::Vector3d(4.0, 0.1, 1.0), Eigen::Vector3d::Ones()};
-  for (const auto& [law, state] : {std::pair{SurfaceLaw({5.0, 3.0, 0.0, 1.0}, 5.0), ContactState::slip},
-                                   std::pair{SurfaceLaw({0.0, 3.0, 0.4, 1.0}, 0.0), ContactState::stick}}) {
+  for (const auto& [law, state] :
+       {std::pair{SurfaceLaw({5.0, 3.0, 0.0, 1.0}, 5.0), ContactState::slip},
+        std::pair{SurfaceLaw({0.0, 3.0, 0.4, 1.0}, 0.0), ContactState::stick}}) {
     const PlanarTransient force = one_point(law);
     const TransientMemory memory = force.virgin_memory();
     EXPECT_EQ(memory.state[0], state);
@@ -346,7 +351,8 @@ TEST(PlanarTransient, SharesTheStuckLimitWithHarmonicBalance) {
   std::vector<std::shared_ptr<const PointLaw>> cycles;
   for (const SurfaceLaw& law : laws) cycles.push_back(std::make_shared<PlanarLaw>(law, 1e-10));
   EXPECT_LT((PlanarTransient(weights, laws, shapes).stuck_stiffness() -
-             LawPatchForce(weights, cycles, shapes).stuck_stiffness()).norm(),
+             LawPatchForce(weights, cycles, shapes).stuck_stiffness())
+                .norm(),
             1e-14);
 }
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/petsc/columns.hpp"
 #include "fem/eigen/mode_search.hpp"
 #include "fem/eigen/rigid_modes.hpp"
+#include "fem/petsc/columns.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 

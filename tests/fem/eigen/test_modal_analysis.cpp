@@ -83,12 +83,14 @@ TEST_P(ModesOf, AFreeBarBeginWithSixRigidMotions) {
   const Eigen::MatrixXd gram = basis.shapes.transpose() * dense.M * basis.shapes;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(10, 10)).cwiseAbs().maxCoeff(), 1e-11);
   // Strain energy of the rigid motions against that of the first elastic mode.
-  const Eigen::MatrixXd energy = basis.shapes.leftCols(6).transpose() * dense.K * basis.shapes.leftCols(6);
+  const Eigen::MatrixXd energy =
+      basis.shapes.leftCols(6).transpose() * dense.K * basis.shapes.leftCols(6);
   EXPECT_LT(energy.cwiseAbs().maxCoeff(), 1e-9 * exact[0] * exact[0]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, ModesOf,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20),
+                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
+                                         ElementType::hex20),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 TEST(ModalAnalysis, FewerModesThanRigidMotionsAreRigidMotions) {
@@ -100,7 +102,8 @@ TEST(ModalAnalysis, FewerModesThanRigidMotionsAreRigidMotions) {
 
 // A square section bends with one frequency in two planes; a mesh of hexahedra keeps the symmetry.
 TEST(ModalAnalysis, TwinModesAreBothFound) {
-  const mesh::Mesh mesh = test::box_mesh(ElementType::hex20, {.size = {0.1, 0.02, 0.02}, .cells = {4, 2, 2}, .map = {}});
+  const mesh::Mesh mesh = test::box_mesh(
+      ElementType::hex20, {.size = {0.1, 0.02, 0.02}, .cells = {4, 2, 2}, .map = {}});
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis basis = structure.solve_modes({.n_modes = 5});
   EXPECT_NEAR(basis.frequency[0], basis.frequency[1], 1e-9 * basis.frequency[0]);
@@ -108,7 +111,8 @@ TEST(ModalAnalysis, TwinModesAreBothFound) {
 }
 
 TEST(ModalAnalysis, AClusterCutByTheLastModeIsCountedWhole) {
-  const mesh::Mesh mesh = test::box_mesh(ElementType::hex20, {.size = {0.1, 0.02, 0.02}, .cells = {4, 2, 2}, .map = {}});
+  const mesh::Mesh mesh = test::box_mesh(
+      ElementType::hex20, {.size = {0.1, 0.02, 0.02}, .cells = {4, 2, 2}, .map = {}});
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis basis = structure.solve_modes({.n_modes = 1});
   EXPECT_EQ(basis.frequency.size(), 1);
@@ -117,15 +121,18 @@ TEST(ModalAnalysis, AClusterCutByTheLastModeIsCountedWhole) {
 
 // Eigenvalues three and more at a time.
 TEST(ModalAnalysis, AFreeCubeGivesItsMultipleModes) {
-  const mesh::Mesh mesh = test::box_mesh(ElementType::hex20, {.size = {0.1, 0.1, 0.1}, .cells = {2, 2, 2}, .map = {}});
+  const mesh::Mesh mesh =
+      test::box_mesh(ElementType::hex20, {.size = {0.1, 0.1, 0.1}, .cells = {2, 2, 2}, .map = {}});
   Structure structure(mesh, titanium, {});
   const ModalBasis basis = structure.solve_modes({.n_modes = 30});
-  const Eigen::VectorXd exact = test::dense_system(mesh, titanium, {}).eigenvalues().segment(6, 24).cwiseSqrt();
+  const Eigen::VectorXd exact =
+      test::dense_system(mesh, titanium, {}).eigenvalues().segment(6, 24).cwiseSqrt();
   EXPECT_LT((basis.frequency.tail(24) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(ModalAnalysis, EveryModeOfASmallMeshIsFound) {
-  const mesh::Mesh mesh = test::box_mesh(ElementType::hex8, {.size = {0.1, 0.08, 0.06}, .cells = {1, 1, 1}, .map = {}});
+  const mesh::Mesh mesh =
+      test::box_mesh(ElementType::hex8, {.size = {0.1, 0.08, 0.06}, .cells = {1, 1, 1}, .map = {}});
   const test::DenseSystem dense = test::dense_system(mesh, titanium, {"x0"});
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis basis = structure.solve_modes({.n_modes = dense.K.rows()});
@@ -169,13 +176,15 @@ TEST(ModalAnalysis, MassIsDensityTimesVolume) {
 TEST(ModalAnalysis, RefusesACountOfModesOutOfRange) {
   Structure structure(bar(ElementType::hex8), titanium, {"x0"});
   for (const Eigen::Index n : {Eigen::Index{0}, Eigen::Index{-3}, structure.n_dofs() + 1}) {
-    EXPECT_THROW(static_cast<void>(structure.solve_modes({.n_modes = n})), std::invalid_argument) << n;
+    EXPECT_THROW(static_cast<void>(structure.solve_modes({.n_modes = n})), std::invalid_argument)
+        << n;
   }
 }
 
 TEST(ModalAnalysis, RefusesAResidualItCannotReach) {
   Structure structure(bar(ElementType::tet10), titanium, {"x0"});
-  EXPECT_THROW(static_cast<void>(structure.solve_modes({.n_modes = 3, .residual_tolerance = -1.0})), EigenError);
+  EXPECT_THROW(static_cast<void>(structure.solve_modes({.n_modes = 3, .residual_tolerance = -1.0})),
+               EigenError);
 }
 
 TEST(ModalAnalysis, RefusesUnknownSupportsAndBadMaterials) {
@@ -189,7 +198,8 @@ mesh::Mesh hinge() {
   Eigen::MatrixX3d nodes(14, 3);
   nodes << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,  // first cube
       2, 1, 0, 2, 2, 0, 1, 2, 0, 2, 1, 1, 2, 2, 1, 1, 2, 1;
-  mesh::ElementBlock block{.type = ElementType::hex8, .connectivity = mesh::Connectivity(2, 8), .tags = {1, 2}};
+  mesh::ElementBlock block{
+      .type = ElementType::hex8, .connectivity = mesh::Connectivity(2, 8), .tags = {1, 2}};
   block.connectivity << 0, 1, 2, 3, 4, 5, 6, 7, 2, 8, 9, 10, 6, 11, 12, 13;
   mesh::FaceBlock side{.type = mesh::FaceType::quad4, .connectivity = mesh::Connectivity(1, 4)};
   side.connectivity << 0, 4, 7, 3;
@@ -199,7 +209,8 @@ mesh::Mesh hinge() {
 TEST(ModalAnalysis, AHingeInsideTheBodyIsAMechanism) {
   Structure free(hinge(), titanium, {});
   EXPECT_EQ(what_is_thrown(free, 10).substr(0, 10), "mechanism:") << what_is_thrown(free, 10);
-  EXPECT_NE(what_is_thrown(free, 10).find("7 zero modes"), std::string::npos) << what_is_thrown(free, 10);
+  EXPECT_NE(what_is_thrown(free, 10).find("7 zero modes"), std::string::npos)
+      << what_is_thrown(free, 10);
   Structure held(hinge(), titanium, {"x0"});
   EXPECT_EQ(what_is_thrown(held, 3).substr(0, 10), "mechanism:") << what_is_thrown(held, 3);
 }

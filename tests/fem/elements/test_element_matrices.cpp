@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "fem/elements/quadrature.hpp"
 #include "mesh/shape_functions.hpp"
@@ -34,7 +34,9 @@ class ElementMatricesOf : public testing::TestWithParam<ElementType> {
     const mesh::ElementBlock& block = mesh.elements().front();
     return mesh.nodes()(block.connectivity.row(0).transpose(), Eigen::all);
   }
-  [[nodiscard]] static mesh::Mesh bent() { return test::box_mesh(GetParam(), {.size = {1.0, 0.8, 1.2}, .cells = {1, 1, 1}, .map = bend}); }
+  [[nodiscard]] static mesh::Mesh bent() {
+    return test::box_mesh(GetParam(), {.size = {1.0, 0.8, 1.2}, .cells = {1, 1, 1}, .map = bend});
+  }
   [[nodiscard]] static ElementMatrices matrices(const Eigen::MatrixX3d& nodes) {
     ElementMatrices result;
     element_matrices(GetParam(), nodes, titanium, Tet10Rule::accurate, result);
@@ -88,8 +90,10 @@ TEST_P(ElementMatricesOf, BothAreSymmetricToTheLastBit) {
 TEST_P(ElementMatricesOf, MassIsThatOfEveryPolynomialMotion) {
   const Eigen::MatrixX3d nodes = nodes_of_one(bent());
   const ElementMatrices element = matrices(nodes);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(element.mass).eigenvalues().minCoeff(), 0.0);
-  // ρ ∫ x_a x_b dV of the map itself by a rule of much higher degree: the mass is exact, curved or not.
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(element.mass).eigenvalues().minCoeff(),
+            0.0);
+  // ρ ∫ x_a x_b dV of the map itself by a rule of much higher degree: the mass is exact, curved or
+  // not.
   const bool tetrahedron = GetParam() == ElementType::tet4 || GetParam() == ElementType::tet10;
   const QuadratureRule rule = tetrahedron ? tetrahedron_rule(13) : hexahedron_rule(8);
   Eigen::Matrix4d exact = Eigen::Matrix4d::Zero();
@@ -99,7 +103,8 @@ TEST_P(ElementMatricesOf, MassIsThatOfEveryPolynomialMotion) {
     const Eigen::Matrix3d jacobian = shapes.gradients.transpose() * nodes;
     Eigen::Vector4d field;
     field << 1.0, nodes.transpose() * shapes.values;
-    exact += titanium.density * rule.weights[q] * jacobian.determinant() * field * field.transpose();
+    exact +=
+        titanium.density * rule.weights[q] * jacobian.determinant() * field * field.transpose();
   }
   Eigen::MatrixXd fields(nodes.rows(), 4);
   fields << Eigen::VectorXd::Ones(nodes.rows()), nodes;
@@ -108,7 +113,8 @@ TEST_P(ElementMatricesOf, MassIsThatOfEveryPolynomialMotion) {
 }
 
 TEST_P(ElementMatricesOf, EnergyOfUniformStrainIsThatOfHookesLaw) {
-  const mesh::Mesh mesh = test::straight_box_mesh(GetParam(), {.size = {1.0, 0.8, 1.2}, .cells = {1, 1, 1}, .map = bend});
+  const mesh::Mesh mesh = test::straight_box_mesh(
+      GetParam(), {.size = {1.0, 0.8, 1.2}, .cells = {1, 1, 1}, .map = bend});
   const Eigen::MatrixX3d nodes = nodes_of_one(mesh);
   const ElementMatrices element = matrices(nodes);
   Eigen::Matrix3d gradient;
@@ -125,8 +131,10 @@ TEST_P(ElementMatricesOf, EnergyOfUniformStrainIsThatOfHookesLaw) {
 
 TEST_P(ElementMatricesOf, DoNotDependOnTheirPlaceAndTurnWithTheElement) {
   const Eigen::MatrixX3d nodes = nodes_of_one(bent());
-  const Eigen::Matrix3d Q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
-  const Eigen::MatrixX3d moved = (nodes * Q.transpose()).rowwise() + Eigen::RowVector3d(3.0, -1.0, 2.0);
+  const Eigen::Matrix3d Q =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  const Eigen::MatrixX3d moved =
+      (nodes * Q.transpose()).rowwise() + Eigen::RowVector3d(3.0, -1.0, 2.0);
   const ElementMatrices here = matrices(nodes);
   const ElementMatrices there = matrices(moved);
   const double scale = here.stiffness.cwiseAbs().maxCoeff();
@@ -138,16 +146,19 @@ TEST_P(ElementMatricesOf, DoNotDependOnTheirPlaceAndTurnWithTheElement) {
       EXPECT_LT((turned - block).cwiseAbs().maxCoeff(), 1e-13 * scale);
     }
   }
-  EXPECT_LT((here.mass - there.mass).cwiseAbs().maxCoeff(), 1e-13 * here.mass.cwiseAbs().maxCoeff());
+  EXPECT_LT((here.mass - there.mass).cwiseAbs().maxCoeff(),
+            1e-13 * here.mass.cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, ElementMatricesOf,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20),
+                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
+                                         ElementType::hex20),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 TEST(ElementMatrices, RulesOfTet10DifferOnCurvedElementsOnly) {
   const auto difference = [](const mesh::Mesh& mesh) {
-    const Eigen::MatrixX3d nodes = mesh.nodes()(mesh.elements().front().connectivity.row(0).transpose(), Eigen::all);
+    const Eigen::MatrixX3d nodes =
+        mesh.nodes()(mesh.elements().front().connectivity.row(0).transpose(), Eigen::all);
     ElementMatrices accurate;
     ElementMatrices customary;
     element_matrices(ElementType::tet10, nodes, titanium, Tet10Rule::accurate, accurate);

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "fem/modal_analysis.hpp"
 #include "fem/petsc_error.hpp"
@@ -26,7 +26,8 @@ constexpr double direct = 1e-10;
 Eigen::Vector3d bend(const Eigen::Vector3d& x) { return {x[0], x[1] + 3.0 * x[0] * x[0], x[2]}; }
 
 mesh::Mesh bar() {
-  return test::box_mesh(ElementType::tet10, {.size = {0.1, 0.02, 0.015}, .cells = {3, 1, 1}, .map = bend});
+  return test::box_mesh(ElementType::tet10,
+                        {.size = {0.1, 0.02, 0.015}, .cells = {3, 1, 1}, .map = bend});
 }
 
 Eigen::Matrix3d some_frame() {
@@ -60,7 +61,8 @@ TEST(Loads, AFreeBodyHasNoStaticSolution) {
 
 TEST(Loads, ForcesOfAnotherSizeAreRefused) {
   Structure structure(bar(), titanium, {"x0"});
-  EXPECT_THROW(static_cast<void>(structure.solve_static(Eigen::MatrixXd::Zero(7, 1))), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(structure.solve_static(Eigen::MatrixXd::Zero(7, 1))),
+               std::invalid_argument);
 }
 
 TEST(Loads, HarmonicSolutionIsThatOfTheFullMatrixBelowAndAboveResonance) {
@@ -85,7 +87,8 @@ struct NodeSprings {
 
 NodeSprings springs_at_nodes(const mesh::Surface& surface) {
   const Eigen::Index n = std::ssize(surface.nodes);
-  NodeSprings springs{Eigen::SparseMatrix<double>(n, n), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3)};
+  NodeSprings springs{Eigen::SparseMatrix<double>(n, n), Eigen::VectorXd(n),
+                      Eigen::MatrixX3d(n, 3)};
   springs.to_points.setIdentity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const double s = static_cast<double>(i);
@@ -98,7 +101,8 @@ NodeSprings springs_at_nodes(const mesh::Surface& surface) {
 void add_to(test::DenseSystem& dense, const mesh::Surface& surface, const NodeSprings& springs,
             const Eigen::Matrix3d& frame) {
   for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
-    const Eigen::Matrix3d k = springs.weights[i] * frame.transpose() * springs.stiffness.row(i).asDiagonal() * frame;
+    const Eigen::Matrix3d k =
+        springs.weights[i] * frame.transpose() * springs.stiffness.row(i).asDiagonal() * frame;
     const Eigen::Index first = 3 * surface.nodes[static_cast<std::size_t>(i)];
     const auto row = std::find(dense.dofs.begin(), dense.dofs.end(), first) - dense.dofs.begin();
     dense.K.block<3, 3>(row, row) += k;
@@ -109,9 +113,11 @@ TEST(Loads, SpringsAddWhatTheyShould) {
   const mesh::Mesh mesh = bar();
   const mesh::Surface& tip = mesh.surface("x1");
   const NodeSprings springs = springs_at_nodes(tip);
-  for (const std::vector<std::string>& clamped : {std::vector<std::string>{"x0"}, std::vector<std::string>{}}) {
+  for (const std::vector<std::string>& clamped :
+       {std::vector<std::string>{"x0"}, std::vector<std::string>{}}) {
     Structure structure(mesh, titanium, clamped);
-    structure.add_surface_springs(tip, springs.to_points, springs.weights, some_frame(), springs.stiffness);
+    structure.add_surface_springs(tip, springs.to_points, springs.weights, some_frame(),
+                                  springs.stiffness);
     test::DenseSystem dense = test::dense_system(mesh, titanium, clamped);
     add_to(dense, tip, springs, some_frame());
     const Eigen::VectorXd exact = dense.eigenvalues().head(6).cwiseSqrt();
@@ -129,13 +135,14 @@ TEST(Loads, SpringsOfAnotherSizeAreRefused) {
   const mesh::Surface& tip = mesh.surface("x1");
   const NodeSprings springs = springs_at_nodes(tip);
   Structure structure(mesh, titanium, {"x0"});
-  EXPECT_THROW(structure.add_surface_springs(tip, springs.to_points, springs.weights.head(2), some_frame(),
-                                             springs.stiffness),
+  EXPECT_THROW(structure.add_surface_springs(tip, springs.to_points, springs.weights.head(2),
+                                             some_frame(), springs.stiffness),
                std::invalid_argument);
 }
 
 TEST(Loads, NodalAreasSumToTheAreaAndItsFirstMoment) {
-  const mesh::Mesh mesh = test::box_mesh(ElementType::hex20, {.size = {0.1, 0.2, 0.3}, .cells = {1, 2, 2}, .map = {}});
+  const mesh::Mesh mesh =
+      test::box_mesh(ElementType::hex20, {.size = {0.1, 0.2, 0.3}, .cells = {1, 2, 2}, .map = {}});
   const Eigen::VectorXd area = nodal_areas(mesh.nodes(), mesh.surface("x1"));
   EXPECT_NEAR(area.sum(), 0.06, 1e-16);
   const Eigen::Vector3d moment = mesh.nodes().transpose() * area;
@@ -143,18 +150,21 @@ TEST(Loads, NodalAreasSumToTheAreaAndItsFirstMoment) {
 }
 
 // Flexibility from all modes but the first N, summed one by one.
-Eigen::MatrixX3d omitted_modes(const test::DenseSystem& dense, const mesh::Mesh& mesh, const mesh::Surface& surface,
-                               const Eigen::Matrix3d& frame, Eigen::Index n_kept) {
+Eigen::MatrixX3d omitted_modes(const test::DenseSystem& dense, const mesh::Mesh& mesh,
+                               const mesh::Surface& surface, const Eigen::Matrix3d& frame,
+                               Eigen::Index n_kept) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense.K, dense.M);
   const Eigen::Index n = dense.K.rows() - n_kept;
   const Eigen::MatrixXd Phi = eigen.eigenvectors().rightCols(n);
   const Eigen::MatrixXd loads = dense.reduce(uniform_tractions(mesh.nodes(), surface, frame));
-  const Eigen::MatrixXd u = Phi * eigen.eigenvalues().tail(n).cwiseInverse().asDiagonal() * Phi.transpose() * loads;
+  const Eigen::MatrixXd u =
+      Phi * eigen.eigenvalues().tail(n).cwiseInverse().asDiagonal() * Phi.transpose() * loads;
   const Eigen::MatrixXd on_mesh = dense.expand(u, 3 * mesh.n_nodes());
   Eigen::MatrixX3d row_sums(std::ssize(surface.nodes), 3);
   for (Eigen::Index i = 0; i < row_sums.rows(); ++i) {
     for (int d = 0; d < 3; ++d) {
-      row_sums(i, d) = frame.row(d).dot(on_mesh.col(d).segment<3>(3 * surface.nodes[static_cast<std::size_t>(i)]));
+      row_sums(i, d) = frame.row(d).dot(
+          on_mesh.col(d).segment<3>(3 * surface.nodes[static_cast<std::size_t>(i)]));
     }
   }
   return row_sums;

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "fem/assembly/fe_system.hpp"
 #include "fem/eigen/mode_search.hpp"
@@ -17,7 +17,8 @@ namespace {
 const Material titanium{1.14e11, 0.32, 4430.0};
 
 mesh::Mesh block() {
-  return test::box_mesh(mesh::ElementType::tet10, {.size = {0.1, 0.05, 0.04}, .cells = {3, 2, 2}, .map = {}});
+  return test::box_mesh(mesh::ElementType::tet10,
+                        {.size = {0.1, 0.05, 0.04}, .cells = {3, 2, 2}, .map = {}});
 }
 
 TEST(Factorisation, SolvesManyRightHandSidesAtOnce) {
@@ -27,7 +28,8 @@ TEST(Factorisation, SolvesManyRightHandSidesAtOnce) {
   const Eigen::MatrixXd loads = Eigen::MatrixXd::Random(3 * block().n_nodes(), 5);
   const Eigen::MatrixXd u = system.dofs.to_mesh(factor.solve(system.dofs.to_local(loads)));
   const Eigen::MatrixXd exact = dense.K.llt().solve(dense.reduce(loads));
-  EXPECT_LT((dense.reduce(u) - exact).norm(), 1e-10 * exact.norm());  // condition 1e5 times rounding
+  EXPECT_LT((dense.reduce(u) - exact).norm(),
+            1e-10 * exact.norm());  // condition 1e5 times rounding
 }
 
 TEST(Factorisation, CountsTheEigenvaluesBelowEveryShift) {
@@ -49,7 +51,8 @@ TEST(Factorisation, ThatDoesNotFitIsRefusedWithItsSize) {
     const Factorisation factor(system.stiffness.get(), FactorKind::positive_definite, 0.5);
     FAIL() << "half a megabyte was enough";
   } catch (const MemoryError& error) {
-    EXPECT_NE(std::string(error.what()).find("out of memory: the factorisation needs about"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("out of memory: the factorisation needs about"),
+              std::string::npos)
         << error.what();
   }
 }

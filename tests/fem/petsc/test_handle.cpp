@@ -39,7 +39,8 @@ TEST(Handle, IsEmptyAfterBeingMovedFrom) {
   Mat watched = create_watched(first);
   {
     MatHandle second(std::move(first));
-    EXPECT_FALSE(static_cast<bool>(first));  // NOLINT(bugprone-use-after-move): the point of the test
+    EXPECT_FALSE(
+        static_cast<bool>(first));  // NOLINT(bugprone-use-after-move): the point of the test
     EXPECT_EQ(second.get(), watched);
     MatHandle third;
     third = std::move(second);

@@ -46,15 +46,14 @@ TEST(Mesh, TurnsFacesOutwardWhicheverWayTheFileHasThem) {
 }
 
 TEST(Mesh, FindsATetrahedronThatIsInsideOutOnlyBetweenGaussPoints) {
-  // The mid-node of edge 01 is pulled almost onto corner 0: det J vanishes near that corner, while all
-  // four Gauss points stay positive.
+  // The mid-node of edge 01 is pulled almost onto corner 0: det J vanishes near that corner, while
+  // all four Gauss points stay positive.
   Eigen::MatrixX3d nodes = reference_nodes(ElementType::tet10);
   nodes(4, 0) = 0.2;
   constexpr double a = 0.1381966011250105;
   constexpr double b = 0.5854101966249685;
-  for (const Eigen::Vector3d& xi :
-       {Eigen::Vector3d(a, a, a), Eigen::Vector3d(b, a, a), Eigen::Vector3d(a, b, a),
-        Eigen::Vector3d(a, a, b)}) {
+  for (const Eigen::Vector3d& xi : {Eigen::Vector3d(a, a, a), Eigen::Vector3d(b, a, a),
+                                    Eigen::Vector3d(a, b, a), Eigen::Vector3d(a, a, b)}) {
     const Eigen::Matrix3d J = nodes.transpose() * shapes(ElementType::tet10, xi).gradients;
     ASSERT_GT(J(0, 0), 0.0);
   }

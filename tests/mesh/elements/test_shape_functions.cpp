@@ -32,13 +32,15 @@ TEST(ShapeFunctions, SumToOneAndTheirGradientsToZero) {
 }
 
 TEST(ShapeFunctions, GradientsAreTheDifferences) {
-  constexpr double h = 1e-6;  // quadratics: the central difference errs by rounding only, ε/h = 1e-10
+  constexpr double h =
+      1e-6;  // quadratics: the central difference errs by rounding only, ε/h = 1e-10
   for (const ElementType type : all_types) {
     const auto s = shapes(type, inside);
     for (Eigen::Index d = 0; d < 3; ++d) {
       const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(d);
       const auto difference =
-          ((shapes(type, inside + step).values - shapes(type, inside - step).values) / (2 * h)).eval();
+          ((shapes(type, inside + step).values - shapes(type, inside - step).values) / (2 * h))
+              .eval();
       EXPECT_LT((s.gradients.col(d) - difference).cwiseAbs().maxCoeff(), 1e-9) << name(type);
     }
   }

@@ -35,8 +35,9 @@ PlaneFace plane_face(FaceType type, double bulge) {
 }
 
 double bulged_area(FaceType type, double bulge) {
-  // A parabola of height h over an edge of length l adds 2/3 h l; tri6 edge of length 1, quad8 of 2.
-  // The triangle's first edge runs along y there, so the bulge slides along it and adds nothing.
+  // A parabola of height h over an edge of length l adds 2/3 h l; tri6 edge of length 1, quad8
+  // of 2. The triangle's first edge runs along y there, so the bulge slides along it and adds
+  // nothing.
   return type == FaceType::tri6 ? 0.5 : 4.0 + 2.0 / 3.0 * bulge * 2.0;
 }
 
@@ -57,14 +58,15 @@ TEST(Surface, InterpolatesQuadraticFieldsExactly) {
     const PlaneFace face = plane_face(type, 0.0);
     const SurfaceSampling sampling = sample_surface(face.nodes, face.surface, 40);
     const auto field = [](const auto& x) {
-      return (1.0 + x.col(0).array() - 2.0 * x.col(1).array() + x.col(0).array() * x.col(1).array() +
-              3.0 * x.col(0).array().square())
+      return (1.0 + x.col(0).array() - 2.0 * x.col(1).array() +
+              x.col(0).array() * x.col(1).array() + 3.0 * x.col(0).array().square())
           .matrix()
           .eval();
     };
     const Eigen::VectorXd nodal = field(face.nodes);
     EXPECT_LT((sampling.to_centres * nodal - field(sampling.centres)).cwiseAbs().maxCoeff(), 1e-14);
-    EXPECT_LT((sampling.to_vertices * nodal - field(sampling.vertices)).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((sampling.to_vertices * nodal - field(sampling.vertices)).cwiseAbs().maxCoeff(),
+              1e-14);
   }
 }
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/checks/mesh_quality.hpp"
 #include "mesh/element_shape.hpp"
 #include "mesh/import/gmsh_elements.hpp"
-#include "mesh/checks/mesh_quality.hpp"
 #include "tests/mesh/sample_meshes.hpp"
 
 namespace microslip::mesh {
@@ -41,7 +41,8 @@ TEST(MeshReader, PutsNodesIntoTheProjectsOrder) {
     const Mesh mesh = read_gmsh_text(gmsh_file(element, 4.1, true), "x.msh");
     const auto& block = mesh.elements().front();
     for (Eigen::Index a = 0; a < element.nodes.rows(); ++a) {
-      EXPECT_EQ(mesh.nodes().row(block.connectivity(0, a)), element.nodes.row(a)) << name(type) << a;
+      EXPECT_EQ(mesh.nodes().row(block.connectivity(0, a)), element.nodes.row(a))
+          << name(type) << a;
     }
   }
 }
@@ -80,7 +81,7 @@ TEST(MeshReader, EveryTruncationIsToldByPlace) {
       const std::size_t end = whole.find("$EndElements") + 5;
       for (std::size_t length = 0; length < end; length += 7) {
         const std::string message = message_of(whole.substr(0, length));
-        EXPECT_TRUE(message.starts_with("x.msh:") ) << length << ": " << message;
+        EXPECT_TRUE(message.starts_with("x.msh:")) << length << ": " << message;
       }
     }
   }
@@ -103,8 +104,9 @@ TEST(MeshReader, NamesWhatIsWrong) {
   EXPECT_NE(message_of(replaced(good, "3 11 2", "3 6 2")).find("wedge6"), std::string::npos);
   EXPECT_NE(message_of(replaced(good, "3 11 2", "3 99 2")).find("element type 99"),
             std::string::npos);
-  EXPECT_NE(message_of(replaced(good, "$Elements\n3", "$Elements\n2")).find("expected $EndElements"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of(replaced(good, "$Elements\n3", "$Elements\n2")).find("expected $EndElements"),
+      std::string::npos);
   EXPECT_NE(message_of(replaced(good, "$Nodes\n11", "$Nodes\n99999999999")).find("does not fit"),
             std::string::npos);
 }

@@ -220,11 +220,16 @@ TEST_F(Program, NamesBadScenes) {
 
 TEST_F(Program, WarnsOfAStructureThatNothingExcitesOrDamps) {
   write(path("scene.toml"), scene_text);
-  const auto told = [&](const std::string& settings) { return run("check scene.toml" + settings).out; };
+  const auto told = [&](const std::string& settings) {
+    return run("check scene.toml" + settings).out;
+  };
   EXPECT_EQ(told("").find("warning"), std::string::npos) << told("");
-  EXPECT_NE(told(" --set modal.force_sine=[0,0]").find("warning: no force excites"), std::string::npos);
-  EXPECT_NE(told(" --set modal.damping_ratio=[0.01,0]").find("warning: a mode has no damping"), std::string::npos);
-  expect("check scene.toml --set 'modal.frequency=[1e200, 2]'", 1, {"scene.toml: a natural frequency"});
+  EXPECT_NE(told(" --set modal.force_sine=[0,0]").find("warning: no force excites"),
+            std::string::npos);
+  EXPECT_NE(told(" --set modal.damping_ratio=[0.01,0]").find("warning: a mode has no damping"),
+            std::string::npos);
+  expect("check scene.toml --set 'modal.frequency=[1e200, 2]'", 1,
+         {"scene.toml: a natural frequency"});
 }
 
 TEST_F(Program, MeshesOnlyWhatHasAGeometry) {
@@ -313,7 +318,8 @@ TEST_F(Program, AFullDiskIsExitFour) {
   EXPECT_EQ(WEXITSTATUS(status), 4);
   EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
   write(path("scene.toml"), scene_text);
-  command = "cd '" + folder() + "' && '" MICROSLIP_PROGRAM "' run scene.toml -q --json > /dev/full 2> err";
+  command = "cd '" + folder() +
+            "' && '" MICROSLIP_PROGRAM "' run scene.toml -q --json > /dev/full 2> err";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
   EXPECT_NE(content_of(path("err")).find("standard output"), std::string::npos);
 }
@@ -321,7 +327,9 @@ TEST_F(Program, AFullDiskIsExitFour) {
 /// Who reads the progress may leave before the end.
 TEST_F(Program, ARunOutlivesTheReaderOfItsProgress) {
   write(path("scene.toml"), scene_text);
-  const std::string command = "cd '" + folder() + "' && { '" MICROSLIP_PROGRAM "' run scene.toml -o out 2>&1; "
+  const std::string command = "cd '" + folder() +
+                              "' && { '" MICROSLIP_PROGRAM
+                              "' run scene.toml -o out 2>&1; "
                               "echo $? > code; } | true";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(content_of(path("code")), "0\n");
@@ -339,8 +347,10 @@ TEST_F(Program, AnOutputOfAnotherKindIsBadInput) {
   write(path("scene.toml"), scene_text);
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n");
   for (const char* command : {"run", "modes"}) {
-    expect(std::string(command) + " scene.toml -o t.csv", 1, {"-o t.csv", "is a file", "expected the name of a folder"});
-    expect(std::string(command) + " scene.toml -o t.csv/below", 1, {"-o t.csv/below", "t.csv is a file"});
+    expect(std::string(command) + " scene.toml -o t.csv", 1,
+           {"-o t.csv", "is a file", "expected the name of a folder"});
+    expect(std::string(command) + " scene.toml -o t.csv/below", 1,
+           {"-o t.csv/below", "t.csv is a file"});
   }
   std::filesystem::create_directory(path("folder"));
   expect("cycle t.csv -o folder", 1, {"-o folder", "is a folder"});
@@ -353,7 +363,8 @@ TEST_F(Program, ATableWithoutRowsIsAnEmptyListAndANotice) {
   const Outcome outcome = run("cycle t.csv");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, "[]\n");
-  EXPECT_NE(outcome.err.find("warning: t.csv: no rows below the header"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: t.csv: no rows below the header"), std::string::npos)
+      << outcome.err;
 }
 
 // ---- run on a modal scene
@@ -403,7 +414,8 @@ TEST_F(Program, RemovesNothingThatNoRunHasWritten) {
 TEST_F(Program, ARunReplacesAnEarlierOneWhole) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -q -o out", 0, {});
-  for (const char* stale : {"out/curves/old.csv", "out/peak_against_parameter.csv"}) write(path(stale), "old");
+  for (const char* stale : {"out/curves/old.csv", "out/peak_against_parameter.csv"})
+    write(path(stale), "old");
   expect("run scene.toml -q -o out", 0, {});
   EXPECT_FALSE(exists("out/curves/old.csv"));
   EXPECT_FALSE(exists("out/peak_against_parameter.csv"));
@@ -414,7 +426,8 @@ TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -o out --set 'modal.frequency=[0, 41.4]' --set 'modal.points=[]'", 2,
          {"scene.toml: rigid-body", "contact points"});
-  EXPECT_EQ(content_of(path(".err")).find("supports"), std::string::npos) << "a modal scene has none";
+  EXPECT_EQ(content_of(path(".err")).find("supports"), std::string::npos)
+      << "a modal scene has none";
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 2);
 }
 
@@ -423,7 +436,8 @@ using Clock = std::chrono::steady_clock;
 /// Starts the program, which ends by _exit(127) where it cannot.
 pid_t start(const std::vector<std::string>& arguments, const std::string& temporary_folder = {}) {
   std::vector<char*> words{const_cast<char*>("microslip")};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   const pid_t child = ::fork();
   if (child != 0) return child;
@@ -469,8 +483,9 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
 }
 
 TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
-  write(path("scene.toml"), "[model]\nkind = \"blade\"\nelement_size = \"1.5 mm\"\n[material]\n"
-                            "youngs_modulus = 2e11\npoissons_ratio = 0.3\ndensity = 7800\n");
+  write(path("scene.toml"),
+        "[model]\nkind = \"blade\"\nelement_size = \"1.5 mm\"\n[material]\n"
+        "youngs_modulus = 2e11\npoissons_ratio = 0.3\ndensity = 7800\n");
   const std::filesystem::path scratch = path("scratch");
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"mesh", path("scene.toml"), "-o", path("blade.msh")},
@@ -488,15 +503,22 @@ TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
 
 /// Names the mesh does not have are told where the scene gives them.
 TEST_F(Program, AnUnknownNameIsToldByFileAndLine) {
-  const std::string head = "[model]\nkind = \"blade\"\nelement_size = \"12 mm\"\n[material]\nyoungs_modulus = 2e11\n"
-                           "poissons_ratio = 0.3\ndensity = 7800\n";
+  const std::string head =
+      "[model]\nkind = \"blade\"\nelement_size = \"12 mm\"\n[material]\nyoungs_modulus = 2e11\n"
+      "poissons_ratio = 0.3\ndensity = 7800\n";
   write(path("support.toml"), head + "[supports]\nclamped = [\"rot\"]\n");
-  expect("check support.toml", 1, {"support.toml:9: supports.clamped: nothing is named \"rot\"", "\"root\""});
-  write(path("force.toml"), head + "[supports]\nclamped = [\"root\"]\n[excitation]\n"
-                            "forces = [ { at = \"C\", direction = [1, 0, 0], amplitude = 1 } ]\n");
-  expect("check force.toml", 1, {"force.toml:11: excitation.forces.at: nothing is named \"C\"", "\"B\""});
-  expect("check force.toml --set excitation.forces=[]"
-         " --set supports.clamped='[\"foot\"]'", 1, {"--set supports.clamped", "nothing is named \"foot\""});
+  expect("check support.toml", 1,
+         {"support.toml:9: supports.clamped: nothing is named \"rot\"", "\"root\""});
+  write(path("force.toml"),
+        head +
+            "[supports]\nclamped = [\"root\"]\n[excitation]\n"
+            "forces = [ { at = \"C\", direction = [1, 0, 0], amplitude = 1 } ]\n");
+  expect("check force.toml", 1,
+         {"force.toml:11: excitation.forces.at: nothing is named \"C\"", "\"B\""});
+  expect(
+      "check force.toml --set excitation.forces=[]"
+      " --set supports.clamped='[\"foot\"]'",
+      1, {"--set supports.clamped", "nothing is named \"foot\""});
 }
 
 TEST_F(Program, TwoRunsDoNotShareAFolder) {

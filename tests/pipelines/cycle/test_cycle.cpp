@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "contact/line/event_law.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/line/event_law.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -127,16 +127,17 @@ TEST(CycleTable, ColumnsMayStandInAnyOrderAndRowsKeepTheirs) {
   EXPECT_EQ(plain[0]["id"], "1");
 }
 
-// Motion along r alone under another stiffness there is the cycle of one direction with that stiffness.
+// Motion along r alone under another stiffness there is the cycle of one direction with that
+// stiffness.
 TEST(CycleTable, TheSecondDirectionHasItsOwnStiffness) {
   const std::string columns = header.substr(0, header.size() - 1);
-  const Json row =
-      cycles(columns + ",w_sin,w_cos,tangential_stiffness_r\n1,0.8,0.5,1,0,0,0,0.2,0.1,3,0.4,2.5\n")[0];
+  const Json row = cycles(
+      columns + ",w_sin,w_cos,tangential_stiffness_r\n1,0.8,0.5,1,0,0,0,0.2,0.1,3,0.4,2.5\n")[0];
   const Json plain = cycles(header + "2.5,0.8,0.5,1,3,0.4,0,0.2,0.1\n")[0];
   const double scale = 2.5 * 3.1 + 0.5;
   for (const char* part : {"sin", "cos"}) {
-    EXPECT_NEAR(row["friction_w"][part][0].get<double>(),
-                plain["friction"][part][0].get<double>(), 1e-11 * scale);
+    EXPECT_NEAR(row["friction_w"][part][0].get<double>(), plain["friction"][part][0].get<double>(),
+                1e-11 * scale);
     EXPECT_NEAR(row["friction"][part][0].get<double>(), 0.0, 1e-11 * scale);
   }
   EXPECT_THROW(static_cast<void>(cycles(columns + ",tangential_stiffness_r\n"
@@ -144,9 +145,10 @@ TEST(CycleTable, TheSecondDirectionHasItsOwnStiffness) {
                SceneError);
 }
 
-// A circle of radius 1 (theory section 9): force μn, of which ρ = μn / k is in phase with the displacement and
-// √(1 − ρ²) against the velocity. Next to the onset of slip, ρ = 1, a slider comes to its circle slowly: the force
-// is as good as the root of rounding there, and a search that ends before its tolerance says so.
+// A circle of radius 1 (theory section 9): force μn, of which ρ = μn / k is in phase with the
+// displacement and √(1 − ρ²) against the velocity. Next to the onset of slip, ρ = 1, a slider comes
+// to its circle slowly: the force is as good as the root of rounding there, and a search that ends
+// before its tolerance says so.
 TEST(CycleTable, CirclesNextToTheOnsetOfSlipAreThoseOfTheFormula) {
   const std::string columns = header.substr(0, header.size() - 1) + ",w_sin,w_cos\n";
   constexpr double root_of_rounding = 1e-9;  // √ε · k a, with a margin of 15 below it

@@ -1,5 +1,5 @@
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/files/model_file.hpp"
+#include "pipelines/model/reduced_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/files/write_csv.hpp"
+#include "pipelines/model/reduced_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -76,8 +76,8 @@ TEST(WriteCsv, CurveValuesStandInTheirColumns) {
   EXPECT_EQ(std::stod(first[2]), 0.99 * 1e-4);
   EXPECT_EQ(std::stod(first[3]), -0.01 * 1e-4);
   EXPECT_DOUBLE_EQ(std::stod(first[4]), -45.0);
-  EXPECT_EQ(Row(first.begin() + 5, first.end()),
-            (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13", "2e-13", "3e-13", "", "1", "3", "1"}));
+  EXPECT_EQ(Row(first.begin() + 5, first.end()), (Row{"-1", "0.5", "0.3", "0.2", "0.125", "1e-13",
+                                                      "2e-13", "3e-13", "", "1", "3", "1"}));
   EXPECT_EQ(rows[2][5], "1");
   EXPECT_EQ(rows[2][13], "peak");
   EXPECT_EQ(rows[2][16], "3");  // unknowns beside the mean, not the highest order
@@ -124,7 +124,8 @@ TEST(WriteCsv, ModesLeaveUnknownColumnsEmpty) {
                   {model.frequency, {}, model.damping_ratio, model.patches[0].fit_error});
   const auto rows = rows_of(std::ifstream(folder.path() / "modes.csv"));
   ASSERT_EQ(rows.size(), 3U);
-  EXPECT_EQ(rows[0], (Row{"mode", "frequency_Hz", "residual", "damping_ratio", "fit_error", "kind"}));
+  EXPECT_EQ(rows[0],
+            (Row{"mode", "frequency_Hz", "residual", "damping_ratio", "fit_error", "kind"}));
   EXPECT_EQ(rows[1][0], "1");
   EXPECT_DOUBLE_EQ(std::stod(rows[1][1]), 296.123456789012);
   EXPECT_EQ(rows[2][2], "");
@@ -133,9 +134,11 @@ TEST(WriteCsv, ModesLeaveUnknownColumnsEmpty) {
 
 TEST(WriteCsv, AttachmentShapesAreToldApartAndHaveNoResidual) {
   const synthetic::Folder folder("write_attachment");
-  write_modes_csv(folder.path() / "modes.csv",
-                  {Eigen::Vector3d(1.0, 2.0, 9.0), Eigen::Vector2d(1e-9, 2e-9),
-                   Eigen::Vector3d(0.1, 0.2, 0.2), {}, 1});
+  write_modes_csv(folder.path() / "modes.csv", {Eigen::Vector3d(1.0, 2.0, 9.0),
+                                                Eigen::Vector2d(1e-9, 2e-9),
+                                                Eigen::Vector3d(0.1, 0.2, 0.2),
+                                                {},
+                                                1});
   const auto rows = rows_of(std::ifstream(folder.path() / "modes.csv"));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[2].back(), "free");

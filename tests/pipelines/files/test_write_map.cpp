@@ -1,5 +1,5 @@
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/files/write_map.hpp"
+#include "pipelines/model/reduced_model.hpp"
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -26,7 +26,8 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
   const char* starts[] = {"stick_start_deg", "positive_slip_start_deg", "negative_slip_start_deg",
                           "separation_start_deg", "slip_start_deg"};
   for (Eigen::Index state = 0; state < 5; ++state) {
-    EXPECT_TRUE(values(data, starts[state]).isApprox(map.state_start.col(state) * (180.0 / M_PI), 1e-15));
+    EXPECT_TRUE(
+        values(data, starts[state]).isApprox(map.state_start.col(state) * (180.0 / M_PI), 1e-15));
   }
   EXPECT_EQ(values(data, "slip_duration"), map.slip_duration);
   EXPECT_EQ(values(data, "separation_share"), map.state_share.col(3));
@@ -40,7 +41,8 @@ void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, 
 TEST(WriteMap, SeriesGoesOnceAroundThePeriodInDegrees) {
   const synthetic::Folder folder("map_series");
   const ReducedModel model = synthetic::model();
-  write_map(folder.path() / "maps", model.patches[0], synthetic::named_map(model, "preload_7_peak"));
+  write_map(folder.path() / "maps", model.patches[0],
+            synthetic::named_map(model, "preload_7_peak"));
   const auto steps = pvd_steps(folder.path() / "maps" / "preload_7_peak.pvd");
   ASSERT_EQ(steps.size(), 9U);  // 8 phases and the first again at 360°
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -82,7 +84,8 @@ TEST(WriteMap, CellsStandInWorldCoordinatesOverTheirContactPoints) {
     patch->GetCellBounds(cell, box.data());
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(2 * axis);
-      EXPECT_NEAR((box[k] + box[k + 1]) / 2, model.patches[0].cells.points(cell, axis), 1e-15);  // rounding of 0.05
+      EXPECT_NEAR((box[k] + box[k + 1]) / 2, model.patches[0].cells.points(cell, axis),
+                  1e-15);  // rounding of 0.05
     }
   }
 }
@@ -112,7 +115,8 @@ TEST(WriteMap, PointsWithoutPositionsStandInARow) {
   const auto patch = read_vtp(folder.path() / "m_000.vtp");
   ASSERT_EQ(patch->GetNumberOfPoints(), 3);
   for (vtkIdType i = 0; i < 3; ++i) {
-    const Eigen::RowVector3d expected = 1e-3 * static_cast<double>(i) * model.patches[0].frame.row(0);
+    const Eigen::RowVector3d expected =
+        1e-3 * static_cast<double>(i) * model.patches[0].frame.row(0);
     EXPECT_EQ(Eigen::RowVector3d(patch->GetPoint(i)), expected);
   }
 }
@@ -126,7 +130,8 @@ TEST(WriteMap, DataFileHoldsAllPhasesInThePlaneOfThePatch) {
   EXPECT_EQ(in.matrix("/state").cast<std::uint8_t>(), map.points.state);
   EXPECT_EQ(in.matrix("/normal_traction_Pa"), map.points.normal_traction);
   const Eigen::MatrixXd points = in.matrix("/points");
-  EXPECT_LT((model.patches[0].cells.weights.transpose() * points).norm(), 1e-15 * model.patches[0].cells.weights.sum())
+  EXPECT_LT((model.patches[0].cells.weights.transpose() * points).norm(),
+            1e-15 * model.patches[0].cells.weights.sum())
       << "p and r count from the centroid";
   EXPECT_NEAR(points(8, 0) - points(0, 0), 2e-3, 1e-15);  // one cell further along p = z
   EXPECT_NEAR(points(1, 1) - points(0, 1), 1e-3, 1e-15);  // one cell further along r = −x

@@ -1,5 +1,5 @@
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/files/write_report.hpp"
+#include "pipelines/model/reduced_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipelines/system/child_process.hpp"
-#include "pipelines/system/output_file.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/files/write_csv.hpp"
 #include "pipelines/files/write_map.hpp"
 #include "pipelines/files/write_summary.hpp"
+#include "pipelines/system/child_process.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
 namespace microslip::pipelines {
@@ -93,7 +93,9 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("| free | 296.0000 | 0.0002 |"), std::string::npos) << report;
   EXPECT_NE(report.find("Best preload: 200 N"), std::string::npos) << report;
   EXPECT_NE(report.find("Not varied: friction_coefficient"), std::string::npos) << report;
-  EXPECT_NE(report.find("| friction_coefficient × 0.5 (searched wider: 100 … 800) |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| friction_coefficient × 0.5 (searched wider: 100 … 800) |"),
+            std::string::npos)
+      << report;
   EXPECT_NE(report.find("| contact_stiffness × 2 |"), std::string::npos) << report;
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
@@ -104,7 +106,8 @@ TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {
   write_whole(folder.path() / "curves" / "free.csv", "frequency_Hz,amplitude_m\nx,y\n");
   const auto warnings = write_report(folder.path());
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("curves/free.csv:1: column \"stable\" is missing"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("curves/free.csv:1: column \"stable\" is missing"), std::string::npos)
+      << warnings[0];
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.md"));
   EXPECT_THROW(rebuild_report(folder.path()), std::runtime_error);
 }
@@ -137,7 +140,8 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
   }
 }
 
-void replace_in(const std::filesystem::path& file, const std::string& old_text, const std::string& new_text) {
+void replace_in(const std::filesystem::path& file, const std::string& old_text,
+                const std::string& new_text) {
   std::string text = content_of(file);
   const auto at = text.find(old_text);
   ASSERT_NE(at, std::string::npos) << file;
@@ -152,15 +156,19 @@ TEST(WriteReport, CellsWithoutANumberAreNamedByFileLineAndColumn) {
   const std::string second = whole.substr(whole.find('\n') + 1);
   const std::string frequency = second.substr(0, second.find(','));
   replace_in(file, "\n" + frequency + ",", "\nnan,");
-  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: frequency_Hz: 'nan' is not finite"});
+  expect_parts(complaint_of(folder.path()),
+               {"curves/preload_100.csv:2: frequency_Hz: 'nan' is not finite"});
   write_whole(file, whole);
   replace_in(file, "\n" + frequency + ",", "\n,");
-  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: frequency_Hz: the value is missing"});
+  expect_parts(complaint_of(folder.path()),
+               {"curves/preload_100.csv:2: frequency_Hz: the value is missing"});
   write_whole(file, whole);
   replace_in(file, "\n" + frequency + ",", "\n");
-  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:2: 16 values under 17 column names"});
+  expect_parts(complaint_of(folder.path()),
+               {"curves/preload_100.csv:2: 16 values under 17 column names"});
   replace_in(file, "amplitude_m", "amplitude");
-  expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv:1: column \"amplitude_m\" is missing"});
+  expect_parts(complaint_of(folder.path()),
+               {"curves/preload_100.csv:1: column \"amplitude_m\" is missing"});
   std::filesystem::remove(file);
   expect_parts(complaint_of(folder.path()), {"curves/preload_100.csv is missing"});
 }
@@ -170,8 +178,10 @@ TEST(WriteReport, MissingAndDamagedMapsAreNamed) {
   write_run(folder.path(), Maps::one);
   const std::filesystem::path file = folder.path() / "maps" / "preload_100_peak.h5";
   write_whole(file, content_of(file).substr(0, 3000));
-  expect_parts(complaint_of(folder.path()), {"maps/preload_100_peak.h5: is cut off or no HDF5 file"});
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots" / "curves.svg"));  // which needs no map
+  expect_parts(complaint_of(folder.path()),
+               {"maps/preload_100_peak.h5: is cut off or no HDF5 file"});
+  EXPECT_TRUE(
+      std::filesystem::exists(folder.path() / "plots" / "curves.svg"));  // which needs no map
   std::filesystem::remove(file);
   expect_parts(complaint_of(folder.path()), {"missing: maps/preload_100_peak.h5"});
 }
@@ -187,7 +197,8 @@ TEST(WriteReport, DamagedSummariesAreNamedByPlace) {
   expect_parts(complaint_of(folder.path()), {file.string() + ":2:14: no JSON from here on"});
   write_whole(file, whole);
   replace_in(file, "\"complete\": true", "\"complete\": 7");
-  expect_parts(complaint_of(folder.path()), {"summary.json: curves[0].complete: expected true or false, found 7"});
+  expect_parts(complaint_of(folder.path()),
+               {"summary.json: curves[0].complete: expected true or false, found 7"});
   write_whole(file, whole);
   replace_in(file, "\"complete\"", "\"finished\"");
   expect_parts(complaint_of(folder.path()), {"summary.json: curves[0]: \"complete\" is missing"});
@@ -208,12 +219,16 @@ TEST(WriteReport, RunsOfOlderVersionsAreReported) {
   }
   write_whole(file, run.dump());
   EXPECT_EQ(complaint_of(folder.path()), "");
-  EXPECT_NE(content_of(folder.path() / "report.md").find("Best preload: 200 N, peak 4e-05 m"), std::string::npos);
+  EXPECT_NE(content_of(folder.path() / "report.md").find("Best preload: 200 N, peak 4e-05 m"),
+            std::string::npos);
   optimum = {{"preload_N", 200.0}, {"amplitude_m", 4e-5}, {"frequency_Hz", 310.0}};
-  for (const char* key : {"title", "message", "warnings", "stages", "machine", "libraries", "effects"}) run.erase(key);
+  for (const char* key :
+       {"title", "message", "warnings", "stages", "machine", "libraries", "effects"})
+    run.erase(key);
   write_whole(file, run.dump());
   EXPECT_EQ(complaint_of(folder.path()), "");
-  EXPECT_NE(content_of(folder.path() / "report.md").find("Best preload: 200 N, peak 4e-05 m at 310.0000 Hz."),
+  EXPECT_NE(content_of(folder.path() / "report.md")
+                .find("Best preload: 200 N, peak 4e-05 m at 310.0000 Hz."),
             std::string::npos);
 }
 

@@ -1,5 +1,5 @@
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/files/write_summary.hpp"
+#include "pipelines/model/reduced_model.hpp"
 
 #include <cmath>
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "contact/harmonics.hpp"
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
+#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
@@ -101,7 +101,8 @@ TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
   EXPECT_EQ(n_told, 3);
 }
 
-// A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along r.
+// A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along
+// r.
 TEST(Effects, APeakThatMovesAlongRCountsHoweverSmallBesideAnother) {
   constexpr const char* two = R"toml([model]
 kind = "modal"
@@ -136,7 +137,8 @@ frequency = [8, 12]
 
 TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
   const auto warnings = [](const std::string& law) {
-    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere", {"contact.friction_law=" + law}));
+    return scene_warnings(
+        parse_scene(text, "scene.toml", "/nowhere", {"contact.friction_law=" + law}));
   };
   const auto grows = warnings("{ law = \"exponential\", static = 0.3, kinetic = 0.5, rate = 1 }");
   ASSERT_EQ(grows.size(), 1U);
@@ -153,7 +155,8 @@ TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
   EXPECT_TRUE(warnings_of("[10, 12, 14, \"peak\"]").empty());
   const std::vector<std::string> warnings = warnings_of("[12, 15]");
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos)
+      << warnings[0];
 }
 
 }  // namespace

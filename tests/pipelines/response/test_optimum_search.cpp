@@ -99,7 +99,8 @@ TEST(OptimumSearch, VariesTheLocalStiffnessAndNotTheResidualFlexibility) {
 }
 
 TEST(OptimumSearch, WidensTheRangeByTheFactorOfFriction) {
-  // Under a constant load only μ n counts: the best preload is that of the scene divided by the factor.
+  // Under a constant load only μ n counts: the best preload is that of the scene divided by the
+  // factor.
   const Found found =
       search(parse_scene(bar_text, "bar", ".", {"response.optimum_range=[0.4, 1]"}));
   for (const double factor : {0.5, 2.0}) {
@@ -124,7 +125,8 @@ TEST(OptimumSearch, KeepsGapsUnderAnotherStiffness) {
   const Found found = search(parse_scene(stop_text, "stop", ".", preload));
   std::string doubled = stop_text;
   const auto replace = [&](const std::string& from, const std::string& to) {
-    for (auto at = doubled.find(from); at != doubled.npos; at = doubled.find(from, at + to.size())) {
+    for (auto at = doubled.find(from); at != doubled.npos;
+         at = doubled.find(from, at + to.size())) {
       doubled.replace(at, from.size(), to);
     }
   };
@@ -153,12 +155,14 @@ TEST(OptimumSearch, DoesNotVaryWhatTheContactDoesNotHave) {
 }
 
 TEST(OptimumSearch, SaysWhichNumberIsNotVariedBecauseItIsSearched) {
-  const Found found = search(
-      parse_scene(bar_text, "bar", ".", {"response.optimum=contact.friction_coefficient",
-                                         "response.optimum_range=[0.1, 0.6]", "response.preload_scale=[1]"}));
+  const Found found =
+      search(parse_scene(bar_text, "bar", ".",
+                         {"response.optimum=contact.friction_coefficient",
+                          "response.optimum_range=[0.1, 0.6]", "response.preload_scale=[1]"}));
   ASSERT_EQ(found.bracket.left_out.size(), 1U);
-  EXPECT_NE(found.bracket.left_out[0].find("contact.friction_coefficient is the number that is searched"),
-            std::string::npos)
+  EXPECT_NE(
+      found.bracket.left_out[0].find("contact.friction_coefficient is the number that is searched"),
+      std::string::npos)
       << found.bracket.left_out[0];
   EXPECT_EQ(found.bracket.entries.size(), 2U);  // those of the stiffness
 }

@@ -1,4 +1,5 @@
-// Curves integrated in time: what is told of motions that do not repeat with the excitation, and fixed steps.
+// Curves integrated in time: what is told of motions that do not repeat with the excitation, and
+// fixed steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,21 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/system/scene_error.hpp"
-#include "pipelines/scene/scene_file.hpp"
 #include "pipelines/response/time_response.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 using Overrides = std::vector<std::string>;
 
-// A mass that rests on a one-sided spring: driven at twice the frequency of its free motion it answers at half
-// of the excitation's.
+// A mass that rests on a one-sided spring: driven at twice the frequency of its free motion it
+// answers at half of the excitation's.
 constexpr const char* bilinear = R"toml([model]
 kind = "modal"
 [modal]
@@ -59,7 +60,8 @@ TEST(TimeResponse, AMotionOfTwicePeriodIsTold) {
   const solver::ResponseCurve doubled = curve_of({"response.frequency=53.8"});
   ASSERT_EQ(doubled.points.size(), 1U);
   EXPECT_TRUE(doubled.complete);
-  EXPECT_NE(doubled.message.find("53.8 Hz, the motion repeats after several periods"), std::string::npos)
+  EXPECT_NE(doubled.message.find("53.8 Hz, the motion repeats after several periods"),
+            std::string::npos)
       << doubled.message;
   EXPECT_EQ(doubled.points[0].stability, solver::Stability::not_assessed);
 }
@@ -94,9 +96,12 @@ TEST(TimeResponse, TooFewStepsAreKnownBeforeACurveIsTraced) {
     }
     return "";
   };
-  // The stuck mass moves at √(40²π² + 5e4)/2π = 40.8 Hz: π·40.8/13 = 9.85 steps at 13 Hz, 3.2 at 40 Hz.
+  // The stuck mass moves at √(40²π² + 5e4)/2π = 40.8 Hz: π·40.8/13 = 9.85 steps at 13 Hz, 3.2 at 40
+  // Hz.
   const std::string few = complaint({"response.frequency=[40, 13]", "response.steps_per_period=9"});
-  EXPECT_NE(few.find("--set response.steps_per_period=9: response.steps_per_period: 9 steps"), std::string::npos) << few;
+  EXPECT_NE(few.find("--set response.steps_per_period=9: response.steps_per_period: 9 steps"),
+            std::string::npos)
+      << few;
   EXPECT_NE(few.find("40.8"), std::string::npos) << few;
   EXPECT_NE(few.find("at 13 Hz excitation that takes at least 10"), std::string::npos) << few;
   EXPECT_EQ(complaint({"response.frequency=[40, 13]", "response.steps_per_period=10"}), "");
@@ -105,7 +110,8 @@ TEST(TimeResponse, TooFewStepsAreKnownBeforeACurveIsTraced) {
 
 TEST(TimeResponse, StepsAreForIntegrationInTime) {
   const Overrides overrides{"response.steps_per_period=500", "response.method=harmonic_balance"};
-  EXPECT_THROW(static_cast<void>(parse_scene(bilinear, "scene.toml", "/nowhere", overrides)), SceneError);
+  EXPECT_THROW(static_cast<void>(parse_scene(bilinear, "scene.toml", "/nowhere", overrides)),
+               SceneError);
 }
 
 }  // namespace

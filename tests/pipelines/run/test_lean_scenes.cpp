@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -202,7 +202,8 @@ TEST(ChainScene, ContactsShareThePreloadAndMayJoinTwoMasses) {
   const auto points = contact_of(model, 100.0).points(0);
   EXPECT_EQ(points[0].preload, 25.0);
   EXPECT_EQ(points[1].preload, 75.0);
-  EXPECT_EQ(model.patches[0].cells.shapes.u.row(1), model.output.transpose() - model.patches[0].cells.shapes.u.row(0));
+  EXPECT_EQ(model.patches[0].cells.shapes.u.row(1),
+            model.output.transpose() - model.patches[0].cells.shapes.u.row(0));
 }
 
 TEST(ChainScene, ANegativePreloadIsAUniformGap) {
@@ -237,7 +238,8 @@ TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
 }
 
 // Rows of four cells at r = ∓37.5 mm, ∓12.5 mm; 30 N and 1 N m act at r = −33.3 mm. Two rows carry:
-// N₁ + N₂ = 30 N, 37.5 N₁ + 12.5 N₂ = 1000 N mm, so 25 N and 5 N, and the approach falls by 20 N a row.
+// N₁ + N₂ = 30 N, 37.5 N₁ + 12.5 N₂ = 1000 N mm, so 25 N and 5 N, and the approach falls by 20 N a
+// row.
 TEST(ChainScene, AMomentLiftsCellsOff) {
   const SceneDescription scene = parse(chain_text, {area_point, "response.preload=[30]"});
   const ReducedModel model = reduced_model(scene);

@@ -62,7 +62,8 @@ TEST(Progress, HistoryHoldsOnlyWhatAFinishedCurveHolds) {
   Progress progress(out, false, Verbosity::quiet);
   progress.keep_in(folder.path());
   progress.stage("curves");
-  const std::vector<solver::ResponsePoint> kept{synthetic::point(297.5, 3e-4), synthetic::point(296.5, 2e-4)};
+  const std::vector<solver::ResponsePoint> kept{synthetic::point(297.5, 3e-4),
+                                                synthetic::point(296.5, 2e-4)};
   progress.point("preload_1", synthetic::point(295.5, 1e-4), 0.1);
   progress.point("preload_10", synthetic::point(295.5, 1e-4), 0.1);
   for (const auto& point : kept) progress.point("preload_1", point, 0.2);
@@ -71,8 +72,8 @@ TEST(Progress, HistoryHoldsOnlyWhatAFinishedCurveHolds) {
   const std::string history = content_of(folder.path() / "history.csv");
   EXPECT_EQ(n_lines(history), 5U) << history;
   EXPECT_EQ(history.find("\npreload_1,295.5,"), std::string::npos) << history;
-  for (const char* line : {"curve,", "\npreload_1,297.5,", "\npreload_1,296.5,", "\npreload_10,295.5,",
-                           "\npreload_10,298.5,"}) {
+  for (const char* line : {"curve,", "\npreload_1,297.5,", "\npreload_1,296.5,",
+                           "\npreload_10,295.5,", "\npreload_10,298.5,"}) {
     EXPECT_NE(history.find(line), std::string::npos) << line << history;
   }
 }

@@ -1,5 +1,5 @@
-// Scenes of the kind block: modes, cells and loads they become, limits in which simpler scenes say the
-// same, and what is refused.
+// Scenes of the kind block: modes, cells and loads they become, limits in which simpler scenes say
+// the same, and what is refused.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,15 +11,15 @@
 #include <Eigen/QR>
 
 #include "contact/patch/contact_area.hpp"
-#include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/block_scene.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/system/scene_error.hpp"
+#include "pipelines/scene/block_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
-#include "pipelines/model/tilted_area.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
@@ -81,8 +81,8 @@ void expect_complaint(const Overrides& overrides, const std::string& part) {
 solver::ResponsePoint point_of(const ReducedModel& model, const SceneDescription& scene,
                                double load) {
   const auto options = continuation_options(*scene.response, model);
-  const auto curve = solver::solve_at_frequency(solver_scene(model, load), options.frequency_begin,
-                                                options);
+  const auto curve =
+      solver::solve_at_frequency(solver_scene(model, load), options.frequency_begin, options);
   EXPECT_TRUE(curve.complete) << curve.message;
   return curve.points.empty() ? solver::ResponsePoint{} : curve.points.front();
 }
@@ -110,7 +110,8 @@ TEST(BlockScene, AMatrixSaysTheSameAsItsDiagonal) {
   EXPECT_EQ(model.frequency, model_of().frequency);
 }
 
-// The block turned by a small angle and moved: every cell goes where its place on the rigid body goes.
+// The block turned by a small angle and moved: every cell goes where its place on the rigid body
+// goes.
 TEST(BlockScene, CellsMoveWithTheBody) {
   const ReducedModel model = model_of();
   const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(6, -1.0, 2.0);
@@ -124,7 +125,8 @@ TEST(BlockScene, CellsMoveWithTheBody) {
                                  "response.output.direction=" + direction})
                            .output.dot(q);
     }
-    const Eigen::Vector3d moved(model.patches[0].cells.shapes.u.row(i).dot(q), model.patches[0].cells.shapes.v.row(i).dot(q),
+    const Eigen::Vector3d moved(model.patches[0].cells.shapes.u.row(i).dot(q),
+                                model.patches[0].cells.shapes.v.row(i).dot(q),
                                 model.patches[0].cells.shapes.w.row(i).dot(q));
     EXPECT_LT((moved - expected).norm(), 1e-12 * q.norm() * 50.0);  // shapes are below 50 /√kg
   }
@@ -141,8 +143,8 @@ TEST(BlockScene, PointMotionIsTheCrossProduct) {
   EXPECT_LT((point_motion(c) * x - expected).norm(), 1e-15);
 }
 
-// Action and reaction, virtual work: modal contact forces are those of the resultant at the centre of the
-// area, moved to the centre of mass; at rest nothing dynamic is left.
+// Action and reaction, virtual work: modal contact forces are those of the resultant at the centre
+// of the area, moved to the centre of mass; at rest nothing dynamic is left.
 TEST(BlockScene, ModalForcesAreForceAndMomentOfTheCells) {
   const ReducedModel model = model_of();
   const Eigen::Index n = model.patches[0].cells.weights.size();
@@ -150,10 +152,15 @@ TEST(BlockScene, ModalForcesAreForceAndMomentOfTheCells) {
     return std::sin(1.0 + static_cast<double>(3 * j + i));  // (n, f_r, f_p)
   });
   const Eigen::VectorXd modal =
-      model.patches[0].cells.shapes.u.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(2).transpose()) +
-      model.patches[0].cells.shapes.v.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(0).transpose()) +
-      model.patches[0].cells.shapes.w.transpose() * model.patches[0].cells.weights.cwiseProduct(tractions.row(1).transpose());
-  const contact::ContactArea area({model.patches[0].cells.points.col(2), model.patches[0].cells.points.col(0), model.patches[0].cells.weights});
+      model.patches[0].cells.shapes.u.transpose() *
+          model.patches[0].cells.weights.cwiseProduct(tractions.row(2).transpose()) +
+      model.patches[0].cells.shapes.v.transpose() *
+          model.patches[0].cells.weights.cwiseProduct(tractions.row(0).transpose()) +
+      model.patches[0].cells.shapes.w.transpose() *
+          model.patches[0].cells.weights.cwiseProduct(tractions.row(1).transpose());
+  const contact::ContactArea area({model.patches[0].cells.points.col(2),
+                                   model.patches[0].cells.points.col(0),
+                                   model.patches[0].cells.weights});
   const contact::AreaVector whole = area.resultant(tractions);  // (q, r, p)
   const Eigen::Vector3d force(whole[2], whole[0], whole[1]);
   const Eigen::Vector3d moment(whole[5], whole[3], whole[4]);
@@ -183,13 +190,12 @@ TEST(BlockScene, CellsShareStiffnessAndLoadByArea) {
   }
 }
 
-// The bodies tilt by one rotation, and the cells carry by the rough law: their loads are those of the
-// approach that a plane gives, and force and moments add up.
+// The bodies tilt by one rotation, and the cells carry by the rough law: their loads are those of
+// the approach that a plane gives, and force and moments add up.
 TEST(BlockScene, RoughCellsCarryForceAndMoments) {
   const double height = 1e-3;
-  const ReducedModel model =
-      model_of({"contact.roughness={ law = \"cubic\", height = \"1 mm\" }",
-                "contact.preload_moment=[0.1, \"0.3 N*m\"]"});
+  const ReducedModel model = model_of({"contact.roughness={ law = \"cubic\", height = \"1 mm\" }",
+                                       "contact.preload_moment=[0.1, \"0.3 N*m\"]"});
   const auto points = contact_of(model, 40.0).points(0);
   const auto surface = contact::RoughSurface::cubic(height);
   double force = 0.0, about_p = 0.0, about_r = 0.0;
@@ -239,13 +245,14 @@ TEST(BlockScene, AGapUnderMomentsIsNamed) {
   const std::string said = refusal({moments, "response.preload=[\"free\", 40, -5]"});
   EXPECT_NE(said.find("response.preload[2] = -5 N"), std::string::npos) << said;
   EXPECT_NE(said.find("contact.preload_moment = [0.1, 0.2] N m"), std::string::npos) << said;
-  EXPECT_NE(refusal({moments, "response.preload=[0]"}).find("response.preload[0] = 0 N"), std::string::npos);
+  EXPECT_NE(refusal({moments, "response.preload=[0]"}).find("response.preload[0] = 0 N"),
+            std::string::npos);
   EXPECT_EQ(refusal({moments, "response.preload=[40, \"free\"]"}), "taken");
   EXPECT_EQ(refusal({"response.preload=[40, -5]"}), "taken");
 }
 
-// Theory 20.6: motion in one direction, springs and contact in one plane, surfaces that are hardly rough,
-// a mass and its spring: 20.3 with one mass.
+// Theory 20.6: motion in one direction, springs and contact in one plane, surfaces that are hardly
+// rough, a mass and its spring: 20.3 with one mass.
 TEST(BlockScene, InOneDirectionItIsAChain) {
   constexpr const char* chain_text = R"toml([model]
 kind = "chain"
@@ -262,8 +269,11 @@ output = "m1"
 frequency = 24
 preload = [8]
 )toml";
-  const Overrides common{"model.mass=1", "model.height=0", "model.stiffness=[15791, 9e4, 15791]",
-                         "contact.centre=[0, 0]", "contact.tangential_stiffness=40000",
+  const Overrides common{"model.mass=1",
+                         "model.height=0",
+                         "model.stiffness=[15791, 9e4, 15791]",
+                         "contact.centre=[0, 0]",
+                         "contact.tangential_stiffness=40000",
                          "contact.roughness={ law = \"cubic\", height = 1e-12 }",
                          "response.frequency=24"};
   for (const char* harmonics : {"1", "7"}) {
@@ -324,9 +334,9 @@ TEST(BlockScene, MistakesAreNamed) {
   expect_complaint({"contact.size=[0, 1]"}, "above 0");
   expect_complaint({"contact.cells=[4, 1]", "contact.preload_moment=[1, 0]"}, "along r");
   expect_complaint({"contact.friction_coefficient=-1"}, "friction_coefficient");
-  expect_complaint({"contact.roughness={ law = \"cubic\", height = 1e-5 }",
-                    "contact.normal_stiffness=0"},
-                   "normal_stiffness above 0");
+  expect_complaint(
+      {"contact.roughness={ law = \"cubic\", height = 1e-5 }", "contact.normal_stiffness=0"},
+      "normal_stiffness above 0");
   expect_complaint({"excitation.forces=[{ at = \"B\" }]"}, "expected a list of numbers");
   expect_complaint({"excitation.forces=[{ amplitude = 1 }]"}, "unknown key");
   expect_complaint({"response.output=\"m1\""}, "expected { at");

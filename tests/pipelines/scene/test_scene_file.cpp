@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/system/scene_error.hpp"
 #include "pipelines/scene/scene_template.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::pipelines {
@@ -409,24 +409,29 @@ TEST(Scene, AttachmentShapesAreTheDefaultWhereTheContactHasAStiffnessOfItsOwn) {
   EXPECT_EQ(parse(blade_text, {local[0], "modes.attachment_degree=2"}).modes.attachment_degree, 2);
   expect_complaint(complaint(blade_text, {"modes.residual=attachment"}),
                    {"modes.residual", "contact.tangential_stiffness"});
-  expect_complaint(complaint(blade_text, {local[0], "modes.residual=none", "modes.attachment_degree=1"}),
-                   {"modes.attachment_degree", "\"none\""});
+  expect_complaint(
+      complaint(blade_text, {local[0], "modes.residual=none", "modes.attachment_degree=1"}),
+      {"modes.attachment_degree", "\"none\""});
   for (const char* degree : {"-1", "13", "1.5", "\"many\""}) {
-    expect_complaint(complaint(blade_text, {local[0], std::string("modes.attachment_degree=") + degree}),
-                     {"modes.attachment_degree", "0 to 12", "auto"});
+    expect_complaint(
+        complaint(blade_text, {local[0], std::string("modes.attachment_degree=") + degree}),
+        {"modes.attachment_degree", "0 to 12", "auto"});
   }
-  expect_complaint(complaint(blade_text, {local[0], "modes.residual=rigid"}), {"attachment", "stiffness", "none"});
+  expect_complaint(complaint(blade_text, {local[0], "modes.residual=rigid"}),
+                   {"attachment", "stiffness", "none"});
 }
 
 TEST(Scene, AGapMayBeALength) {
-  const auto preload = parse(blade_text, {"response.preload=[{ gap = \"8.4 um\" }, -5]"}).response->preload;
+  const auto preload =
+      parse(blade_text, {"response.preload=[{ gap = \"8.4 um\" }, -5]"}).response->preload;
   ASSERT_EQ(preload.size(), 2U);
   EXPECT_NEAR(std::get<UniformGap>(preload[0]).width, 8.4e-6, 1e-20);
   EXPECT_EQ(parse(blade_text, {"response.preload={ gap = 1e-5 }"}).response->preload.front(),
             PreloadEntry(UniformGap{1e-5}));
   expect_complaint(complaint(blade_text, {"response.preload=[{ gap = \"5 N\" }]"}), {"gap", "m"});
   expect_complaint(complaint(blade_text, {"response.preload=[{ gap = 0 }]"}), {"gap", "above 0"});
-  expect_complaint(complaint(blade_text, {"response.preload=[{ width = 1e-5 }]"}), {"width", "gap"});
+  expect_complaint(complaint(blade_text, {"response.preload=[{ width = 1e-5 }]"}),
+                   {"width", "gap"});
 }
 
 TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
@@ -453,10 +458,12 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   EXPECT_EQ(parse(blade_text, {"effects.residual=off", "modes.residual=none"}).effects.size(), 9U);
   expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
   for (const char* friction : {"0.3 m", "0.3 +* p"}) {
-    expect_complaint(complaint(blade_text, {std::string("contact.friction_coefficient='") + friction + "'"}),
-                     {"contact.friction_coefficient"});
+    expect_complaint(
+        complaint(blade_text, {std::string("contact.friction_coefficient='") + friction + "'"}),
+        {"contact.friction_coefficient"});
   }
-  for (const char* harmonics : {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
+  for (const char* harmonics :
+       {"0", "1.0", "100", "\"all\"", "[]", "[3, 5]", "[1, 100]", "[1, 2.5]", "[1, -1]"}) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
                      {"response.harmonics"});
   }
@@ -465,15 +472,16 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
 }
 
 TEST(SceneFile, LawsOfContactAreRead) {
-  const SceneDescription blade =
-      parse(blade_text, {"contact.friction_coefficient={ law = \"exponential\", static = 0.5, kinetic = "
-                         "\"30 %\", rate = \"2 s/mm\" }",
-                         "contact.roughness=[{ law = \"cubic\", height = \"3 um\" }, { law = \"cubic\", "
-                         "height = \"4 um\" }]",
-                         "contact.preload_field={ expression = \"1 + 10*p\" }"});
+  const SceneDescription blade = parse(
+      blade_text, {"contact.friction_coefficient={ law = \"exponential\", static = 0.5, kinetic = "
+                   "\"30 %\", rate = \"2 s/mm\" }",
+                   "contact.roughness=[{ law = \"cubic\", height = \"3 um\" }, { law = \"cubic\", "
+                   "height = \"4 um\" }]",
+                   "contact.preload_field={ expression = \"1 + 10*p\" }"});
   ASSERT_TRUE(blade.contacts.front().rules.friction && blade.contacts.front().rules.roughness);
   EXPECT_EQ(blade.contacts.front().rules.friction->at(0.0).value, 0.5);
-  EXPECT_NEAR(blade.contacts.front().rules.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0), 1e-15);
+  EXPECT_NEAR(blade.contacts.front().rules.friction->at(5e-4).value, 0.3 + 0.2 * std::exp(-1.0),
+              1e-15);
   EXPECT_DOUBLE_EQ(blade.contacts.front().rules.roughness->height(), 5e-6);
   ASSERT_TRUE(blade.contacts.front().preload_field.has_value());
   EXPECT_EQ(complaint(blade.complete_toml), "");
@@ -481,9 +489,9 @@ TEST(SceneFile, LawsOfContactAreRead) {
                                                     "contact.preload_moment=[\"2 N*m\", 0]"});
   EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contacts.front().friction.value));
   EXPECT_EQ(field.contacts.front().preload_moment[0], 2.0);
-  const SceneDescription modal = parse(
-      modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
-                   "response.harmonics=5", "response.method=time", "response.points=7"});
+  const SceneDescription modal =
+      parse(modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
+                         "response.harmonics=5", "response.method=time", "response.points=7"});
   EXPECT_NEAR(modal.rules.friction->at(1.0).value, 0.1, 1e-15);
   EXPECT_EQ(modal.response->harmonics, 5);
   EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
@@ -498,7 +506,8 @@ TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
   const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
   EXPECT_EQ(chosen.harmonic_tolerance, 1e-2);
   EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
-  const auto finer = parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
+  const auto finer =
+      parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
   EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
   EXPECT_EQ(complaint(finer.complete_toml), "");
   EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).response->harmonic_tolerance, 0.0);
@@ -538,7 +547,8 @@ TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
   bad("contact.friction_coefficient={ expression = 3 }", {"expression"});
   bad("contact.roughness={ law = \"cubic\" }", {"height is missing"});
   bad("contact.roughness={ law = \"cubic\", height = 1e-6, hight = 2 }", {"hight", "known"});
-  bad("contact.roughness=[{ law = \"cubic\", height = 1e-6 }, { law = \"gaussian\", height = 1e-6 }]",
+  bad("contact.roughness=[{ law = \"cubic\", height = 1e-6 }, { law = \"gaussian\", height = 1e-6 "
+      "}]",
       {"cubic surface against a gaussian"});
   bad("contact.preload_moment=[1]", {"[M_p, M_r]"});
   expect_complaint(complaint(blade_text, {"contact.preload_moment=[1, 0]",
@@ -548,34 +558,46 @@ TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
 
 /// What is no TOML has no keys to ask for; the message names the one it breaks off in all the same.
 TEST(SceneFile, WhatIsNoTomlIsToldByLineColumnAndKey) {
-  const auto said = [](const std::string& from, const std::string& to) { return complaint(replaced(modal_text, from, to)); };
+  const auto said = [](const std::string& from, const std::string& to) {
+    return complaint(replaced(modal_text, from, to));
+  };
   EXPECT_EQ(said("[15.9, 41.4]", "[15.9,\n 1e400]"),
-            "scene.toml:5:7: modal.frequency: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "scene.toml:5:7: modal.frequency: 1e400 is out of range: expected a number of at most "
+            "1.797e308 in "
             "size");
-  EXPECT_NE(said("weight = 2", "weight = 2.").find("scene.toml:11:16: modal.points.weight: "), std::string::npos)
+  EXPECT_NE(said("weight = 2", "weight = 2.").find("scene.toml:11:16: modal.points.weight: "),
+            std::string::npos)
       << said("weight = 2", "weight = 2.");
-  EXPECT_NE(said("frequency = 20", "frequency = 99999999999999999999").find("response.frequency: 9999999999999999999"),
+  EXPECT_NE(said("frequency = 20", "frequency = 99999999999999999999")
+                .find("response.frequency: 9999999999999999999"),
             std::string::npos);
-  EXPECT_NE(said("frequency = 20", "frequency = \"20").find("response.frequency: "), std::string::npos);
-  EXPECT_NE(said("damping_ratio = 0.01", "frequency = 0.01").find("modal.frequency: "), std::string::npos);
+  EXPECT_NE(said("frequency = 20", "frequency = \"20").find("response.frequency: "),
+            std::string::npos);
+  EXPECT_NE(said("damping_ratio = 0.01", "frequency = 0.01").find("modal.frequency: "),
+            std::string::npos);
   EXPECT_EQ(complaint(modal_text, {"modal.frequency=[1e400, 3]"}),
-            "--set modal.frequency=[1e400, 3]: 1e400 is out of range: expected a number of at most 1.797e308 in "
+            "--set modal.frequency=[1e400, 3]: 1e400 is out of range: expected a number of at most "
+            "1.797e308 in "
             "size");
-  EXPECT_NE(complaint(modal_text, {"response.search_starts=many"}).find("expected a whole number, 0 to 1000"),
+  EXPECT_NE(complaint(modal_text, {"response.search_starts=many"})
+                .find("expected a whole number, 0 to 1000"),
             std::string::npos)
       << complaint(modal_text, {"response.search_starts=many"});
 }
 
 TEST(SceneFile, TablesAndFormulasOfThePatchAreReadWithTheScene) {
   const Overrides missing{"contact.friction_coefficient={file=\"none.csv\"}"};
-  EXPECT_NE(complaint(blade_text, missing).find("/nowhere/none.csv: no such file"), std::string::npos)
+  EXPECT_NE(complaint(blade_text, missing).find("/nowhere/none.csv: no such file"),
+            std::string::npos)
       << complaint(blade_text, missing);
-  EXPECT_NE(complaint(blade_text, {"contact.preload_field=1+sqt(p)"}).find("character 3: \"sqt\" is not known"),
+  EXPECT_NE(complaint(blade_text, {"contact.preload_field=1+sqt(p)"})
+                .find("character 3: \"sqt\" is not known"),
             std::string::npos);
 }
 
 TEST(SceneFile, NegativeScalesWouldTurnGapsIntoPressure) {
-  expect_complaint(complaint(modal_text, {"response.preload_scale=[1, -1]"}), {"preload_scale", "at least 0"});
+  expect_complaint(complaint(modal_text, {"response.preload_scale=[1, -1]"}),
+                   {"preload_scale", "at least 0"});
   EXPECT_EQ(parse(modal_text, {"response.preload_scale=[0, 2]"}).response->preload_scale,
             (std::vector<double>{0.0, 2.0}));
 }
@@ -591,7 +613,8 @@ TEST(SceneFile, AnyNumberCanBeSearched) {
   const SceneDescription changed = with_value(scene, "contact.normal_stiffness", 2.5e10);
   EXPECT_EQ(changed.contacts.front().normal_stiffness, 2.5e10);
   EXPECT_FALSE(changed.response->optimum.has_value());
-  EXPECT_EQ(changed.contacts.front().tangential_stiffness, scene.contacts.front().tangential_stiffness);
+  EXPECT_EQ(changed.contacts.front().tangential_stiffness,
+            scene.contacts.front().tangential_stiffness);
   const SceneDescription force = parse(
       blade_text, {"response.optimum=excitation.forces[0].amplitude",
                    "response.optimum_range=[\"1 mN\", \"2 N\"]", "response.optimum_at=\"1 kN\""});
@@ -603,9 +626,10 @@ TEST(SceneFile, AnyNumberCanBeSearched) {
 TEST(BadScene, SearchesOfNoNumber) {
   const auto bad = [](const std::string& key, const std::string& range,
                       const std::vector<std::string>& words) {
-    expect_complaint(complaint(blade_text, {"response.optimum=" + key, "response.optimum_range=" + range,
-                                            "response.optimum_at=100"}),
-                     words);
+    expect_complaint(
+        complaint(blade_text, {"response.optimum=" + key, "response.optimum_range=" + range,
+                               "response.optimum_at=100"}),
+        words);
   };
   bad("contact.frction_coefficient", "[0.1, 1]", {"contact.frction", "friction_coefficient"});
   bad("response.frequency", "[1, 2]", {"outside [response]"});
@@ -616,10 +640,10 @@ TEST(BadScene, SearchesOfNoNumber) {
   bad("excitation.forces[7].amplitude", "[1, 2]", {"forces has no entry 7"});
   bad("preload", "[1, 2]", {"optimum_at", "no meaning"});
   expect_complaint(complaint(blade_text, {"response.optimum=material.density"}), {"optimum_range"});
-  expect_complaint(complaint(blade_text, {"response.optimum=material.density",
-                                          "response.optimum_range=[1, 2]",
-                                          "response.preload=[1, 2]"}),
-                   {"optimum_at", "2 positive preloads"});
+  expect_complaint(
+      complaint(blade_text, {"response.optimum=material.density", "response.optimum_range=[1, 2]",
+                             "response.preload=[1, 2]"}),
+      {"optimum_at", "2 positive preloads"});
 }
 
 TEST(BadScene, KeysThatSayNothingAreRefused) {

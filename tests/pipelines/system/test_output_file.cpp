@@ -129,9 +129,12 @@ TEST(OutputFile, NamesThatCannotBeFoldersOrFilesAreBadInput) {
     EXPECT_NE(said.find("-o " + path.string()), std::string::npos) << said;
     EXPECT_NE(said.find(file.string() + " is a file"), std::string::npos) << said;
   }
-  EXPECT_NE(refusal_of([&] { require_file_name(folder.path(), "-o"); }).find("is a folder"), std::string::npos);
-  EXPECT_NE(refusal_of([&] { require_file_name(file / "b.txt", "-o"); }).find("is a file"), std::string::npos);
-  for (const auto& path : {folder.path(), folder.path() / "new" / "one", std::filesystem::path("new")}) {
+  EXPECT_NE(refusal_of([&] { require_file_name(folder.path(), "-o"); }).find("is a folder"),
+            std::string::npos);
+  EXPECT_NE(refusal_of([&] { require_file_name(file / "b.txt", "-o"); }).find("is a file"),
+            std::string::npos);
+  for (const auto& path :
+       {folder.path(), folder.path() / "new" / "one", std::filesystem::path("new")}) {
     EXPECT_EQ(refusal_of([&] { require_folder_name(path, "-o"); }), "");
   }
   EXPECT_EQ(refusal_of([&] { require_file_name(file, "-o"); }), "");

@@ -60,8 +60,10 @@ TEST(Expression, NamesWhatItDoesNotKnow) {
 TEST(Expression, TellsWhereTheSyntaxBreaks) {
   expect_words("0.3 + (p * 2", {"here: expression \"0.3 + (p * 2\"", "character"});
   expect_words("0.3 + * 2", {"character 7"});
-  EXPECT_EQ(refusal("0.3 + * 2"), "here: expression \"0.3 + * 2\", character 7: Unexpected operator \"*\"");
-  EXPECT_EQ(refusal("3 + (p"), "here: expression \"3 + (p\", character 7, its end: Missing parenthesis");
+  EXPECT_EQ(refusal("0.3 + * 2"),
+            "here: expression \"0.3 + * 2\", character 7: Unexpected operator \"*\"");
+  EXPECT_EQ(refusal("3 + (p"),
+            "here: expression \"3 + (p\", character 7, its end: Missing parenthesis");
   EXPECT_EQ(refusal("3 ; p"), "here: expression \"3 ; p\", character 3: Unexpected token \"; p\"");
   expect_words("", {"here", "is empty"});
   expect_words(" \t", {"here", "is empty"});

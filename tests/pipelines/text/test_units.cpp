@@ -125,16 +125,18 @@ TEST(Units, WhatIsNoNumberIsRefused) {
 
 TEST(Units, NumbersNoDoubleHoldsAreNamedSo) {
   const std::string digits(400, '7');
-  for (const std::string& text : {std::string("1e400"), std::string("-1e400 m"), digits, digits + ".5",
-                                  "0.0" + digits + "e600", std::string("1e99999999999999999999")}) {
+  for (const std::string& text :
+       {std::string("1e400"), std::string("-1e400 m"), digits, digits + ".5",
+        "0.0" + digits + "e600", std::string("1e99999999999999999999")}) {
     EXPECT_NE(complaint(text, "m").find("range"), std::string::npos) << text;
   }
 }
 
 TEST(Units, NumbersTooSmallForADoubleAreZero) {
   const std::string zeros(400, '0');
-  for (const std::string& text : {std::string("1e-400"), std::string("-1E-400 m"), "0." + zeros + "1",
-                                  "12" + zeros + "e-900", std::string("1e-99999999999999999999")}) {
+  for (const std::string& text :
+       {std::string("1e-400"), std::string("-1E-400 m"), "0." + zeros + "1", "12" + zeros + "e-900",
+        std::string("1e-99999999999999999999")}) {
     EXPECT_EQ(to_si(text, "m"), 0.0) << text;
   }
   EXPECT_EQ(parse_number("1e-320"), 1e-320);

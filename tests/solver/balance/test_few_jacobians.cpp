@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/continuation.hpp"
 #include "solver/branch/start_point.hpp"
+#include "solver/continuation.hpp"
 #include "tests/support/modal_scenes.hpp"
 
 namespace microslip::solver {

@@ -178,12 +178,12 @@ TEST(HarmonicBalance, JacobianOfASetIsTheDifferenceOfResiduals) {
   const double h = 1e-6 * x.norm();
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), j);
-    const Eigen::VectorXd difference = (balance.evaluate(x + step, omega).residual -
-                                        balance.evaluate(x - step, omega).residual) /
-                                       (2.0 * h);
-    // Central differences err by h² times the third derivative, 1e-12 of the scale, and by rounding,
-    // 1e-16 / 1e-6 of it; transitions move by h between the two sides, which the square root of
-    // section 4.5 enlarges.
+    const Eigen::VectorXd difference =
+        (balance.evaluate(x + step, omega).residual - balance.evaluate(x - step, omega).residual) /
+        (2.0 * h);
+    // Central differences err by h² times the third derivative, 1e-12 of the scale, and by
+    // rounding, 1e-16 / 1e-6 of it; transitions move by h between the two sides, which the square
+    // root of section 4.5 enlarges.
     EXPECT_LT((difference - at.jacobian.col(j)).norm(), 1e-5 * at.jacobian.norm()) << j;
   }
 }

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/force/patch_force.hpp"
-#include "solver/continuation.hpp"
 #include "solver/branch/start_point.hpp"
+#include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
@@ -171,7 +171,8 @@ TEST(SpecialPoints, TwoFoldsOnASteepPartAreFoundEitherWay) {
 }
 
 TEST(SpecialPoints, AHumpWhereAPointTurnsItsPhasesIsFoundEitherWay) {
-  // One of 21 points turns its cycle round within a step; a valley and a peak within a long level step.
+  // One of 21 points turns its cycle round within a step; a valley and a peak within a long level
+  // step.
   for (const auto& [seed, n_peaks] : {std::pair{402U, 4U}, std::pair{141U, 9U}}) {
     SCOPED_TRACE(seed);
     expect_either_way(tests::wild_scene(seed), PointMark::peak, n_peaks);

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/force/patch_force.hpp"
-#include "solver/continuation.hpp"
 #include "solver/balance/linear_force.hpp"
+#include "solver/continuation.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver {
@@ -51,8 +51,8 @@ TEST(StepStates, NoStepChangesMoreThanAFifthOfAPatch) {
   EXPECT_TRUE(curve.log.empty());
   double largest = 0.0;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    const contact::StateChange change = contact::state_change(
-        states_at(scene, curve.points[i - 1]), states_at(scene, curve.points[i]));
+    const contact::StateChange change = contact::state_change(states_at(scene, curve.points[i - 1]),
+                                                              states_at(scene, curve.points[i]));
     largest = std::max(largest, change.share);
   }
   EXPECT_LE(largest, 0.2);
@@ -60,8 +60,8 @@ TEST(StepStates, NoStepChangesMoreThanAFifthOfAPatch) {
 }
 
 TEST(StepStates, OnePointIsFollowedToWhereItBeginsToSlip) {
-  // Constant load: slip begins at the amplitude μ n₀ / k_u exactly. The spring is too soft for the branch to
-  // turn there.
+  // Constant load: slip begins at the amplitude μ n₀ / k_u exactly. The spring is too soft for the
+  // branch to turn there.
   tests::SinglePoint single;
   single.point = {0.001, 0.0, 0.5, 0.02};
   const double onset = 0.5 * 0.02 / 0.001;
@@ -93,7 +93,9 @@ class Chatter final : public contact::ModalForce {
   explicit Chatter(std::size_t n_points)
       : linear_(Eigen::MatrixXd::Ones(1, 1), contact::CycleReport{}), n_points_(n_points) {}
   [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
-  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override { return linear_.stuck_stiffness(); }
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return linear_.stuck_stiffness();
+  }
   [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency) const override {
     return linear_.report(q, frequency);
   }
@@ -137,9 +139,9 @@ TEST(StepStates, ThatChangeAtEveryStepDoNotHoldTheWalkUp) {
     EXPECT_TRUE(curve.complete) << curve.message;
     EXPECT_GT(curve.state_cuts, 0);
     EXPECT_LT(curve.points.size(), 3 * n_calm);
-    const bool at_once = std::any_of(curve.log.begin(), curve.log.end(), [](const SolverEvent& event) {
-      return event.remedy == "states-at-once";
-    });
+    const bool at_once =
+        std::any_of(curve.log.begin(), curve.log.end(),
+                    [](const SolverEvent& event) { return event.remedy == "states-at-once"; });
     EXPECT_EQ(at_once, n_points > 8);  // of a handful one at a time is no more than allowed
   }
 }

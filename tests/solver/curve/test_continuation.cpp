@@ -108,16 +108,16 @@ TEST(Continuation, WithoutForceNothingMoves) {
 }
 
 TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
-  // Loads of rough cells, summed by quadrature, leave 1e-15 of themselves at rest: no motion to be walked along.
+  // Loads of rough cells, summed by quadrature, leave 1e-15 of themselves at rest: no motion to be
+  // walked along.
   constexpr Eigen::Index n = 7;
   std::vector<std::shared_ptr<const contact::PointLaw>> cells;
   contact::ModalShapes shapes{Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const double x = static_cast<double>(i) / n;
     const contact::PointParameters point{3e4, 4e4, 0.5, 17.3 + 5.1 * x};
-    cells.push_back(std::make_shared<contact::PlanarLaw>(
-        contact::SurfaceLaw(point, 3e4, contact::FrictionLaw::constant(0.5),
-                            contact::RoughSurface::cubic(5e-4))));
+    cells.push_back(std::make_shared<contact::PlanarLaw>(contact::SurfaceLaw(
+        point, 3e4, contact::FrictionLaw::constant(0.5), contact::RoughSurface::cubic(5e-4))));
     shapes.u.row(i) << 1.0, 0.3 - x, 0.7 * x;
     shapes.v.row(i) << 0.2 * x, 1.0, x - 0.6;
     shapes.w.row(i) << 0.5, x * x, 1.1 - x;
@@ -127,8 +127,8 @@ TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
   scene.damping_ratio = Eigen::Vector3d::Constant(0.02);
   scene.output = Eigen::Vector3d(1.0, 0.4, 0.2);
   scene.excitation = Harmonics(1, 3);
-  scene.contact = std::make_unique<contact::LawPatchForce>(
-      Eigen::VectorXd::Constant(n, 0.13), std::move(cells), std::move(shapes));
+  scene.contact = std::make_unique<contact::LawPatchForce>(Eigen::VectorXd::Constant(n, 0.13),
+                                                           std::move(cells), std::move(shapes));
   const ResponseCurve curve = trace_response(scene, frequency_range(100.0, 400.0));
   EXPECT_TRUE(curve.complete) << curve.diagnosis << ' ' << curve.message;
   EXPECT_GE(curve.points.size(), 10U);
@@ -296,18 +296,21 @@ TEST(TraceLinear, EndsAtAnUndampedResonanceWithItsName) {
     EXPECT_EQ(curve.points.front().frequency, c.begin);
     EXPECT_NEAR(curve.points.back().frequency, c.resonance, 2e-3 * c.resonance);
     for (const ResponsePoint& point : curve.points) {
-      const double exact = 1.0 / std::abs(c.resonance * c.resonance - point.frequency * point.frequency);
+      const double exact =
+          1.0 / std::abs(c.resonance * c.resonance - point.frequency * point.frequency);
       EXPECT_NEAR(point.amplitude, exact, 1e-9 * exact);
     }
   }
   // Beyond the resonance, or where nothing moves it, there is nothing to name.
   EXPECT_TRUE(trace_linear(scene, LinearLimit::free, frequency_range(1.1, 3.0)).complete);
   single.force = 0.0;
-  EXPECT_TRUE(trace_linear(tests::single_point_scene(single), LinearLimit::free, frequency_range(0.5, 1.5))
-                  .complete);
+  EXPECT_TRUE(
+      trace_linear(tests::single_point_scene(single), LinearLimit::free, frequency_range(0.5, 1.5))
+          .complete);
 }
 
-// Friction takes 4 μn₀ A a period and the excitation gives π F A: below F = 4 μn₀ / π there is a peak.
+// Friction takes 4 μn₀ A a period and the excitation gives π F A: below F = 4 μn₀ / π there is a
+// peak.
 TEST(Continuation, NamesAnUndampedResonanceThatFrictionDoesNotHold) {
   tests::SinglePoint single;
   single.damping_ratio = 0.0;
@@ -318,7 +321,8 @@ TEST(Continuation, NamesAnUndampedResonanceThatFrictionDoesNotHold) {
   EXPECT_FALSE(beyond.complete);
   EXPECT_EQ(beyond.diagnosis, "unbounded");
   single.force = 0.9 * 4.0 * 0.5 / M_PI;
-  EXPECT_TRUE(trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5)).complete);
+  EXPECT_TRUE(
+      trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5)).complete);
 }
 
 TEST(TraceLinear, HasTheLimitsOfTheContact) {

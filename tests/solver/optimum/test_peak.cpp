@@ -164,15 +164,15 @@ TEST(MinimisePeak, FindsAPreloadThatNoNeighbourBeats) {
 /// one on the side of the scan value 5 that the first golden section leaves.
 double two_valleys(double parameter) {
   constexpr std::array<std::array<double, 2>, 10> knots{{{0.0, 2.0},
-                                                        {4.0, 1.05},
-                                                        {4.64, 1.0},
-                                                        {4.7, 1.007},
-                                                        {4.85, 1.007},
-                                                        {5.0, 1.0045},
-                                                        {5.25, 0.997},
-                                                        {5.5, 1.006},
-                                                        {6.0, 1.05},
-                                                        {11.0, 2.0}}};
+                                                         {4.0, 1.05},
+                                                         {4.64, 1.0},
+                                                         {4.7, 1.007},
+                                                         {4.85, 1.007},
+                                                         {5.0, 1.0045},
+                                                         {5.25, 0.997},
+                                                         {5.5, 1.006},
+                                                         {6.0, 1.05},
+                                                         {11.0, 2.0}}};
   const double x = std::log(parameter);
   std::size_t i = 1;
   while (i + 1 < knots.size() && x > knots[i][0]) ++i;

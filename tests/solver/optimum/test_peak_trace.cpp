@@ -123,7 +123,7 @@ TEST(PeakTrace, CountsDetachedBranchesWhereASearchFindsThem) {
   ASSERT_EQ(with.peaks.size(), 5U);
   for (const PeakOfParameter& peak : with.peaks) {
     EXPECT_NEAR(peak.amplitude, 10.0 * peak.parameter, 1e-6);  // of the isola, at its root
-    EXPECT_EQ(peak.detached, peak.whole_curve);  // told where the curve is known
+    EXPECT_EQ(peak.detached, peak.whole_curve);                // told where the curve is known
   }
   EXPECT_TRUE(with.peaks.front().detached);
   EXPECT_GE(with.warnings.size(), 2U);  // one for each check

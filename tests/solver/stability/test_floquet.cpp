@@ -76,7 +76,9 @@ TEST(Floquet, FreeModesDecayWithTheirDamping) {
     const std::complex<double> exponent(-zeta * omega, omega * std::sqrt(1.0 - zeta * zeta));
     const std::complex<double> expected = std::exp(exponent * two_pi / frequency);
     const auto distance = (found.multipliers.array() - expected).abs().minCoeff();
-    EXPECT_LT(distance, 1e-5);  // step tolerance 1e-9 over the difference 1e-4, by the condition of the period
+    EXPECT_LT(
+        distance,
+        1e-5);  // step tolerance 1e-9 over the difference 1e-4, by the condition of the period
   }
   EXPECT_LT(found.distance, 1e-8);  // the linear response is exact
 }
@@ -97,8 +99,8 @@ TEST(Floquet, MotionsReturnAsFastAsTheMultipliersSay) {
 }
 
 TEST(Floquet, MotionThatLeavesItsSolutionHasAPairOutsideTheUnitCircle) {
-  // No exponent of Hill's problem grows here, no determinant is negative, and yet time integration leaves the
-  // solution, from any disturbance at all.
+  // No exponent of Hill's problem grows here, no determinant is negative, and yet time integration
+  // leaves the solution, from any disturbance at all.
   const Chain chain(15);
   const ResponsePoint point = chain.at(27.78);
   EXPECT_GT(point.determinant_sign, 0.0);

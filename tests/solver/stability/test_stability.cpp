@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/solver/duffing.hpp"
-#include "solver/continuation.hpp"
 #include "solver/balance/linear_force.hpp"
+#include "solver/continuation.hpp"
+#include "tests/solver/duffing.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

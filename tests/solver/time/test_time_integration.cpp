@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/continuation.hpp"
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/continuation.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 

@@ -2,9 +2,9 @@
 /// Fourier sums of a sampled cycle and their derivatives ((1) of sampled_cycle.hpp).
 #pragma once
 
+#include "contact/numerics/trigonometric_moments.hpp"
 #include "contact/point/point_law.hpp"
 #include "tests/support/sampled/sampled_slider.hpp"
-#include "contact/numerics/trigonometric_moments.hpp"
 
 namespace microslip::contact {
 

@@ -8,9 +8,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "fem/petsc/columns.hpp"
 #include "fem/assembly/fe_system.hpp"
 #include "fem/modal_analysis.hpp"
+#include "fem/petsc/columns.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "mesh/shape_functions.hpp"
