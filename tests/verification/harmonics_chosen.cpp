@@ -162,7 +162,7 @@ TEST(HarmonicsChosen, ModesAtMultiplesOfTheResonanceKeepThePromise) {
 
 TEST(HarmonicsChosen, RandomScenesKeepThePromise) {
   Count count;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 19; ++seed) {
     tests::RandomScene random = tests::random_scene(seed);
     tests::use_event_cycles(random.scene);
     solver::ContinuationOptions options = choosing(random.options);
@@ -170,8 +170,7 @@ TEST(HarmonicsChosen, RandomScenesKeepThePromise) {
     compare(random.scene, options, "seed " + std::to_string(seed), count);
   }
   print("random scenes", count);
-  EXPECT_LE(count.unsolved, 2);
-  EXPECT_LE(count.kept, 4);
+  EXPECT_EQ(count.unsolved + count.kept, 0);
 }
 
 }  // namespace
