@@ -30,7 +30,7 @@ class Corrector {
 
   NewtonResult run(const BranchVector& start, const BalanceEvaluation& near) {
     point_ = start;
-    approach(factors_of(near));
+    if (!approach(factors_of(near))) return newton_from(point_);
     NewtonResult at = evaluated(system_.whole, point_);
     if (!(at.residual <= tolerance_)) return newton_from(point_);
     at.converged = true;
@@ -73,18 +73,18 @@ class Corrector {
     return result;
   }
 
-  /// Broyden's method by forces alone; the best point is left in point_.
-  void approach(const Factors& chord) {
+  /// Broyden's method by forces alone; the best point is left in point_. True: it meets the tolerance.
+  bool approach(const Factors& chord) {
     std::vector<Eigen::VectorXd> steps;
     double before = std::numeric_limits<double>::infinity();
     BranchVector last;
     for (int i = 0; i <= most_updates; ++i) {
       const NewtonResult here = evaluated(system_.residual, point_);
-      if (here.residual <= tolerance_) return;
-      if (i == 0 && here.residual > jumps) return;
+      if (here.residual <= tolerance_) return true;
+      if (i == 0 && here.residual > jumps) return false;
       if (i > 0 && !(here.residual < falls * before)) {
         if (!(here.residual < before)) point_ = std::move(last);
-        return;
+        return false;
       }
       before = here.residual;
       last = point_;
@@ -95,11 +95,12 @@ class Corrector {
       if (!steps.empty()) {
         next /= 1.0 - steps.back().dot(next) / steps.back().squaredNorm();
       }
-      if (!next.allFinite()) return;
+      if (!next.allFinite()) return false;
       point_ = moved_by(next);
       steps.push_back(std::move(next));
       ++iterations_;
     }
+    return false;
   }
 
   [[nodiscard]] NewtonResult newton_from(const BranchVector& start) const {
