@@ -23,6 +23,9 @@ class SlepcSession {
   [[nodiscard]] int n_ranks() const;
 };
 
+/// From here on, where cores are shared among curves and not within a matrix: the same bits for any number of
+/// workers. Does nothing for a BLAS other than OpenBLAS.
+void use_one_blas_thread();
 /// The BLAS loaded at run time and its threads, e.g. "OpenBLAS 0.3.21, 2 threads" or
 /// "reference BLAS (slow: install libopenblas0-pthread)".
 [[nodiscard]] std::string blas_description();

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/files/write_report.hpp"
 #include "pipelines/model/contact_stage.hpp"
@@ -72,6 +73,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     require_held(model, scene);
     require_curves(model, scene);
     record.stage("curves");
+    fem::use_one_blas_thread();
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.keep_harmonics(scene);
     record.stage("maps");

@@ -62,6 +62,10 @@ void set_blas_threads(int n_ranks_here) {
   set_threads(std::max(1, std::min(usable_threads(), hardware / std::max(1, n_ranks_here))));
 }
 
+void use_one_blas_thread() {
+  if (auto* set_threads = symbol<void(int)>("openblas_set_num_threads")) set_threads(1);
+}
+
 std::string blas_description() {
   if (auto* config = symbol<char*()>("openblas_get_config")) {
     auto* threads = symbol<int()>("openblas_get_num_threads");

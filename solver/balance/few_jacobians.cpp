@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
-
-#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
 
-constexpr int most_updates = 9;
+constexpr int most_updates = 6;
+constexpr int most_jacobians = 3;
 constexpr double falls = 0.3;  // a residual that falls by less asks for a Jacobian of its own
-constexpr double jumps =
-    3e-2;  // a predictor farther off, over the scale of forces, is no place for a chord
-
-using Factors = contact::LuFactors;
+// Residuals over the scale of forces:
+constexpr double far = 3e-2;  // no place for a chord
+constexpr double near =
+    3e-4;  // from here to the solution derivatives change by less than a plot shows
 
 class Corrector {
  public:
@@ -28,85 +27,77 @@ class Corrector {
         options_(options),
         tolerance_(std::max(options.tolerance, scaling.rounding)) {}
 
-  NewtonResult run(const BranchVector& start, const BalanceEvaluation& near) {
-    point_ = start;
-    if (!approach(factors_of(near))) return newton_from(point_);
-    NewtonResult at = evaluated(system_.whole, point_);
-    if (!(at.residual <= tolerance_)) return newton_from(point_);
+  NewtonResult run(const BranchVector& start) {
+    NewtonResult at = evaluated(system_.whole, start);
+    for (int i = 0; i < most_jacobians && at.residual <= far; ++i) {
+      if (at.residual <= tolerance_) return finished(std::move(at));
+      NewtonResult best = approached(at);
+      if (best.residual <= tolerance_ && at.residual <= near) {
+        best.evaluation.jacobian = std::move(at.evaluation.jacobian);
+        best.evaluation.parameter_derivative = std::move(at.evaluation.parameter_derivative);
+        best.tangent = std::move(tangent_);
+        return finished(std::move(best));
+      }
+      at = evaluated(system_.whole, std::move(best.point));
+    }
+    if (at.residual <= tolerance_) return finished(std::move(at));
+    NewtonResult result =
+        solve_newton(system_.whole, std::move(at), constraint_, scaling_, options_);
+    result.iterations += iterations_;
+    result.evaluations += evaluations_;
+    return result;
+  }
+
+ private:
+  [[nodiscard]] NewtonResult finished(NewtonResult at) const {
     at.converged = true;
     at.iterations = iterations_;
     at.evaluations = evaluations_;
     return at;
   }
 
- private:
-  [[nodiscard]] Factors factors_of(const BalanceEvaluation& at) const {
-    const Eigen::Index n = at.jacobian.rows();
-    Eigen::MatrixXd matrix(n + 1, n + 1);
-    matrix.topLeftCorner(n, n) = at.jacobian * (scaling_.x / scaling_.residual);
-    matrix.topRightCorner(n, 1) =
-        at.parameter_derivative * (scaling_.parameter / scaling_.residual);
-    matrix.row(n) << constraint_.x.transpose(), constraint_.parameter;
-    return Factors(matrix);
-  }
-
-  [[nodiscard]] Eigen::VectorXd step(const Factors& factors, const BalanceEvaluation& at) const {
+  [[nodiscard]] Eigen::VectorXd step(const contact::LuFactors& factors,
+                                     const BalanceEvaluation& at) const {
     Eigen::VectorXd right(at.residual.size() + 1);
     right << -at.residual / scaling_.residual, 0.0;
     return factors.solve(right);
   }
 
-  [[nodiscard]] BranchVector moved_by(const Eigen::VectorXd& scaled) const {
-    const Eigen::Index n = point_.x.size();
-    return {point_.x + scaling_.x * scaled.head(n),
-            point_.parameter + scaling_.parameter * scaled[n]};
+  [[nodiscard]] BranchVector moved(const BranchVector& from, const Eigen::VectorXd& scaled) const {
+    const Eigen::Index n = from.x.size();
+    return {from.x + scaling_.x * scaled.head(n), from.parameter + scaling_.parameter * scaled[n]};
   }
 
   [[nodiscard]] NewtonResult evaluated(const ParametricSystem& system, BranchVector point) {
-    NewtonResult result;
-    result.point = std::move(point);
-    result.evaluation = system(result.point.x, result.point.parameter);
     ++evaluations_;
-    const double size = result.evaluation.residual.norm() + result.evaluation.defect;
-    result.residual =
-        std::isfinite(size) ? size / scaling_.residual : std::numeric_limits<double>::infinity();
-    return result;
+    return evaluated_at(system, std::move(point), scaling_);
   }
 
-  /// Broyden's method by forces alone; the best point is left in point_. True: it meets the tolerance.
-  bool approach(const Factors& chord) {
+  /// Broyden's method by forces alone from a point with its Jacobian: the best point met.
+  [[nodiscard]] NewtonResult approached(const NewtonResult& from) {
+    const contact::LuFactors factors(bordered(from.evaluation, constraint_, scaling_));
+    tangent_ = branch_tangent(factors, constraint_);
     std::vector<Eigen::VectorXd> steps;
-    double before = std::numeric_limits<double>::infinity();
-    BranchVector last;
-    for (int i = 0; i <= most_updates; ++i) {
-      const NewtonResult here = evaluated(system_.residual, point_);
-      if (here.residual <= tolerance_) return true;
-      if (i == 0 && here.residual > jumps) return false;
-      if (i > 0 && !(here.residual < falls * before)) {
-        if (!(here.residual < before)) point_ = std::move(last);
-        return false;
-      }
-      before = here.residual;
-      last = point_;
-      Eigen::VectorXd next = step(chord, here.evaluation);
+    NewtonResult best;
+    best.point = from.point;
+    best.residual = from.residual;
+    const BalanceEvaluation* here = &from.evaluation;
+    for (int i = 0; i < most_updates; ++i) {
+      Eigen::VectorXd next = step(factors, *here);
       for (std::size_t j = 0; j + 1 < steps.size(); ++j) {
         next += steps[j + 1] * (steps[j].dot(next) / steps[j].squaredNorm());
       }
-      if (!steps.empty()) {
-        next /= 1.0 - steps.back().dot(next) / steps.back().squaredNorm();
-      }
-      if (!next.allFinite()) return false;
-      point_ = moved_by(next);
-      steps.push_back(std::move(next));
+      if (!steps.empty()) next /= 1.0 - steps.back().dot(next) / steps.back().squaredNorm();
+      if (!next.allFinite()) return best;
+      NewtonResult trial = evaluated(system_.residual, moved(best.point, next));
       ++iterations_;
+      const bool fell = trial.residual < falls * best.residual;
+      if (trial.residual < best.residual) best = std::move(trial);
+      if (!fell || best.residual <= tolerance_) return best;
+      here = &best.evaluation;
+      steps.push_back(std::move(next));
     }
-    return false;
-  }
-
-  [[nodiscard]] NewtonResult newton_from(const BranchVector& start) const {
-    NewtonResult result = solve_newton(system_.whole, start, constraint_, scaling_, options_);
-    result.evaluations += evaluations_;
-    return result;
+    return best;
   }
 
   const EconomicSystem& system_;
@@ -114,7 +105,7 @@ class Corrector {
   const Scaling& scaling_;
   const NewtonOptions& options_;
   double tolerance_;
-  BranchVector point_;
+  std::optional<Tangent> tangent_;  // at the last Jacobian that was factorised
   int iterations_ = 0;
   int evaluations_ = 0;
 };
@@ -123,8 +114,8 @@ class Corrector {
 
 NewtonResult solve_with_few_jacobians(const EconomicSystem& system, const BranchVector& start,
                                       const BranchVector& constraint, const Scaling& scaling,
-                                      const NewtonOptions& options, const BalanceEvaluation& near) {
-  return Corrector(system, constraint, scaling, options).run(start, near);
+                                      const NewtonOptions& options) {
+  return Corrector(system, constraint, scaling, options).run(start);
 }
 
 }  // namespace microslip::solver

@@ -1,10 +1,10 @@
 /// @file
 /// A corrector for steps along a branch that evaluates one Jacobian: forces alone cost several times less.
 ///
-///   B₀ from a solved point near by;   B₀ s₀ = −R(y₀);   B_{i+1} = B_i + R_{i+1} s_iᵀ / (s_iᵀ s_i)     (Broyden)
+///   J₀ at the guess y₀;   J₀ s₀ = −R(y₀);   J_{i+1} = J_i + R_{i+1} s_iᵀ / (s_iᵀ s_i)     (Broyden)
 ///
-/// until ‖R‖ meets the tolerance; there the Jacobian. Where the residual does not fall as it should (a kink, a
-/// turn), what remains is Newton's method from the best point found.
+/// until ‖R‖ meets the tolerance. Where the residual does not fall as it should (a kink, a turn), a new Jacobian
+/// at the best point found; what is far from any solution is left to Newton's method with its line search.
 ///
 /// Source: C. G. Broyden, Math. Comp. 19 (1965) 577–593; in the form of C. T. Kelley, Iterative Methods for
 /// Linear and Nonlinear Equations, SIAM 1995, section 7.3.
@@ -20,10 +20,12 @@ struct EconomicSystem {
   ParametricSystem residual;
 };
 
-/// @param near   evaluation with its Jacobian at a point close by.
-/// @return as solve_newton(), not polished.
-[[nodiscard]] NewtonResult solve_with_few_jacobians(
-    const EconomicSystem& system, const BranchVector& start, const BranchVector& constraint,
-    const Scaling& scaling, const NewtonOptions& options, const BalanceEvaluation& near);
+/// @return as solve_newton(), not polished. Residual and force are those of the point; its derivatives those of the
+///         point the last Jacobian was made at, if the residual there was below 3e-4 of its scale.
+[[nodiscard]] NewtonResult solve_with_few_jacobians(const EconomicSystem& system,
+                                                    const BranchVector& start,
+                                                    const BranchVector& constraint,
+                                                    const Scaling& scaling,
+                                                    const NewtonOptions& options);
 
 }  // namespace microslip::solver

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "contact/dense.hpp"
-
 namespace microslip::solver {
 namespace {
 
@@ -17,26 +15,13 @@ constexpr double polished_below = 5e-11;  // a tolerance above asks for no more 
 constexpr double rounding = 1e-16;
 constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
-/// [∂R/∂x σ_x/ρ   ∂R/∂p σ_p/ρ]
-/// [    c_x           c_p     ]     ρ the scale of the residual
-Eigen::MatrixXd bordered(const BalanceEvaluation& at, const BranchVector& row,
-                         const Scaling& scaling) {
-  const Eigen::Index n = at.residual.size();
-  Eigen::MatrixXd matrix(n + 1, n + 1);
-  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
-  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
-  matrix.bottomLeftCorner(1, n) = row.x.transpose();
-  matrix(n, n) = row.parameter;
-  return matrix;
-}
-
 class Iteration {
  public:
   Iteration(const ParametricSystem& system, const BranchVector& constraint, const Scaling& scaling)
       : system_(system), constraint_(constraint), scaling_(scaling) {}
 
-  NewtonResult run(const BranchVector& start, const NewtonOptions& options) {
-    move_to(start);
+  NewtonResult run(NewtonResult start, const NewtonOptions& options) {
+    now_ = std::move(start);
     const double tolerance = std::max(options.tolerance, scaling_.rounding);
     for (int i = 0; i < options.max_iterations && now_.residual > tolerance; ++i) {
       if (!step(i)) break;
@@ -48,27 +33,10 @@ class Iteration {
   }
 
  private:
-  [[nodiscard]] NewtonResult evaluated(BranchVector point) const {
-    NewtonResult result;
-    result.point = std::move(point);
-    result.evaluation = system_(result.point.x, result.point.parameter);
-    // A residual that is not known cannot be small.
-    const double size = result.evaluation.residual.norm() + result.evaluation.defect;
-    result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite()
-                          ? size / scaling_.residual
-                          : std::numeric_limits<double>::infinity();
-    return result;
-  }
-
   void move_to(NewtonResult next) {
     next.iterations = now_.iterations;
     next.evaluations = now_.evaluations;
     now_ = std::move(next);
-  }
-
-  void move_to(const BranchVector& point) {
-    move_to(evaluated(point));
-    ++now_.evaluations;
   }
 
   [[nodiscard]] BranchVector newton_step() const {
@@ -83,8 +51,9 @@ class Iteration {
 
   [[nodiscard]] NewtonResult stepped(const BranchVector& step, double length) {
     ++now_.evaluations;
-    return evaluated(
-        {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter});
+    return evaluated_at(
+        system_, {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter},
+        scaling_);
   }
 
   /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step
@@ -141,10 +110,44 @@ class Iteration {
 
 }  // namespace
 
+Eigen::MatrixXd bordered(const BalanceEvaluation& at, const BranchVector& row,
+                         const Scaling& scaling) {
+  const Eigen::Index n = at.residual.size();
+  Eigen::MatrixXd matrix(n + 1, n + 1);
+  matrix.topLeftCorner(n, n) = at.jacobian * (scaling.x / scaling.residual);
+  matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
+  matrix.bottomLeftCorner(1, n) = row.x.transpose();
+  matrix(n, n) = row.parameter;
+  return matrix;
+}
+
+NewtonResult evaluated_at(const ParametricSystem& system, BranchVector point,
+                          const Scaling& scaling) {
+  NewtonResult result;
+  result.point = std::move(point);
+  result.evaluation = system(result.point.x, result.point.parameter);
+  // A residual that is not known cannot be small.
+  const double size = result.evaluation.residual.norm() + result.evaluation.defect;
+  result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite()
+                        ? size / scaling.residual
+                        : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+NewtonResult solve_newton(const ParametricSystem& system, NewtonResult start,
+                          const BranchVector& constraint, const Scaling& scaling,
+                          const NewtonOptions& options) {
+  start.iterations = start.evaluations = 0;
+  return Iteration(system, constraint, scaling).run(std::move(start), options);
+}
+
 NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
                           const BranchVector& constraint, const Scaling& scaling,
                           const NewtonOptions& options) {
-  return Iteration(system, constraint, scaling).run(start, options);
+  NewtonResult result =
+      solve_newton(system, evaluated_at(system, start, scaling), constraint, scaling, options);
+  ++result.evaluations;
+  return result;
 }
 
 NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
@@ -168,11 +171,12 @@ std::optional<BranchVector> null_vector(const BalanceEvaluation& at, const Scali
 
 Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                        const Scaling& scaling) {
-  const Eigen::Index n = at.residual.size();
-  const contact::LuFactors factors(bordered(at, previous, scaling));
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 1);
-  right[n] = 1.0;
-  Eigen::VectorXd y = factors.solve(right);
+  return branch_tangent(contact::LuFactors(bordered(at, previous, scaling)), previous);
+}
+
+Tangent branch_tangent(const contact::LuFactors& factors, const BranchVector& previous) {
+  const Eigen::Index n = previous.x.size();
+  Eigen::VectorXd y = factors.solve(Eigen::VectorXd::Unit(n + 1, n));
   Tangent tangent;
   if (!y.allFinite()) {  // the branch turns by a right angle here: go on straight
     tangent.direction = previous;

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "contact/dense.hpp"
 #include "solver/balance/harmonic_balance.hpp"
 
 namespace microslip::solver {
@@ -36,6 +37,12 @@ struct NewtonOptions {
   int max_iterations = 15;
 };
 
+/// Tangent of the branch in scaled variables, of length one.
+struct Tangent {
+  BranchVector direction;
+  double orientation = 0.0;  ///< sign of det [∂R/∂y; tᵀ]: constant along a branch, kinks included
+};
+
 struct NewtonResult {
   BranchVector point;
   BalanceEvaluation evaluation;  ///< at `point`
@@ -43,6 +50,9 @@ struct NewtonResult {
   int iterations = 0;            ///< Newton steps until the tolerance was met
   int evaluations = 0;
   bool converged = false;
+  /// Where the last Jacobian was factorised with the constraint: in the scaling and at less than 90° to the
+  /// constraint of the solve.
+  std::optional<Tangent> tangent;
 };
 
 /// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration goes on while
@@ -52,19 +62,31 @@ struct NewtonResult {
                                         const BranchVector& constraint, const Scaling& scaling,
                                         const NewtonOptions& options);
 
+/// The same from a point that is evaluated already; `evaluations` counts those that follow.
+[[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, NewtonResult start,
+                                        const BranchVector& constraint, const Scaling& scaling,
+                                        const NewtonOptions& options);
+
+/// A point with its residual, ∞ where something is not finite; counts nothing.
+[[nodiscard]] NewtonResult evaluated_at(const ParametricSystem& system, BranchVector point,
+                                        const Scaling& scaling);
+
+/// [∂R/∂x σ_x/ρ   ∂R/∂p σ_p/ρ]
+/// [    c_x           c_p     ]     ρ the scale of the residual, c a row in scaled variables
+[[nodiscard]] Eigen::MatrixXd bordered(const BalanceEvaluation& at, const BranchVector& row,
+                                       const Scaling& scaling);
+
 /// Newton at a fixed parameter.
 [[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
                                         const Scaling& scaling, const NewtonOptions& options);
 
-/// Tangent of the branch in scaled variables, of length one.
-struct Tangent {
-  BranchVector direction;
-  double orientation = 0.0;  ///< sign of det [∂R/∂y; tᵀ]: constant along a branch, kinks included
-};
-
 /// @param previous  last tangent; the new one makes an angle below 90° with it.
 [[nodiscard]] Tangent branch_tangent(const BalanceEvaluation& at, const BranchVector& previous,
                                      const Scaling& scaling);
+
+/// The same from the factors of bordered() with `previous`.
+[[nodiscard]] Tangent branch_tangent(const contact::LuFactors& factors,
+                                     const BranchVector& previous);
 
 /// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ] the sign
 /// of `orientation`. Empty: the Jacobian is not finite or loses rank twice.

@@ -11,6 +11,9 @@ namespace {
 
 // Lengths in scaled variables: a share of the amplitude, or of the width of the nearest resonance.
 constexpr double longest_step = 0.2;
+// The same with several harmonics, each of which may have a resonance near by that moves little:
+// what bends is seen by the angle.
+constexpr double longest_learned_step = 0.5;
 constexpr double longest_leap = 0.05;  // over a kink; farther on may be another branch
 constexpr double shortest_step = 1e-7;
 // Below this a sharp turn is taken for a kink of the branch, not for a step that was too long.
@@ -21,7 +24,11 @@ constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look a
 constexpr double angle_wanted = 0.13;  // rad per step
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
-constexpr int wanted_updates = 6;  // of Broyden's method, by forces alone
+constexpr int wanted_updates = 4;  // of Broyden's method, by forces alone
+// Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
+constexpr double exact_share = 1e-13;
+// A sampled force has a kink at each instant; below this share one cannot be told from a turn.
+constexpr double sampled_share = 1e-6;
 
 }  // namespace
 
@@ -58,18 +65,25 @@ BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double 
   trial.correction = length(difference(solution.point, predicted, now_.scaling)) / distance;
   const Scaling scaling = rule_(solution);
   const BranchVector previous = rescaled(direction, now_.scaling, scaling);
-  const Tangent tangent = branch_tangent(solution.evaluation, previous, scaling);
+  const Tangent tangent = tangent_at(solution, previous, scaling);
   trial.cosine = dot(tangent.direction, previous);
   trial.orientation = tangent.orientation;
   trial.point = {std::move(solution), tangent.direction, scaling};
   return trial;
 }
 
+/// In another scaling than that of the solve, now_'s.
+Tangent BranchWalker::tangent_at(const NewtonResult& at, const BranchVector& previous,
+                                 const Scaling& scaling) const {
+  if (!at.tangent) return branch_tangent(at.evaluation, previous, scaling);
+  return {rescaled(at.tangent->direction, now_.scaling, scaling), at.tangent->orientation};
+}
+
 NewtonResult BranchWalker::solved(const BranchVector& predicted, const BranchVector& direction,
                                   const NewtonOptions& options) const {
   if (!residual_) return solve_newton(system_, predicted, direction, now_.scaling, options);
-  return solve_with_few_jacobians({system_, residual_}, predicted, direction, now_.scaling, options,
-                                  now_.solution.evaluation);
+  return solve_with_few_jacobians({system_, residual_}, predicted, direction, now_.scaling,
+                                  options);
 }
 
 bool BranchWalker::smooth(const Trial& trial) const {
@@ -103,7 +117,8 @@ void BranchWalker::choose_step(const Trial& trial) {
       std::sqrt(static_cast<double>(wanted) / std::max(trial.point.solution.iterations, 1));
   const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
   const double bend = angle > 0.0 ? angle_wanted / angle : 2.0;
-  step_ = std::min(longest_step, step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
+  step_ = std::min(residual_ ? longest_learned_step : longest_step,
+                   step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
 }
 
 BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
@@ -196,18 +211,29 @@ bool BranchWalker::leap() {
   return false;
 }
 
+NewtonResult BranchWalker::solved_between(const BranchVector& start,
+                                          const BranchVector& chord) const {
+  if (residual_) {
+    return solve_with_few_jacobians({system_, residual_}, start, chord, now_.scaling,
+                                    {.tolerance = tolerance_});
+  }
+  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
+  return solve_newton(system_, start, chord, now_.scaling, {.tolerance = 1e-14});
+}
+
+double BranchWalker::resolution() const { return residual_ ? sampled_share : exact_share; }
+
 /// On the plane through the start across the chord.
 std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
                                                    const BranchVector& chord) const {
   const Scaling& scaling = now_.scaling;
-  // Next to a kink an iterate of the wrong side meets the usual tolerance, with the wrong tangent.
-  NewtonResult solution = solve_newton(system_, start, chord, scaling, {.tolerance = 1e-14});
+  NewtonResult solution = solved_between(start, chord);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;
   const double tolerance = std::max(tolerance_, scaling.rounding);
   if (!(solution.residual <= tolerance)) return std::nullopt;
   solution.converged = true;
-  Tangent tangent = branch_tangent(solution.evaluation, chord, scaling);
+  Tangent tangent = tangent_at(solution, chord, scaling);
   // Within a sharp turn the branch may run against the chord; the determinant tells.
   const bool known = orientation_ != 0.0 && orientation_ == before_orientation_;
   if (known && tangent.orientation == -orientation_) {

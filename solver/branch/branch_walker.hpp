@@ -61,6 +61,8 @@ class BranchWalker {
   /// @return empty: Newton's method failed from all of them.
   [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
                                                  double share) const;
+  /// Share of a step below which places on it differ by the errors of the force alone.
+  [[nodiscard]] double resolution() const;
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
   [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
 
@@ -96,6 +98,10 @@ class BranchWalker {
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
                                                      const BranchVector& chord) const;
+  [[nodiscard]] Tangent tangent_at(const NewtonResult& at, const BranchVector& previous,
+                                   const Scaling& scaling) const;
+  [[nodiscard]] NewtonResult solved_between(const BranchVector& start,
+                                            const BranchVector& chord) const;
   [[nodiscard]] NewtonResult solved(const BranchVector& predicted, const BranchVector& direction,
                                     const NewtonOptions& options) const;
 

@@ -10,12 +10,10 @@
 namespace microslip::solver {
 namespace {
 
-// Of a segment, which is at most a fifth of a resonance wide: below it are rounding errors only.
-constexpr double finest_share = 1e-13;
 // A bracket that Newton's method does not make shorter than this tells the place to eight digits.
 constexpr double rounding_share = 1e-8;
 constexpr int max_cuts =
-    90;  // bisection alone needs 44 for the finest share, and a third are bisections
+    90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
 // One that is this large where the cubic has its extremum does not; below, parabolas look closer.
@@ -236,9 +234,10 @@ class Segment {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;
     double high_weight = high.value.slope;
-    const double enough = 1e-14 * std::max(std::abs(low_weight), std::abs(high_weight));
+    const double enough =
+        0.1 * walker_.resolution() * std::max(std::abs(low_weight), std::abs(high_weight));
     std::optional<SpecialPoint> best;
-    for (int i = 0; i < max_cuts && high.at.share - low.at.share > finest_share; ++i) {
+    for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
       const double cut = low_weight / (low_weight - high_weight);
       std::optional<Node> point = inside(low, high, i % 3 == 2 ? 0.5 : cut);
       if (!point) return unsolved(low, high);
@@ -260,7 +259,8 @@ class Segment {
                                    : std::abs(low.value.slope) < std::abs(high.value.slope);
     const Node& nearer = low_is_nearer ? low : high;
     // Within rounding of the zero nothing is missing.
-    const bool solved = high.at.share - low.at.share < rounding_share;
+    const bool solved =
+        high.at.share - low.at.share < std::max(rounding_share, walker_.resolution());
     return {nearer.at.share, nearer.at.point.solution, kind_, solved};
   }
 

@@ -32,6 +32,13 @@ bool on_the_branch(const WalkerPoint& last, const BranchVector& next) {
          same_branch * size + std::min(along, longest_extrapolation * size);
 }
 
+/// det ∂R/∂x = det [∂R/∂y; tᵀ] t_ω; empty: no tangent came with the solution.
+std::optional<double> sign_of_determinant(const NewtonResult& at) {
+  if (!at.tangent || at.tangent->orientation == 0.0) return std::nullopt;
+  const double along = at.tangent->direction.parameter;
+  return at.tangent->orientation * (along > 0.0 ? 1.0 : (along < 0.0 ? -1.0 : 0.0));
+}
+
 const char* stall_name(Stall stall) {
   if (stall == Stall::fold) return "fold-lost";
   return stall == Stall::chatter ? "event-chatter" : "newton-stall";
@@ -57,7 +64,8 @@ double CurveTracer::progress(double frequency) const {
 
 StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
   if (last_x_.size() != at.point.x.size() || last_x_ != at.point.x) {
-    last_stability_ = slow_flow_stability(*balance_, at.evaluation.jacobian, at.point.parameter);
+    last_stability_ = slow_flow_stability(*balance_, at.evaluation.jacobian, at.point.parameter,
+                                          sign_of_determinant(at));
     last_x_ = at.point.x;
   }
   return last_stability_;

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
+#include "contact/dense.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/enrichment/enrichment.hpp"
 
@@ -21,12 +20,12 @@ std::vector<DroppedHarmonic> dropped_harmonics(const HarmonicBalance& balance,
   matrix.topRightCorner(n, 1) = at.parameter_derivative * (scaling.parameter / scaling.residual);
   const BranchVector border = border_of(peak);
   matrix.row(n) << border.x.transpose(), border.parameter;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
+  const contact::LuFactors factors(matrix);
   const OutputAmplitude output =
       output_amplitude(balance.harmonics(peak.point.x), balance.scene().output);
   Eigen::VectorXd goal = Eigen::VectorXd::Zero(n + 1);
   goal.head(n) = balance.unknowns(output.gradient);
-  const Eigen::VectorXd adjoint = factors.transpose().solve(goal);
+  const Eigen::VectorXd adjoint = factors.solve_transposed(goal);
   std::vector<DroppedHarmonic> result;
   const Eigen::Index size = 2 * balance.scene().n_modes();
   Eigen::Index first = balance.scene().n_modes();
@@ -34,7 +33,7 @@ std::vector<DroppedHarmonic> dropped_harmonics(const HarmonicBalance& balance,
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(n + 1, size);
     unit.middleRows(first, size).setIdentity();
     const Eigen::MatrixXd own = factors.solve(unit).middleRows(first, size);
-    const Eigen::VectorXd force = own.partialPivLu().solve(-peak.point.x.segment(first, size));
+    const Eigen::VectorXd force = contact::solved(own, -peak.point.x.segment(first, size));
     const double change = adjoint.segment(first, size).dot(force) / output.half_peak_to_peak;
     result.push_back(
         {order, std::isfinite(change) ? change : std::numeric_limits<double>::infinity()});

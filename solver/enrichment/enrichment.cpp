@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
-
+#include "contact/dense.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/branch_geometry.hpp"
 
@@ -18,8 +17,6 @@ constexpr double longest_step = 0.3;  // of the amplitude or the width: beyond, 
 // Along the branch, in scaled variables: curvature is of order one, and rounding of the forces some
 // 1e-12.
 constexpr double difference_step = 1e-3;
-
-using Factors = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
 /// [∂R/∂x σ_x/ρ, ∂R/∂ω σ_ω/ρ], n × (n+1)
 Eigen::MatrixXd scaled_rows(const BalanceEvaluation& at, const Scaling& scaling) {
@@ -57,8 +54,8 @@ class Bordered {
     matrix.topRows(n_) = scaled_rows(at, peak.scaling);
     const BranchVector border = border_of(peak);
     matrix.row(n_) << border.x.transpose(), border.parameter;
-    factors_.compute(matrix);
-    adjoint_ = factors_.transpose().solve(goal_.gradient);
+    factors_.emplace(matrix);
+    adjoint_ = factors_->solve_transposed(goal_.gradient);
   }
 
   [[nodiscard]] const Goal& goal() const { return goal_; }
@@ -71,15 +68,15 @@ class Bordered {
   [[nodiscard]] Eigen::VectorXd step() const {
     Eigen::VectorXd right(n_ + 1);
     right << -residual_, 0.0;
-    return factors_.solve(right);
+    return factors_->solve(right);
   }
 
   [[nodiscard]] Eigen::VectorXd tangent() const {
-    return factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_));
+    return factors_->solve(Eigen::VectorXd::Unit(n_ + 1, n_));
   }
 
   [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& right) const {
-    return factors_.transpose().solve(right);
+    return factors_->solve_transposed(right);
   }
 
   /// g_z by central differences along the branch.
@@ -102,7 +99,7 @@ class Bordered {
   Eigen::Index n_;
   Goal goal_;
   Eigen::VectorXd residual_;
-  Factors factors_;
+  std::optional<contact::LuFactors> factors_;
   Eigen::VectorXd adjoint_;
 };
 

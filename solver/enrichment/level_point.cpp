@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/few_jacobians.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/enrichment/enrichment.hpp"
@@ -50,20 +51,31 @@ class Climb {
  private:
   [[nodiscard]] bool is_bracketed() const { return rising_ && falling_; }
 
-  [[nodiscard]] std::optional<Step> solved(const BranchVector& guess, const BranchVector& row,
-                                           const BranchVector& tangent) {
-    const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
+  [[nodiscard]] NewtonResult corrected(const BranchVector& guess, const BranchVector& row) const {
+    const ParametricSystem whole = [&](const Eigen::VectorXd& x, double frequency) {
       return balance_.evaluate(x, frequency);
     };
-    NewtonOptions options;
-    options.tolerance = tolerance;
-    const NewtonResult at = solve_newton(system, guess, row, start_.scaling, options);
+    const NewtonOptions options{.tolerance = tolerance};
+    if (range_.corrector == ContinuationOptions::Corrector::newton) {
+      return solve_newton(whole, guess, row, start_.scaling, options);
+    }
+    const ParametricSystem residual = [&](const Eigen::VectorXd& x, double frequency) {
+      return balance_.residual(x, frequency);
+    };
+    return solve_with_few_jacobians({whole, residual}, guess, row, start_.scaling, options);
+  }
+
+  [[nodiscard]] std::optional<Step> solved(const BranchVector& guess, const BranchVector& row,
+                                           const BranchVector& tangent) {
+    const NewtonResult at = corrected(guess, row);
     work_.iterations += at.iterations;
     work_.contact_evaluations += at.evaluations;
     if (!at.converged) return std::nullopt;
     Step step;
     step.point = at.point;
-    step.tangent = branch_tangent(at.evaluation, tangent, start_.scaling).direction;
+    const Tangent along =
+        at.tangent ? *at.tangent : branch_tangent(at.evaluation, tangent, start_.scaling);
+    step.tangent = along.direction;
     const OutputAmplitude output =
         output_amplitude(balance_.harmonics(at.point.x), balance_.scene().output);
     step.amplitude = output.half_peak_to_peak;

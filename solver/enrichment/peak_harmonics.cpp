@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "solver/enrichment/dropped_harmonics.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/enrichment/resonant_orders.hpp"

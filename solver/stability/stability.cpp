@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,9 @@ constexpr double growth_tolerance = 1e-10;
 constexpr double slow_share = 0.25;  // of ω
 // Of Hill's problem: some 0.1 s for its eigenvectors.
 constexpr Eigen::Index most_states = 160;
+// Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
+// springs.
+constexpr double reach_of_width = 6.0;
 // Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
 constexpr double real_tolerance = 1e-6;
 // Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
@@ -37,10 +41,11 @@ double sign_of_determinant(const Eigen::MatrixXd& matrix) {
   return contact::LuFactors(matrix).sign_of_determinant();
 }
 
-/// A balance reduced to some of its harmonics: the others follow without inertia or memory of their own,
-/// J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
+/// A balance reduced to some harmonics of some modes: what is left out follows without inertia or memory of its
+/// own, J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
 struct Reduced {
   std::vector<int> orders;
+  std::vector<Eigen::Index> modes;
   Eigen::MatrixXd jacobian;
 };
 
@@ -54,6 +59,21 @@ std::vector<int> slow_orders(const HarmonicBalance& balance, double frequency) {
   return kept;
 }
 
+std::vector<Eigen::Index> all_modes(const Scene& scene) {
+  std::vector<Eigen::Index> modes(static_cast<std::size_t>(scene.n_modes()));
+  std::iota(modes.begin(), modes.end(), Eigen::Index{0});
+  return modes;
+}
+
+/// Modes that a cycle's first harmonics can move; those far above follow like springs.
+std::vector<Eigen::Index> low_modes(const Scene& scene, double frequency, double reach) {
+  std::vector<Eigen::Index> modes;
+  for (Eigen::Index i = 0; i < scene.n_modes(); ++i) {
+    if (scene.natural_frequency[i] <= reach * frequency) modes.push_back(i);
+  }
+  return modes.empty() ? all_modes(scene) : modes;
+}
+
 /// As many as Hill's problem can hold.
 std::vector<int> low_orders(const HarmonicBalance& balance) {
   const auto room = static_cast<std::size_t>(most_states / (4 * balance.scene().n_modes()));
@@ -63,16 +83,23 @@ std::vector<int> low_orders(const HarmonicBalance& balance) {
 }
 
 Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                std::vector<int> orders) {
+                std::vector<int> orders, std::vector<Eigen::Index> modes) {
   const Eigen::Index n = balance.scene().n_modes();
-  Reduced result{std::move(orders), {}};
+  Reduced result{std::move(orders), std::move(modes), {}};
   std::vector<Eigen::Index> low;
   std::vector<Eigen::Index> high;
-  for (Eigen::Index i = 0; i < n; ++i) low.push_back(i);
+  const auto take = [&](Eigen::Index first, bool kept) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const bool is_low = kept && std::binary_search(result.modes.begin(), result.modes.end(), i);
+      (is_low ? low : high).push_back(first + i);
+    }
+  };
+  take(0, true);
   Eigen::Index first = n;
   for (const int k : balance.set().orders()) {
     const bool kept = std::binary_search(result.orders.begin(), result.orders.end(), k);
-    for (Eigen::Index i = first; i < first + 2 * n; ++i) (kept ? low : high).push_back(i);
+    take(first, kept);
+    take(first + n, kept);
     first += 2 * n;
   }
   result.jacobian = jacobian(low, low);
@@ -83,20 +110,22 @@ Reduced reduced(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
   return result;
 }
 
-Eigen::ArrayXd damping_of(const Scene& scene) {
-  return 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+/// Of the modes kept.
+Eigen::VectorXd damping_of(const Scene& scene, const Reduced& balance) {
+  return 2.0 *
+         scene.damping_ratio(balance.modes).cwiseProduct(scene.natural_frequency(balance.modes));
 }
 
 /// States (B, A^(1), …, A^(H), Ḃ): −M⁻¹ ∂R/∂x for the harmonics, second order for the mean.
 Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double frequency) {
-  const Eigen::Index n = scene.n_modes();
+  const auto n = static_cast<Eigen::Index>(balance.modes.size());
   const Eigen::MatrixXd& jacobian = balance.jacobian;
   const Eigen::Index size = jacobian.rows();
-  const Eigen::ArrayXd damping = damping_of(scene);
+  const Eigen::VectorXd damping = damping_of(scene, balance);
   Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(size + n, size + n);
   flow.block(0, size, n, n).setIdentity();
   flow.block(size, 0, n, size) = -jacobian.topRows(n);
-  flow.block(size, size, n, n).diagonal() = -damping.matrix();
+  flow.block(size, size, n, n).diagonal() = -damping;
   Eigen::Index s = n;
   for (const int k : balance.orders) {
     const Eigen::Index c = s + n;
@@ -116,9 +145,9 @@ Eigen::MatrixXd slow_flow(const Scene& scene, const Reduced& balance, double fre
 
 /// Hill's problem as a first-order one in (p, λp/ω), eigenvalues over ω.
 Eigen::MatrixXd hill_matrix(const Scene& scene, const Reduced& balance, double frequency) {
-  const Eigen::Index n = scene.n_modes();
+  const auto n = static_cast<Eigen::Index>(balance.modes.size());
   const Eigen::Index size = balance.jacobian.rows();
-  const Eigen::VectorXd damping = damping_of(scene).matrix() / frequency;
+  const Eigen::VectorXd damping = damping_of(scene, balance) / frequency;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * size, 2 * size);
   matrix.topRightCorner(size, size).setIdentity();
   matrix.bottomLeftCorner(size, size) = -balance.jacobian / (frequency * frequency);
@@ -187,11 +216,14 @@ bool is_damped_linear(const Scene& scene) {
 }  // namespace
 
 StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
-                                    double frequency) {
+                                    double frequency, std::optional<double> determinant_sign) {
   StabilityReport report;
-  report.determinant_sign = sign_of_determinant(jacobian);
+  report.determinant_sign = determinant_sign ? *determinant_sign : sign_of_determinant(jacobian);
+  const Scene& scene = balance.scene();
+  const bool single = balance.set().highest() == 1;
+  const auto modes = single ? all_modes(scene) : low_modes(scene, frequency, reach_of_width);
   const Eigen::MatrixXd flow = slow_flow(
-      balance.scene(), reduced(balance, jacobian, slow_orders(balance, frequency)), frequency);
+      scene, reduced(balance, jacobian, slow_orders(balance, frequency), modes), frequency);
   if (!flow.allFinite()) return report;
   const auto values = contact::general_eigenvalues(flow);
   if (!values) return report;
@@ -220,12 +252,12 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
-  const Reduced low = reduced(balance, jacobian, low_orders(balance));
+  const Reduced low = reduced(balance, jacobian, low_orders(balance), all_modes(scene));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
   const auto pairs = contact::general_pairs(matrix);
   if (!pairs) return report;
-  const Eigen::Index n = scene.n_modes();
+  const auto n = static_cast<Eigen::Index>(low.modes.size());
   const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
   std::vector<std::pair<double, Eigen::Index>> centres;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {

@@ -20,6 +20,8 @@
 /// none of this: with every natural frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "solver/balance/harmonic_balance.hpp"
@@ -38,8 +40,8 @@ struct StabilityReport {
 
 /// By the slow flow alone: what one harmonic is judged by, and the width of resonances for any number.
 [[nodiscard]] StabilityReport slow_flow_stability(const HarmonicBalance& balance,
-                                                  const Eigen::MatrixXd& jacobian,
-                                                  double frequency);
+                                                  const Eigen::MatrixXd& jacobian, double frequency,
+                                                  std::optional<double> determinant_sign = {});
 
 /// The same judged by Hill's exponents where there are several harmonics and the scene is no damped linear one.
 /// @param slow  slow_flow_stability() of the same point.

@@ -36,7 +36,7 @@ struct Bench {
   }
 
   [[nodiscard]] NewtonResult solved(const BranchVector& guess) {
-    return solve_with_few_jacobians(system, guess, hold, scaling, {}, at.evaluation);
+    return solve_with_few_jacobians(system, guess, hold, scaling, {});
   }
 
   Scene scene;
@@ -62,7 +62,9 @@ TEST(FewJacobians, OneJacobianLeadsToTheSolutionOfNewtonsMethod) {
     ASSERT_TRUE(expected.converged);
     EXPECT_LT((found.point.x - expected.point.x).norm(), 1e-8 * expected.point.x.norm());
     const BalanceEvaluation there = bench.balance->evaluate(found.point.x, frequency);
-    EXPECT_LT((there.jacobian - found.evaluation.jacobian).norm(), 1e-12 * there.jacobian.norm());
+    // Made at the guess, which is near.
+    EXPECT_LT((there.jacobian - found.evaluation.jacobian).norm(), 1e-2 * there.jacobian.norm());
+    EXPECT_LT((there.residual - found.evaluation.residual).norm(), 1e-14 * bench.scaling.residual);
     std::printf("%g N: %d forces and one Jacobian\n", preload, bench.n_residual);
   }
 }
