@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include <Eigen/Eigenvalues>
+#include "contact/dense.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -28,11 +29,12 @@ void add_resonant(const HarmonicBalance& balance, const BranchVector& at,
   const Scene& scene = balance.scene();
   Eigen::MatrixXd matrix = stiffness;
   matrix.diagonal() += scene.natural_frequency.cwiseAbs2();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrix);
+  const std::optional<contact::SymmetricPairs> modes = contact::symmetric_pairs(matrix);
+  if (!modes) return;
   const Eigen::VectorXd rates = 2.0 * scene.damping_ratio.cwiseProduct(scene.natural_frequency);
   for (Eigen::Index j = 0; j < matrix.rows(); ++j) {
-    const double natural = std::sqrt(std::max(0.0, modes.eigenvalues()[j]));
-    const Eigen::VectorXd shape = modes.eigenvectors().col(j);
+    const double natural = std::sqrt(std::max(0.0, modes->values[j]));
+    const Eigen::VectorXd shape = modes->vectors.col(j);
     const double rate = shape.cwiseAbs2().dot(rates);  // 2 ζ_j ω_j
     for (int k = 1; k <= force.n_harmonics(); ++k) {
       const double frequency = k * at.parameter;
