@@ -59,10 +59,12 @@ SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights,
   start(shapes);
 }
 
-SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights, Eigen::VectorXd load_at_rest,
+SleepingLaws::SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
                            std::vector<std::optional<LinearRange>> ranges,
                            const ModalShapes& shapes)
-    : weights_(weights), load_at_rest_(std::move(load_at_rest)), range_(std::move(ranges)) {
+    : weights_(std::move(weights)),
+      load_at_rest_(std::move(load_at_rest)),
+      range_(std::move(ranges)) {
   start(shapes);
 }
 

@@ -46,7 +46,7 @@ class SleepingLaws {
   SleepingLaws(const Eigen::VectorXd& weights,
                const std::vector<std::shared_ptr<const PointLaw>>& laws, const ModalShapes& shapes);
   /// The same for points known by their constants.
-  SleepingLaws(const Eigen::VectorXd& weights, Eigen::VectorXd load_at_rest,
+  SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
                std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
 
   /// What every point is proved to do.

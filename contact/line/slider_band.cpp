@@ -15,7 +15,8 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 double rate_bound(const Eigen::VectorXd& y) {
   double sum = 0.0;
   for (Eigen::Index k = 1; k < y.size(); ++k) {
-    sum += static_cast<double>((k + 1) / 2) * std::abs(y[k]);
+    const Eigen::Index h = (k + 1) / 2;
+    sum += static_cast<double>(h) * std::abs(y[k]);
   }
   return sum;
 }

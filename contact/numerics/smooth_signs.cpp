@@ -1,6 +1,7 @@
 #include "contact/numerics/smooth_signs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -37,7 +38,7 @@ double value(const Series& c, double x) {
 
 Tables make_tables() {
   Tables t;
-  Square half_values[2];
+  std::array<Square, 2> half_values;
   for (int i = 0; i < n; ++i) {
     t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n);
     for (int k = 0; k < n; ++k) {

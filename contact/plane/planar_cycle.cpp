@@ -102,8 +102,7 @@ void add_free_slip(const PlanarMotion& motion, const Intervals& intervals, Point
 
 }  // namespace
 
-PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance)
-    : law_(std::move(law)), tolerance_(tolerance) {
+PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance) : law_(law), tolerance_(tolerance) {
   if (!(tolerance >= 1e-13 && tolerance <= 1e-2)) {
     throw std::invalid_argument("PlanarLaw: tolerance " + std::to_string(tolerance) +
                                 "; expected 1e-13 to 1e-2");

@@ -312,7 +312,7 @@ Eigen::Vector2d SlipStep::slider_at(double x) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double total = 0.0;
   for (std::size_t j = 0; j < point.size(); ++j) {
-    const Eigen::Vector2d value =
+    Eigen::Vector2d value =
         j == 0 ? slider : Eigen::Vector2d(stage.col(static_cast<Eigen::Index>(j) - 1));
     if (x == point[j]) return value;
     const double w = weight[j] / (x - point[j]);
@@ -328,7 +328,7 @@ Eigen::Vector2d SlipStep::direction_at(double x) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double total = 0.0;
   for (std::size_t j = 0; j < node.size(); ++j) {
-    const Eigen::Vector2d value = direction.col(static_cast<Eigen::Index>(j));
+    Eigen::Vector2d value = direction.col(static_cast<Eigen::Index>(j));
     if (x == node[j]) return value;
     const double w = weight[j] / (x - node[j]);
     sum += w * value;

@@ -156,7 +156,7 @@ class FixedPoint {
            steady.defect <= 0.1 * options_.tolerance;
   }
 
-  SteadyOrbit iterate(const Vector2d& start) const {
+  [[nodiscard]] SteadyOrbit iterate(const Vector2d& start) const {
     SteadyOrbit steady;
     Trial now = walk_from(start, steady);
     Progress progress;

@@ -15,6 +15,8 @@
 /// Source: theory sections 6, 9.
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "contact/plane/planar_corner.hpp"
@@ -83,7 +85,7 @@ class OrbitVariation {
   Eigen::Matrix<double, n_stages, Eigen::Dynamic> turn_;
   Eigen::Matrix<double, n_stages, Eigen::Dynamic> stage_radius_;
   Eigen::Matrix<double, n_stages, Eigen::Dynamic> stage_ratio_;
-  Eigen::MatrixXd force_[2];
+  std::array<Eigen::MatrixXd, 2> force_;
 };
 
 }  // namespace microslip::contact

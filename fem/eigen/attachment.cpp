@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
+#include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
 
 namespace microslip::fem {
@@ -75,8 +74,8 @@ RitzShapes ritz_shapes(const FeSystem& system, const StaticShapes& set,
     Q = mass_orthonormal(M, Q);
   }
   const Eigen::MatrixXd energy = symmetric(inner_products(Q, multiply(K, Q)));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energy);
-  return {eigen.eigenvalues().cwiseSqrt(), Q * eigen.eigenvectors()};
+  const SymmetricPairs eigen = symmetric_pairs(energy);
+  return {eigen.values.cwiseSqrt(), Q * eigen.vectors};
 }
 
 double missed_share(const Eigen::MatrixXd& flexibility, Eigen::Index n_lower,
@@ -89,20 +88,16 @@ double missed_share(const Eigen::MatrixXd& flexibility, Eigen::Index n_lower,
   const auto B = C.bottomRightCorner(n_last, n_last);
   Eigen::MatrixXd missed = B;
   if (n_lower > 0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> lower(C.topLeftCorner(n_lower, n_lower));
-    const double floor =
-        1e-12 * lower.eigenvalues().maxCoeff();  // below: no flexibility but rounding
+    const SymmetricPairs lower = symmetric_pairs(C.topLeftCorner(n_lower, n_lower));
+    const double floor = 1e-12 * lower.values.maxCoeff();  // below: no flexibility but rounding
     for (Eigen::Index i = 0; i < n_lower; ++i) {
-      if (!(lower.eigenvalues()[i] > floor)) continue;
-      const Eigen::VectorXd reached =
-          C.bottomLeftCorner(n_last, n_lower) * lower.eigenvectors().col(i);
-      missed -= reached * reached.transpose() / lower.eigenvalues()[i];
+      if (!(lower.values[i] > floor)) continue;
+      const Eigen::VectorXd reached = C.bottomLeftCorner(n_last, n_lower) * lower.vectors.col(i);
+      missed -= reached * reached.transpose() / lower.values[i];
     }
   }
   const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(n_last, n_last) + B;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric(missed), whole,
-                                                                        Eigen::EigenvaluesOnly);
-  return std::clamp(eigen.eigenvalues().maxCoeff(), 0.0, 1.0);
+  return std::clamp(pencil_eigenvalues(symmetric(missed), whole).maxCoeff(), 0.0, 1.0);
 }
 
 AttachmentSet attachment_set(const ShapesOfDegree& solve, const AttachmentOptions& options) {

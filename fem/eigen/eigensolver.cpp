@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
+#include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc_error.hpp"
 
@@ -132,9 +131,8 @@ EigenPairs refine(const FeSystem& system, const Factorisation& inverse,
   const Mat M = system.mass_matrix.get();
   const Eigen::MatrixXd X = mass_orthonormal(M, inverse.solve(multiply(M, vectors)));
   const Eigen::MatrixXd projected = inner_products(X, multiply(system.stiffness.get(), X));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(0.5 *
-                                                            (projected + projected.transpose()));
-  return {ritz.eigenvalues(), X * ritz.eigenvectors()};
+  const SymmetricPairs ritz = symmetric_pairs(0.5 * (projected + projected.transpose()));
+  return {ritz.values, X * ritz.vectors};
 }
 
 Eigen::VectorXd relative_residuals(const FeSystem& system, const EigenPairs& pairs) {

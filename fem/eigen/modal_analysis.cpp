@@ -8,14 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "fem/assembly/surface_springs.hpp"
 #include "fem/eigen/attachment.hpp"
 #include "fem/eigen/mode_search.hpp"
 #include "fem/eigen/rigid_modes.hpp"
 #include "fem/elements/number_text.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
+#include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/surface_load.hpp"
@@ -200,11 +199,10 @@ StaticShapes Structure::Implementation::static_shapes(const Eigen::MatrixXd& for
 void Structure::Implementation::drop_held_rigid_modes() {
   if (rigid.cols() == 0) return;
   const Eigen::MatrixXd energy = inner_products(rigid, multiply(system.stiffness.get(), rigid));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (energy + energy.transpose()));
+  const SymmetricPairs eigen = symmetric_pairs(0.5 * (energy + energy.transpose()));
   const double scale = elastic_scale(nodes, system, rigid.cols());
-  const auto n_free =
-      static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-9 * scale).count());
-  rigid = (rigid * eigen.eigenvectors().leftCols(n_free)).eval();
+  const auto n_free = static_cast<Eigen::Index>((eigen.values.array() < 1e-9 * scale).count());
+  rigid = (rigid * eigen.vectors.leftCols(n_free)).eval();
 }
 
 Structure::Structure(const mesh::Mesh& mesh, const Material& material,

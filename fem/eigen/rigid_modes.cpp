@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
+#include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
 
 namespace microslip::fem {
@@ -122,22 +122,21 @@ double elastic_scale(const Eigen::MatrixX3d& nodes, const FeSystem& system, Eige
   }
   const Eigen::MatrixXd MF = multiply(system.mass_matrix.get(), fields);
   const Eigen::MatrixXd gram = inner_products(fields, MF);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> metric(gram);
+  const SymmetricPairs metric = symmetric_pairs(gram);
   // A mesh of a few nodes cannot tell all fields apart: keep the directions that differ.
-  const double floor = 1e-10 * metric.eigenvalues().maxCoeff();
-  const auto n_kept = static_cast<Eigen::Index>((metric.eigenvalues().array() > floor).count());
+  const double floor = 1e-10 * metric.values.maxCoeff();
+  const auto n_kept = static_cast<Eigen::Index>((metric.values.array() > floor).count());
   const Eigen::MatrixXd to_orthonormal =
-      metric.eigenvectors().rightCols(n_kept) *
-      metric.eigenvalues().tail(n_kept).cwiseSqrt().cwiseInverse().asDiagonal();
+      metric.vectors.rightCols(n_kept) *
+      metric.values.tail(n_kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Eigen::MatrixXd energy = inner_products(fields, multiply(system.stiffness.get(), fields));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(to_orthonormal.transpose() * energy *
-                                                            to_orthonormal);
+  const SymmetricPairs ritz = symmetric_pairs(to_orthonormal.transpose() * energy * to_orthonormal);
   // A mechanism inside the body may be one of the fields: its zero is no scale. Values of bodies a
   // hundred times as long as thick span eight decades.
-  const double zero = 1e-10 * ritz.eigenvalues()[n_kept - 1];
+  const double zero = 1e-10 * ritz.values[n_kept - 1];
   Eigen::Index first = std::min(n_rigid, n_kept - 1);
-  while (first + 1 < n_kept && ritz.eigenvalues()[first] < zero) ++first;
-  return ritz.eigenvalues()[first];
+  while (first + 1 < n_kept && ritz.values[first] < zero) ++first;
+  return ritz.values[first];
 }
 
 }  // namespace microslip::fem

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "fem/elements/symmetric_pairs.hpp"
 
 namespace microslip::fem {
 namespace {
@@ -84,11 +84,11 @@ QuadratureRule collapsed_tetrahedron(int n) {
 }  // namespace
 
 QuadratureRule gauss_jacobi(int n, double alpha) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi_matrix(n, alpha));
+  const SymmetricPairs eigen = symmetric_pairs(jacobi_matrix(n, alpha));
   const double total = std::pow(2.0, alpha + 1.0) / (alpha + 1.0);
   QuadratureRule rule{Eigen::MatrixX3d::Zero(n, 3), Eigen::VectorXd(n)};
-  rule.points.col(0) = eigen.eigenvalues();
-  rule.weights = total * eigen.eigenvectors().row(0).transpose().cwiseAbs2();
+  rule.points.col(0) = eigen.values;
+  rule.weights = total * eigen.vectors.row(0).transpose().cwiseAbs2();
   return rule;
 }
 

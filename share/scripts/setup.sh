@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages microslip needs, those only that are missing. Safe to run again.
 #
-#   share/scripts/setup.sh [--tests]     --tests: also what the tests alone need
+#   share/scripts/setup.sh [--tests | --tidy]     --tests: also what the tests alone need
+#                                                 --tidy: also what tidy.sh needs
 #
 # Works as root or with sudo; says what it does.
 set -eu
@@ -19,7 +20,8 @@ wanted="$build $libraries $testing $plots"
 case "${1:-}" in
   "") ;;
   --tests) wanted="$wanted $test_programs" ;;
-  *) echo "usage: setup.sh [--tests]" >&2; exit 1 ;;
+  --tidy) wanted="$wanted clang-tidy" ;;
+  *) echo "usage: setup.sh [--tests | --tidy]" >&2; exit 1 ;;
 esac
 
 is_installed() {

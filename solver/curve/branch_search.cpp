@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "contact/dense.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/curve/solved_point.hpp"
@@ -33,10 +33,7 @@ constexpr std::size_t most_branches = 10;
 Eigen::VectorXd resonances(const Scene& scene, const Eigen::MatrixXd& stiffness) {
   Eigen::MatrixXd all = stiffness;
   all.diagonal() += scene.natural_frequency.cwiseAbs2();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseMax(0.0)
-      .cwiseSqrt();
+  return contact::symmetric_eigenvalues(all).value_or(Eigen::VectorXd()).cwiseMax(0.0).cwiseSqrt();
 }
 
 /// Where other solutions are looked for [rad/s], ascending, each once.
