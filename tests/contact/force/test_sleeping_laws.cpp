@@ -7,7 +7,6 @@
 #include <memory>
 #include <random>
 
-#include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/line/event_law.hpp"
 #include "contact/line/surface_event_law.hpp"
@@ -310,10 +309,11 @@ TEST(SleepingLaws, LinearStateIsProvedOfAPlanarBall) {
 }
 
 TEST(SleepingLaws, LinearStateIsProvedOfSeveralHarmonics) {
-  const ContactPatch patch(Eigen::VectorXd::Ones(1), {{2.0, 1.0, 0.5, 10.0}});
   Eigen::MatrixXd phi(1, 1);
   phi << 1.0;
-  const AnyHarmonicsForce force(patch, {phi, 0.0 * phi, {}});
+  const LawPatchForce force(Eigen::VectorXd::Ones(1),
+                            {std::make_shared<EventLaw>(PointParameters{2.0, 1.0, 0.5, 10.0})},
+                            {phi, 0.0 * phi, {}});
   Harmonics q(2, 1);
   q.rows() << 0.0, 1.0, 0.0, 1.0, 0.0;  // 2 |u| ≤ 3.52: sin θ + sin 2θ stays below 1.76
   EXPECT_EQ(force.linear_state(q, 0.0), LinearState::stuck);
