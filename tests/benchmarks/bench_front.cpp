@@ -29,7 +29,6 @@
 #include "contact/line/surface_event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
-#include "tests/support/sampled/sampled_cycle.hpp"
 
 namespace {
 
@@ -146,9 +145,6 @@ LawMaker band() {
 LawMaker planar(double tolerance) {
   return [=](const SurfaceLaw& s) { return std::make_shared<PlanarLaw>(s, tolerance); };
 }
-LawMaker returned(int n) {
-  return [=](const SurfaceLaw& s) { return std::make_shared<SampledLaw>(s, n); };
-}
 
 /// The first is the reference of the others, the second that of the first.
 std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
@@ -175,9 +171,6 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
   }
   for (int n = 64; n <= 4096; n *= 2) {
     if (n >= 8 * (kind.n_harmonics + 1)) add("lanes", n, in_lanes(samples, kind, n));
-  }
-  for (const int n : {128, 512, 2048}) {
-    add("sampled return", n, by_laws(samples, kind, returned(n)));
   }
   return methods;
 }

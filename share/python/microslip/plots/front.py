@@ -15,7 +15,6 @@ METHODS = [  # name, colour, mark
     ("slider band", "#3a86ff", "D"),
     ("planar law", "#5b9279", "^"),
     ("lanes", "#f4a259", "o"),
-    ("sampled return", "0.55", "x"),
     ("centres of cells", "#f4a259", "o"),
     ("extrapolated", "#b23a6f", "s"),
 ]
