@@ -5,8 +5,7 @@
 ///
 ///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
 ///   48 points or more, along p, anything else      the period sampled, all points in lanes (contact/sampled)
-///   more harmonics, plain surfaces                 event by event; the closed form at one harmonic
-///   rough surfaces, friction by speed, along r     a law per point (contact/line, contact/plane)
+///   else                                           a law per point, event by event (contact/line, contact/plane)
 ///
 /// Several patches are one force whose points are those of all patches in order.
 #pragma once

@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/line/event_law.hpp"
@@ -30,7 +29,7 @@ using PointLaws = std::vector<std::shared_ptr<const PointLaw>>;
 
 /// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition in
 /// method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
-enum class Method { closed_form, lanes, any_harmonics, point_laws };
+enum class Method { closed_form, lanes, point_laws };
 
 /// One direction, constant friction, smooth surfaces.
 bool is_plain(const Patch& patch, const ContactEffects& effects) {
@@ -49,10 +48,9 @@ Eigen::Index n_points(std::span<const Patch> patches) {
 
 /// The switch: which method serves these patches.
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
-  const bool plain = are_plain(patches, effects);
-  if (plain && effects.n_harmonics == 1) return Method::closed_form;
+  if (effects.n_harmonics == 1 && are_plain(patches, effects)) return Method::closed_form;
   if (!effects.second_direction && n_points(patches) >= least_points_in_lanes) return Method::lanes;
-  return plain ? Method::any_harmonics : Method::point_laws;
+  return Method::point_laws;
 }
 
 SurfaceLaw surface_of(const Patch& patch, const PatchSamples& samples,
@@ -167,9 +165,6 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       return std::make_unique<sampled::PatchForce>(
           std::move(stack.weights), surfaces(begin, end), std::move(stack.shapes),
           sampled::Options{.instants = instants_per_period});
-    case Method::any_harmonics:
-      return std::make_unique<AnyHarmonicsForce>(ContactPatch(stack.weights, joined(points)),
-                                                 stack.shapes);
     case Method::point_laws:
       break;
   }

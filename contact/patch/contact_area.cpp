@@ -1,6 +1,5 @@
 #include "contact/patch/contact_area.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -68,34 +67,6 @@ ContactArea::ContactArea(PlanarCells cells) : cells_(std::move(cells)) {
     }
   }
   require_positive("sum of weights", cells_.weights.sum());
-}
-
-Eigen::Matrix3Xd ContactArea::cell_motions(const AreaVector& motion) const {
-  Eigen::Matrix3Xd result(3, n_cells());
-  for (Eigen::Index i = 0; i < n_cells(); ++i) {
-    result.col(i) = cell_matrix(cells_.y[i], cells_.z[i]) * motion;
-  }
-  return result;
-}
-
-AreaVector ContactArea::resultant(const Eigen::Ref<const Eigen::Matrix3Xd>& tractions) const {
-  assert(tractions.cols() == n_cells());
-  AreaVector sum = AreaVector::Zero();
-  for (Eigen::Index i = 0; i < n_cells(); ++i) {
-    sum +=
-        cell_matrix(cells_.y[i], cells_.z[i]).transpose() * (cells_.weights[i] * tractions.col(i));
-  }
-  return sum;
-}
-
-AreaStiffness ContactArea::tangent(std::span<const Eigen::Matrix3d> stiffness) const {
-  assert(static_cast<Eigen::Index>(stiffness.size()) == n_cells());
-  AreaStiffness sum = AreaStiffness::Zero();
-  for (Eigen::Index i = 0; i < n_cells(); ++i) {
-    const CellMatrix G = cell_matrix(cells_.y[i], cells_.z[i]);
-    sum += G.transpose() * (cells_.weights[i] * stiffness[static_cast<std::size_t>(i)]) * G;
-  }
-  return sum;
 }
 
 ModalShapes ContactArea::modal_shapes(const Eigen::Ref<const Eigen::MatrixXd>& modes) const {

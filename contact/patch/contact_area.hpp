@@ -1,6 +1,5 @@
 /// @file
-/// A plane contact area under the six relative coordinates of its centre: motion of its cells, resultant
-/// force and moment, tangent stiffness.
+/// A plane contact area under the six relative coordinates of its centre: motion of its cells.
 ///
 /// Letters of paper B: x normal, y and z tangential, (x, y, z) = (q, r, p) of the patches, body 2 = A,
 /// body 1 = B. With the relative motion U = U⁽²⁾ − U⁽¹⁾ = (u, v, w, φ_x, φ_y, φ_z) of the centre and
@@ -8,7 +7,6 @@
 ///
 ///   u_i = G_i U,     G_i = [1 0 0 0 z_i −y_i ; 0 1 0 −z_i 0 0 ; 0 0 1 y_i 0 0]       (1) [B-eq 7]
 ///   (F, M) = Σ w_i G_iᵀ t_i,     t_i = (n, f_r, f_p)_i                             (2) [B-eq 8]
-///   K = Σ w_i G_iᵀ k_i G_i,      k_i = ∂t_i/∂u_i                                    (3)
 ///
 /// so M_x = Σ w (y f_p − z f_r), M_y = Σ w z n, M_z = −Σ w y n: M_y turns about r, M_z about p. The
 /// resultant resists U: on the left side of the equations of motion node 2 gets F − F₀, node 1 the
@@ -17,8 +15,6 @@
 ///
 /// Source: paper B, section 2.3, eqs 6–8, 11; theory section 12.
 #pragma once
-
-#include <span>
 
 #include <Eigen/Core>
 
@@ -40,9 +36,8 @@ struct PlanarCells {
 [[nodiscard]] PlanarCells rectangle_cells(double height, double breadth, int n_along_y,
                                           int n_along_z);
 
-using AreaVector = Eigen::Matrix<double, 6, 1>;     ///< (u, v, w, φ) [m, rad] or (F, M) [N, N m]
-using AreaStiffness = Eigen::Matrix<double, 6, 6>;  ///< ∂(F, M)/∂U
-using CellMatrix = Eigen::Matrix<double, 3, 6>;     ///< G_i of (1)
+using AreaVector = Eigen::Matrix<double, 6, 1>;  ///< (u, v, w, φ) [m, rad] or (F, M) [N, N m]
+using CellMatrix = Eigen::Matrix<double, 3, 6>;  ///< G_i of (1)
 
 /// G_i of (1) for a cell at (y, z) [m].
 [[nodiscard]] CellMatrix cell_matrix(double y, double z);
@@ -56,12 +51,6 @@ class ContactArea {
   [[nodiscard]] Eigen::Index n_cells() const { return cells_.weights.size(); }
   [[nodiscard]] const PlanarCells& cells() const { return cells_; }
 
-  /// (1): column i is (u, v, w) of cell i [m], 3 × n_cells.
-  [[nodiscard]] Eigen::Matrix3Xd cell_motions(const AreaVector& motion) const;
-  /// (2).   @param tractions  column i is (n, f_r, f_p) of cell i per weight [Pa], 3 × n_cells.
-  [[nodiscard]] AreaVector resultant(const Eigen::Ref<const Eigen::Matrix3Xd>& tractions) const;
-  /// (3).   @param stiffness  k_i per weight [N/m³], rows (n, f_r, f_p), columns (u, v, w); n_cells.
-  [[nodiscard]] AreaStiffness tangent(std::span<const Eigen::Matrix3d> stiffness) const;
   /// Relative mode shapes of the cells from those of the centre, in the letters of the patches.
   /// @param modes  U of each mode [1/√kg, 1/(m√kg)], 6 × n_modes.
   [[nodiscard]] ModalShapes modal_shapes(const Eigen::Ref<const Eigen::MatrixXd>& modes) const;

@@ -47,7 +47,5 @@ class Handle {
 using MatHandle = Handle<Mat, &MatDestroy>;
 using VecHandle = Handle<Vec, &VecDestroy>;
 using EpsHandle = Handle<EPS, &EPSDestroy>;
-using IndexSetHandle = Handle<IS, &ISDestroy>;
-using ScatterHandle = Handle<VecScatter, &VecScatterDestroy>;
 
 }  // namespace microslip::fem

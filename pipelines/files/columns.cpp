@@ -187,23 +187,15 @@ Eigen::VectorXd stiffness(const PatchSamples& samples) {
   return samples.stiffness.col(axis);
 }
 
-template <int axis>
-void set_stiffness(PatchSamples& samples, const Eigen::VectorXd& values) {
-  samples.stiffness.col(axis) = values;
-}
-
 constexpr std::array sample_table{
     SampleArray{"friction_coefficient", "1", "that at rest where it depends on the slip speed",
-                [](const PatchSamples& s) { return s.friction; },
-                [](PatchSamples& s, const Eigen::VectorXd& values) { s.friction = values; }},
+                [](const PatchSamples& s) { return s.friction; }},
     SampleArray{"tangential_stiffness", "N/m^3", "along p, flexibility of omitted modes included",
-                stiffness<0>, set_stiffness<0>},
-    SampleArray{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>, set_stiffness<1>},
-    SampleArray{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>,
-                set_stiffness<2>},
+                stiffness<0>},
+    SampleArray{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>},
+    SampleArray{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>},
     SampleArray{"preload", "Pa", "at unit load: 1 N over the patch, or as given; negative: a gap",
-                [](const PatchSamples& s) { return s.preload; },
-                [](PatchSamples& s, const Eigen::VectorXd& values) { s.preload = values; }},
+                [](const PatchSamples& s) { return s.preload; }},
 };
 
 template <typename Rows>

@@ -74,7 +74,6 @@ struct SampleArray {
   const char* unit;
   const char* doc;
   Eigen::VectorXd (*get)(const contact::PatchSamples&);
-  void (*set)(contact::PatchSamples&, const Eigen::VectorXd&);  ///< `stiffness` has n rows already
 };
 [[nodiscard]] std::span<const SampleArray> sample_arrays();
 

@@ -79,27 +79,6 @@ void write_matrix(hid_t file, const std::string& name, const RowMajor<Scalar>& v
   write_dataset(file, name, dimensions, type, values.data(), unit);
 }
 
-template <typename Scalar>
-RowMajor<Scalar> read_matrix(hid_t file, const std::filesystem::path& path, const std::string& name,
-                             hid_t type, int rank) {
-  const Dataset dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
-  if (!dataset.valid()) throw SceneError(path.string() + ": has no dataset " + name);
-  const Space space(H5Dget_space(dataset.get()));
-  if (H5Sget_simple_extent_ndims(space.get()) != rank) {
-    throw SceneError(path.string() + ": dataset " + name + " should have " + std::to_string(rank) +
-                     " dimension(s)");
-  }
-  std::array<hsize_t, 2> dimensions{0, 1};
-  H5Sget_simple_extent_dims(space.get(), dimensions.data(), nullptr);
-  RowMajor<Scalar> values(static_cast<Eigen::Index>(dimensions[0]),
-                          static_cast<Eigen::Index>(dimensions[1]));
-  if (values.size() > 0 &&
-      H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw SceneError(path.string() + ": dataset " + name + " cannot be read; is the file damaged?");
-  }
-  return values;
-}
-
 }  // namespace
 
 Hdf5Writer::Hdf5Writer() {
@@ -143,38 +122,6 @@ void Hdf5Writer::write(const std::filesystem::path& file) {
   std::vector<std::byte> image(static_cast<std::size_t>(size));
   require(H5Fget_file_image(file_, image.data(), image.size()) == size, "/");
   write_whole(file, image);
-}
-
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : path_(file) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told as SceneError, not printed
-  file_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file_ < 0) {
-    throw SceneError(file.string() +
-                     ": not an HDF5 file that can be read (missing, truncated or of "
-                     "another kind)");
-  }
-}
-
-Hdf5Reader::~Hdf5Reader() { H5Fclose(file_); }
-
-bool Hdf5Reader::has(const std::string& name) const {
-  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    const std::string part = name.substr(0, end);
-    if (H5Lexists(static_cast<hid_t>(file_), part.c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
-}
-
-Eigen::VectorXd Hdf5Reader::vector(const std::string& name) const {
-  return read_matrix<double>(file_, path_, name, H5T_NATIVE_DOUBLE, 1).col(0);
-}
-
-Eigen::MatrixXd Hdf5Reader::matrix(const std::string& name) const {
-  return read_matrix<double>(file_, path_, name, H5T_NATIVE_DOUBLE, 2);
-}
-
-Hdf5Integers Hdf5Reader::integers(const std::string& name) const {
-  return read_matrix<std::int64_t>(file_, path_, name, H5T_NATIVE_INT64, 2);
 }
 
 }  // namespace microslip::pipelines

@@ -42,25 +42,4 @@ class Hdf5Writer {
   std::int64_t file_ = -1;
 };
 
-/// Reads what Hdf5Writer wrote. Every failure is a SceneError that names file and dataset.
-class Hdf5Reader {
- public:
-  explicit Hdf5Reader(const std::filesystem::path& file);
-  Hdf5Reader(const Hdf5Reader&) = delete;
-  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
-  Hdf5Reader(Hdf5Reader&&) = delete;
-  Hdf5Reader& operator=(Hdf5Reader&&) = delete;
-  ~Hdf5Reader();
-
-  /// Whether there is a dataset of this name. @param name  "/FOLDER/NAME".
-  [[nodiscard]] bool has(const std::string& name) const;
-  [[nodiscard]] Eigen::VectorXd vector(const std::string& name) const;
-  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& name) const;
-  [[nodiscard]] Hdf5Integers integers(const std::string& name) const;
-
- private:
-  std::filesystem::path path_;
-  std::int64_t file_ = -1;
-};
-
 }  // namespace microslip::pipelines

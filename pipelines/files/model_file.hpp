@@ -23,8 +23,4 @@ namespace microslip::pipelines {
 /// @throws ExhaustedError  cannot be written; nothing half-written is left.
 void write_model(const std::filesystem::path& file, const ReducedModel& model);
 
-/// What write_model wrote, bit for bit; patches are called by the folder they were in.
-/// @throws SceneError  file missing or truncated, a dataset missing or of another size; named.
-[[nodiscard]] ReducedModel read_model(const std::filesystem::path& file);
-
 }  // namespace microslip::pipelines

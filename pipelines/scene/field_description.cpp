@@ -63,9 +63,4 @@ Eigen::VectorXd Field::at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) co
   return values;
 }
 
-Eigen::VectorXd field_values(const FieldDescription& description, const Eigen::VectorXd& p,
-                             const Eigen::VectorXd& r) {
-  return Field(description).at(p, r);
-}
-
 }  // namespace microslip::pipelines

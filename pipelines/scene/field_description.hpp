@@ -49,10 +49,6 @@ class Field {
   /// @param p, r  [m], n each.
   /// @throws SceneError  a value that is not finite or out of range; names the position.
   [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
-  /// Whether it is the same everywhere.
-  [[nodiscard]] bool is_uniform() const {
-    return std::holds_alternative<double>(description_.value);
-  }
 
  private:
   FieldDescription description_;
@@ -60,10 +56,6 @@ class Field {
   std::shared_ptr<const Expression> expression_;
   std::shared_ptr<const contact::PositionTable> table_;
 };
-
-/// Field(description).at(p, r).
-[[nodiscard]] Eigen::VectorXd field_values(const FieldDescription& description,
-                                           const Eigen::VectorXd& p, const Eigen::VectorXd& r);
 
 /// @param file  columns p, r, value, header required, any order and further columns allowed.
 /// @throws SceneError  as CsvTable; a column missing; no rows; the same position twice.

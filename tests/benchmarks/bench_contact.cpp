@@ -16,7 +16,6 @@
 #include "contact/line/event_law.hpp"
 #include "contact/line/surface_event_law.hpp"
 #include "contact/patch/point_motions.hpp"
-#include "tests/support/sampled/sampled_cycle.hpp"
 
 #include "contact/patch/preload_equilibrium.hpp"
 #include "contact/surface/surface_law.hpp"
@@ -146,7 +145,7 @@ void jacobian_only(benchmark::State& state) {
 }
 BENCHMARK(jacobian_only);
 
-// ---- many harmonics: exact, event by event, and sampled
+// ---- many harmonics: exact, event by event
 
 // Motions of H harmonics that fall as 1/h², states as in setup().
 struct LawSetup {
@@ -184,46 +183,6 @@ void event_law(benchmark::State& state) {
   count_points(state, s.points.size());
 }
 BENCHMARK(event_law)->Arg(1)->Arg(3)->Arg(5);
-
-// Largest and root mean square error of a coefficient, relative to k_u |u| + μ (|n₀| + k_v |v|).
-void count_errors(benchmark::State& state, const LawSetup& s, int n_samples) {
-  double largest = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    PointTraction exact;
-    PointTraction sampled;
-    EventLaw(s.points[i]).traction(s.motions[i], 1000.0, exact);
-    SampledLaw(SurfaceLaw(s.points[i], 0.0), n_samples).traction(s.motions[i], 1000.0, sampled);
-    const auto& rows = s.motions[i].rows();
-    const double load = std::abs(s.points[i].preload + 1e12 * rows(0, 1)) +
-                        1e12 * rows.col(1).tail(rows.rows() - 1).norm();
-    const double scale = 1e12 * rows.col(0).tail(rows.rows() - 1).norm() + 0.4 * load;
-    const double error =
-        (sampled.force.rows() - exact.force.rows()).col(0).cwiseAbs().maxCoeff() / scale;
-    largest = std::max(largest, error);
-    squares += error * error;
-  }
-  state.counters["largest_error"] = largest;
-  state.counters["rms_error"] = std::sqrt(squares / static_cast<double>(s.points.size()));
-}
-
-// Harmonics, samples.
-void sampled_law(benchmark::State& state) {
-  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
-  const int n_samples = static_cast<int>(state.range(1));
-  PointTraction result;
-  std::vector<SurfaceLaw> surfaces;
-  for (const PointParameters& point : s.points) surfaces.emplace_back(point, 0.0);
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < s.points.size(); ++i) {
-      SampledLaw(surfaces[i], n_samples).traction(s.motions[i], 1000.0, result);
-      benchmark::DoNotOptimize(result.jacobian.data());
-    }
-  }
-  count_points(state, s.points.size());
-  count_errors(state, s, n_samples);
-}
-BENCHMARK(sampled_law)->Args({1, 128})->Args({3, 128})->Args({5, 128})->Args({3, 512});
 
 // Surfaces without a closed form, events located exactly. Harmonics.
 void surface_event_law(benchmark::State& state, const FrictionLaw& friction,

@@ -9,11 +9,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/patch_force.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/continuation.hpp"
 #include "solver/optimum/peak_trace.hpp"
+#include "tests/support/modal_scenes.hpp"
 
 namespace {
 
@@ -117,8 +117,7 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 /// processor time; 100 points, preload in hundredths.
 void chosen_harmonics(benchmark::State& state) {
   solver::Scene scene = strip(100, 0.01 * static_cast<double>(state.range(0)));
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
-  scene.contact = std::make_unique<contact::AnyHarmonicsForce>(patch.patch(), patch.shapes());
+  tests::use_event_cycles(scene);
   solver::ContinuationOptions options = range();
   options.n_harmonics = 21;
   options.harmonic_tolerance = 1e-2;

@@ -10,6 +10,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/contact_map.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/line/event_law.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -163,6 +164,25 @@ TEST(LawPatchForce, GivesWhatTheClosedFormPatchGives) {
       EXPECT_NEAR(r.three_states_share, s.three_states_share, 1e-14);
       EXPECT_NEAR(r.slip_work, s.slip_work, rounding(n));
     }
+  }
+}
+
+TEST(LawPatchForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
+  Patch patch = random_patch(40, 1.0);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    patch.laws[i] = std::make_shared<EventLaw>(patch.points[i]);
+  }
+  const LawPatchForce force(patch.weights, patch.laws, patch.shapes);
+  for (const int n_harmonics : {1, 3}) {
+    std::srand(13);
+    Harmonics q(n_harmonics, n_modes);
+    q.rows().setRandom();
+    Harmonics wide(9, n_modes);
+    wide.rows().topRows(2 * n_harmonics + 1) = q.rows();
+    const Harmonics alone = force.force_up_to(q, 1.0, 9);
+    const Harmonics whole = force.evaluate(wide, 1.0).force;
+    EXPECT_GT(whole.rows().bottomRows(4).norm(), 1e-6 * whole.rows().norm());
+    EXPECT_LT((alone.rows() - whole.rows()).norm(), rounding(40) * whole.rows().norm());
   }
 }
 

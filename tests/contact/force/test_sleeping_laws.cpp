@@ -7,12 +7,10 @@
 #include <memory>
 #include <random>
 
-#include "contact/force/any_harmonics_force.hpp"
 #include "contact/force/law_patch_force.hpp"
 #include "contact/line/event_law.hpp"
 #include "contact/line/surface_event_law.hpp"
 #include "contact/plane/planar_cycle.hpp"
-#include "tests/support/sampled/sampled_cycle.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -154,17 +152,13 @@ TEST(SleepingLaws, PlanarPointsGiveWhatEvaluationGives) {
   EXPECT_GT(seen.most, 0.5);
 }
 
-TEST(SleepingLaws, SampledPointsGiveWhatEvaluationGives) {
-  const MakeLaw constant = [](const PointParameters& point, double second) {
-    return std::make_shared<SampledLaw>(SurfaceLaw(point, second), 64);
-  };
-  std::mt19937_64 random(3);
-  Seen seen;
-  const Patch p = random_patch(150, constant, Directions::one, random);
-  for (int n_harmonics = 1; n_harmonics <= 5; ++n_harmonics) {
-    expect_same(p, n_harmonics, rounding, random, seen);
-  }
-  EXPECT_LT(seen.least, 0.2);
+// What the product makes of points along p that are rough or whose friction depends on the speed.
+std::shared_ptr<const PointLaw> surface_event(const PointParameters& point, double second,
+                                              const FrictionLaw& friction,
+                                              const std::optional<RoughSurface>& roughness) {
+  PointParameters stiff = point;
+  if (roughness) stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
+  return std::make_shared<SurfaceEventLaw>(SurfaceLaw(stiff, second, friction, roughness));
 }
 
 // Friction falls and rises with the speed: sleep is judged by the smallest coefficient that is
@@ -172,7 +166,7 @@ TEST(SleepingLaws, SampledPointsGiveWhatEvaluationGives) {
 TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
   const auto make = [](const FrictionLaw& friction) -> MakeLaw {
     return [friction](const PointParameters& point, double second) {
-      return std::make_shared<SampledLaw>(SurfaceLaw(point, second, friction), 64);
+      return surface_event(point, second, friction, {});
     };
   };
   std::mt19937_64 random(4);
@@ -189,11 +183,8 @@ TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
 TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
   const auto make = [](const RoughSurface& surface) -> MakeLaw {
     return [surface](const PointParameters& point, double second) {
-      PointParameters stiff = point;
-      stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
-      return std::make_shared<SampledLaw>(
-          SurfaceLaw(stiff, second, FrictionLaw::constant(point.friction_coefficient), surface),
-          64);
+      return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient),
+                           surface);
     };
   };
   std::mt19937_64 random(5);
@@ -208,15 +199,6 @@ TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
   // Nine deviations beyond the mean height they are open as well.
   EXPECT_LT(gaussian.least, 0.9);
   EXPECT_GT(gaussian.least, 0.5);
-}
-
-// What the product makes of points along p that are rough or whose friction depends on the speed.
-std::shared_ptr<const PointLaw> surface_event(const PointParameters& point, double second,
-                                              const FrictionLaw& friction,
-                                              const std::optional<RoughSurface>& roughness) {
-  PointParameters stiff = point;
-  if (roughness) stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
-  return std::make_shared<SurfaceEventLaw>(SurfaceLaw(stiff, second, friction, roughness));
 }
 
 TEST(SleepingLaws, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
@@ -310,10 +292,11 @@ TEST(SleepingLaws, LinearStateIsProvedOfAPlanarBall) {
 }
 
 TEST(SleepingLaws, LinearStateIsProvedOfSeveralHarmonics) {
-  const ContactPatch patch(Eigen::VectorXd::Ones(1), {{2.0, 1.0, 0.5, 10.0}});
   Eigen::MatrixXd phi(1, 1);
   phi << 1.0;
-  const AnyHarmonicsForce force(patch, {phi, 0.0 * phi, {}});
+  const LawPatchForce force(Eigen::VectorXd::Ones(1),
+                            {std::make_shared<EventLaw>(PointParameters{2.0, 1.0, 0.5, 10.0})},
+                            {phi, 0.0 * phi, {}});
   Harmonics q(2, 1);
   q.rows() << 0.0, 1.0, 0.0, 1.0, 0.0;  // 2 |u| ≤ 3.52: sin θ + sin 2θ stays below 1.76
   EXPECT_EQ(force.linear_state(q, 0.0), LinearState::stuck);

@@ -1,5 +1,5 @@
 /// The event-located law of any surface against the exact law of smooth ones, the planar law along a line,
-/// the sampled law, and differences.
+/// and differences.
 #include "contact/line/surface_event_law.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,6 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
-#include "tests/support/sampled/sampled_cycle.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -104,25 +103,6 @@ TEST_P(SurfaceEventLaws, AgreeWithThePlanarLawAlongALine) {
     }
     ASSERT_EQ(now.regime, planar.regime);
   }
-}
-
-// The sampled law converges to this one in second order (theory section 8).
-TEST_P(SurfaceEventLaws, AreTheLimitOfTheSampledLaw) {
-  const auto cases = motions(120, 33);
-  std::vector<double> rms;
-  for (const int n_samples : {256, 1024, 4096}) {
-    double sum = 0.0;
-    for (const MotionCase& c : cases) {
-      const SurfaceLaw surface = GetParam().make(c);
-      const double e = error(traction(SampledLaw(surface, n_samples), c.motion).force,
-                             traction(SurfaceEventLaw(surface), c.motion).force, c);
-      sum += e * e;
-    }
-    rms.push_back(std::sqrt(sum / static_cast<double>(cases.size())));
-  }
-  EXPECT_LT(rms[0], 4e-4);
-  EXPECT_GT(rms[0] / rms[1], 8.0);
-  EXPECT_GT(rms[1] / rms[2], 8.0);
 }
 
 TEST_P(SurfaceEventLaws, AreFiniteInEveryStratum) {

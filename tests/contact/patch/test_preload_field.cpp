@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -59,53 +57,6 @@ TEST(PreloadField, UniformPressureIsForceOverArea) {
   EXPECT_THROW((void)uniform_preload(Eigen::VectorXd::Zero(3), 1.0), std::invalid_argument);
 }
 
-// Any force and moments, about any origin: sums of 27 points, a few roundings of the largest term.
-TEST(PreloadField, LinearPressureHasTheResultantsAskedFor) {
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  for (int k = 0; k < 100; ++k) {
-    PatchRule rule = l_shape();
-    rule.p.array() += 0.02 * normal(random);
-    rule.r.array() += 0.02 * normal(random);
-    const PreloadResultants asked{1000.0 * normal(random), normal(random), normal(random)};
-    const Eigen::VectorXd n = linear_preload(rule.p, rule.r, rule.weights, asked);
-    const PreloadResultants got = resultants(rule.p, rule.r, rule.weights, n);
-    const double size = rule.weights.dot(n.cwiseAbs());
-    EXPECT_NEAR(got.force, asked.force, 1e-14 * size);
-    EXPECT_NEAR(got.moment_about_p, asked.moment_about_p, 1e-14 * size * 0.1);
-    EXPECT_NEAR(got.moment_about_r, asked.moment_about_r, 1e-14 * size * 0.1);
-  }
-}
-
-// Theory section 12: n × m cells, F/(nm) + M_y z/Σz² − M_z y/Σy² with (y, z) = (r, p).
-TEST(PreloadField, IsTheFormulaOfTheContactAreaOnAGrid) {
-  const PatchRule rule = square(-0.05, -0.05, 0.1, 4);
-  const double My = 1.0;
-  const double Mz = -0.4;
-  const Eigen::VectorXd n = linear_preload(
-      rule.p, rule.r, rule.weights, {.force = 48.0, .moment_about_p = Mz, .moment_about_r = My});
-  for (Eigen::Index i = 0; i < rule.p.size(); ++i) {
-    const double cell =
-        48.0 / 16.0 + My * rule.p[i] / rule.p.squaredNorm() - Mz * rule.r[i] / rule.r.squaredNorm();
-    EXPECT_NEAR(n[i] * rule.weights[i], cell, 1e-13 * 48.0);
-  }
-}
-
-TEST(PreloadField, PointsOnALineCarryWhatTheyCan) {
-  const Eigen::VectorXd p = Eigen::VectorXd::LinSpaced(5, -1.0, 1.0);
-  const Eigen::VectorXd r = Eigen::VectorXd::Zero(5);
-  const Eigen::VectorXd w = Eigen::VectorXd::Ones(5);
-  const Eigen::VectorXd n = linear_preload(p, r, w, {10.0, 0.0, 2.0});
-  EXPECT_NEAR(resultants(p, r, w, n).moment_about_r, 2.0, 1e-14);
-  EXPECT_NE(refusal([&] {
-              return linear_preload(p, r, w, {10.0, 0.5, 2.0});
-            }).find("lie on a line"),
-            std::string::npos);
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
-  EXPECT_NEAR(linear_preload(one, one, one, {10.0, -10.0, 10.0})[0], 10.0, 1e-14);
-  EXPECT_THROW((void)linear_preload(one, one, one, {10.0, 0.0, 0.0}), std::invalid_argument);
-}
-
 TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
   const PatchRule rule = l_shape();
   const Eigen::VectorXd shape = (200.0 * rule.p.array()).sin() + 0.2;  // partly a gap
@@ -147,12 +98,6 @@ TEST(PreloadField, AWrongTotalIsRefusedWithBothNumbers) {
   broken[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(require_total(broken, w, 1.0, 1.0), std::invalid_argument);
   EXPECT_THROW(require_total(Eigen::VectorXd::Ones(3), w, 1.0, 1.0), std::invalid_argument);
-}
-
-TEST(PreloadField, AGapIsNegativePressure) {
-  const Eigen::Vector2d gap(1e-6, 0.0);
-  const Eigen::Vector2d stiffness(1e12, 2e12);
-  EXPECT_EQ(preload_of_gap(gap, stiffness), Eigen::VectorXd(Eigen::Vector2d(-1e6, 0.0)));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 
-#include "pipelines/files/hdf5_file.hpp"
+#include "tests/pipelines/hdf5_reading.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 #include "tests/pipelines/vtk_reading.hpp"
 
@@ -126,10 +126,10 @@ TEST(WriteMap, DataFileHoldsAllPhasesInThePlaneOfThePatch) {
   const ReducedModel model = synthetic::model();
   const NamedMap map = synthetic::named_map(model, "m");
   write_map(folder.path(), model.patches[0], map);
-  const Hdf5Reader in(folder.path() / "m.h5");
-  EXPECT_EQ(in.matrix("/state").cast<std::uint8_t>(), map.points.state);
-  EXPECT_EQ(in.matrix("/normal_traction_Pa"), map.points.normal_traction);
-  const Eigen::MatrixXd points = in.matrix("/points");
+  const std::filesystem::path file = folder.path() / "m.h5";
+  EXPECT_EQ(dataset_of(file, "/state").cast<std::uint8_t>(), map.points.state);
+  EXPECT_EQ(dataset_of(file, "/normal_traction_Pa"), map.points.normal_traction);
+  const Eigen::MatrixXd points = dataset_of(file, "/points");
   EXPECT_LT((model.patches[0].cells.weights.transpose() * points).norm(),
             1e-15 * model.patches[0].cells.weights.sum())
       << "p and r count from the centroid";

@@ -158,10 +158,12 @@ TEST(BlockScene, ModalForcesAreForceAndMomentOfTheCells) {
           model.patches[0].cells.weights.cwiseProduct(tractions.row(0).transpose()) +
       model.patches[0].cells.shapes.w.transpose() *
           model.patches[0].cells.weights.cwiseProduct(tractions.row(1).transpose());
-  const contact::ContactArea area({model.patches[0].cells.points.col(2),
-                                   model.patches[0].cells.points.col(0),
-                                   model.patches[0].cells.weights});
-  const contact::AreaVector whole = area.resultant(tractions);  // (q, r, p)
+  const contact::PatchSamples& cells = model.patches[0].cells;
+  contact::AreaVector whole = contact::AreaVector::Zero();  // (q, r, p)
+  for (Eigen::Index i = 0; i < n; ++i) {
+    whole += contact::cell_matrix(cells.points(i, 2), cells.points(i, 0)).transpose() *
+             (cells.weights[i] * tractions.col(i));
+  }
   const Eigen::Vector3d force(whole[2], whole[0], whole[1]);
   const Eigen::Vector3d moment(whole[5], whole[3], whole[4]);
   const ReducedModel driven =

@@ -33,7 +33,7 @@ FieldDescription field(Value value, double low = -unbounded) {
 
 std::string refusal(const FieldDescription& description) {
   try {
-    (void)field_values(description, p, r);
+    (void)Field(description).at(p, r);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -43,11 +43,10 @@ std::string refusal(const FieldDescription& description) {
 TEST_F(FieldTables, AreInterpolatedAndHeldOutside) {
   const FieldDescription description =
       field(table("r,value,p\n0,0.2,0\n0,0.4,0.02\n0.02,0.6,0\n0.02,0.8,0.02\n"));
-  const Eigen::VectorXd values = field_values(description, p, r);
+  const Eigen::VectorXd values = Field(description).at(p, r);
   EXPECT_NEAR(values[0], 0.2, 1e-15);
   EXPECT_NEAR(values[1], 0.5, 1e-15);
   EXPECT_NEAR(values[2], 0.6, 1e-15);  // p is beyond the table
-  EXPECT_FALSE(Field(description).is_uniform());
 }
 
 TEST_F(FieldTables, NameWhatIsMissing) {
@@ -61,9 +60,8 @@ TEST_F(FieldTables, NameWhatIsMissing) {
 }
 
 TEST(FieldDescription, IsANumberOrAnExpression) {
-  EXPECT_EQ(field_values(field(0.4), p, r), Eigen::VectorXd::Constant(3, 0.4));
-  EXPECT_TRUE(Field(field(0.4)).is_uniform());
-  EXPECT_EQ(field_values(field(FieldExpression{"p + 2*r"}), p, r), Eigen::VectorXd(p + 2.0 * r));
+  EXPECT_EQ(Field(field(0.4)).at(p, r), Eigen::VectorXd::Constant(3, 0.4));
+  EXPECT_EQ(Field(field(FieldExpression{"p + 2*r"})).at(p, r), Eigen::VectorXd(p + 2.0 * r));
   EXPECT_NE(refusal(field(FieldExpression{"q"})).find("scene.toml:7: contact.friction_coefficient"),
             std::string::npos);
 }
