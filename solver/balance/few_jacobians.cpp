@@ -118,4 +118,19 @@ NewtonResult solve_with_few_jacobians(const EconomicSystem& system, const Branch
   return Corrector(system, constraint, scaling, options).run(start);
 }
 
+NewtonResult solve_balance(const HarmonicBalance& balance, ContinuationOptions::Corrector corrector,
+                           const BranchVector& guess, const BranchVector& constraint,
+                           const Scaling& scaling, const NewtonOptions& options) {
+  const ParametricSystem whole = [&](const Eigen::VectorXd& x, double frequency) {
+    return balance.evaluate(x, frequency);
+  };
+  if (corrector == ContinuationOptions::Corrector::newton) {
+    return solve_newton(whole, guess, constraint, scaling, options);
+  }
+  const ParametricSystem residual = [&](const Eigen::VectorXd& x, double frequency) {
+    return balance.residual(x, frequency);
+  };
+  return solve_with_few_jacobians({whole, residual}, guess, constraint, scaling, options);
+}
+
 }  // namespace microslip::solver

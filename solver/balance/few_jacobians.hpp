@@ -11,6 +11,7 @@
 #pragma once
 
 #include "solver/balance/newton.hpp"
+#include "solver/continuation_options.hpp"
 
 namespace microslip::solver {
 
@@ -27,5 +28,11 @@ struct EconomicSystem {
                                                     const BranchVector& constraint,
                                                     const Scaling& scaling,
                                                     const NewtonOptions& options);
+
+/// On the plane of the constraint, by the corrector that the forces of the scene call for.
+[[nodiscard]] NewtonResult solve_balance(const HarmonicBalance& balance,
+                                         ContinuationOptions::Corrector corrector,
+                                         const BranchVector& guess, const BranchVector& constraint,
+                                         const Scaling& scaling, const NewtonOptions& options);
 
 }  // namespace microslip::solver

@@ -51,23 +51,10 @@ class Climb {
  private:
   [[nodiscard]] bool is_bracketed() const { return rising_ && falling_; }
 
-  [[nodiscard]] NewtonResult corrected(const BranchVector& guess, const BranchVector& row) const {
-    const ParametricSystem whole = [&](const Eigen::VectorXd& x, double frequency) {
-      return balance_.evaluate(x, frequency);
-    };
-    const NewtonOptions options{.tolerance = tolerance};
-    if (range_.corrector == ContinuationOptions::Corrector::newton) {
-      return solve_newton(whole, guess, row, start_.scaling, options);
-    }
-    const ParametricSystem residual = [&](const Eigen::VectorXd& x, double frequency) {
-      return balance_.residual(x, frequency);
-    };
-    return solve_with_few_jacobians({whole, residual}, guess, row, start_.scaling, options);
-  }
-
   [[nodiscard]] std::optional<Step> solved(const BranchVector& guess, const BranchVector& row,
                                            const BranchVector& tangent) {
-    const NewtonResult at = corrected(guess, row);
+    const NewtonResult at = solve_balance(balance_, range_.corrector, guess, row, start_.scaling,
+                                          {.tolerance = tolerance});
     work_.iterations += at.iterations;
     work_.contact_evaluations += at.evaluations;
     if (!at.converged) return std::nullopt;

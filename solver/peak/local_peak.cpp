@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/balance/few_jacobians.hpp"
 #include "solver/balance/output_amplitude.hpp"
 #include "solver/branch/branch_walker.hpp"
 #include "solver/branch/special_points.hpp"
@@ -86,12 +87,8 @@ LocalPeak made_end(const HarmonicBalance& balance, const NewtonResult& at, Branc
 NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
                     const BranchVector& constraint, const Scaling& scaling,
                     const ContinuationOptions& range, PeakWork& work) {
-  const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
-    return balance.evaluate(x, frequency);
-  };
-  NewtonOptions newton;
-  newton.tolerance = range.residual_tolerance;
-  NewtonResult result = solve_newton(system, guess, constraint, scaling, newton);
+  const NewtonOptions newton{.tolerance = range.residual_tolerance};
+  NewtonResult result = solve_balance(balance, range.corrector, guess, constraint, scaling, newton);
   work.iterations += result.iterations;
   work.contact_evaluations += result.evaluations;
   return result;
@@ -186,13 +183,19 @@ std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const Local
   NewtonResult start = solved(balance, guess, from.tangent, scaling, range, work);
   if (!start.converged || distance(start.point, guess, scaling) > farthest) return std::nullopt;
 
-  BranchVector tangent = branch_tangent(start.evaluation, from.tangent, scaling).direction;
+  BranchVector tangent = start.tangent
+                             ? start.tangent->direction
+                             : branch_tangent(start.evaluation, from.tangent, scaling).direction;
   const Slope slope = slope_along(balance, start.point.x, tangent, scaling);
   if (std::abs(slope.value) <= level * slope.amplitude && inside(start.point.parameter, range)) {
     return made_peak(balance, start, tangent, scaling);
   }
   const double forward = (slope.value > 0.0) == (tangent.parameter > 0.0) ? 1.0 : -1.0;
   BranchWalker walker(system, rule, std::move(start), forward, range.residual_tolerance);
+  if (range.corrector == ContinuationOptions::Corrector::few_jacobians) {
+    walker.economise(
+        [&](const Eigen::VectorXd& x, double frequency) { return balance.residual(x, frequency); });
+  }
   std::optional<LocalPeak> peak = climb(balance, walker, guess, range);
   work.iterations += walker.iterations();
   work.contact_evaluations += walker.evaluations();
