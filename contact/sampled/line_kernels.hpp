@@ -19,7 +19,7 @@
 namespace microslip::contact::sampled {
 
 /// What happens at one instant, as in ContactState; in arrays as numbers, like everything in lanes.
-enum class InstantState : std::int8_t { stick, positive_slip, negative_slip, separated };
+enum class InstantState : std::int8_t { stick, positive_slip, negative_slip, separated, slip };
 [[nodiscard]] constexpr InstantState instant_state(double value) {
   return static_cast<InstantState>(static_cast<std::int8_t>(value));
 }

@@ -14,7 +14,7 @@ void add(std::vector<double>& sum, double factor, const double* terms) {
 double sign_of(InstantState state) { return state == InstantState::negative_slip ? -1.0 : 1.0; }
 
 bool slips(InstantState state) {
-  return state == InstantState::positive_slip || state == InstantState::negative_slip;
+  return state != InstantState::stick && state != InstantState::separated;
 }
 
 }  // namespace

@@ -86,6 +86,35 @@ bool PatchForce::is_frictionless(Eigen::Index point) const {
   return !surface.is_rate_dependent() && surface.friction().at_rest() == 0.0;
 }
 
+void PatchForce::sum_plane(double frequency, bool derivatives, const Grid& grid) const {
+  const std::span<const Eigen::Index> awake(sleep_.awake());
+  const auto ask = derivatives ? PlaneBlock::Ask::derivatives : PlaneBlock::Ask::force;
+  for (std::size_t begin = 0; begin < awake.size(); begin += block_size) {
+    const auto points = awake.subspan(begin, std::min(block_size, awake.size() - begin));
+    plane_.evaluate(surfaces_, motion_, points, frequency, ask, *grid.of_motion, *grid.of_force);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Eigen::Index i = points[p];
+      const auto& surface = surfaces_[static_cast<std::size_t>(i)];
+      const CycleStates states = cycle_states(plane_.runs(p), grid.of_motion->size());
+      cycles_[static_cast<std::size_t>(i)] = is_frictionless(i) ? states.without_slip() : states;
+      defect_ += weights_[i] * plane_.defect(p) *
+                 std::hypot(shapes_.u.row(i).norm(), shapes_.w.row(i).norm());
+      PointDerivatives of_point;
+      if (derivatives) {
+        const PlaneDerivatives& J = plane_.derivatives(p);
+        for (std::size_t d = 0; d < 2; ++d) {
+          for (std::size_t s = 0; s < 3; ++s) of_point.friction[d][s] = J.by(d, s);
+          if (surface.is_rate_dependent()) of_point.by_frequency[d] = J.by_frequency(d);
+        }
+        of_point.normal_moments = J.normal_moments();
+      }
+      projection_.add(i, weights_[i], surface.load_at_rest(),
+                      {plane_.sums(0) + p, plane_.sums(1) + p, plane_.sums(2) + p}, block_size,
+                      derivatives ? &of_point : nullptr);
+    }
+  }
+}
+
 void PatchForce::sum_line(double frequency, bool derivatives, const Grid& grid) const {
   const std::span<const Eigen::Index> awake(sleep_.awake());
   const std::size_t n = grid.of_motion->size();
@@ -117,8 +146,14 @@ ForceAndJacobian PatchForce::sum(const Harmonics& q, double frequency,
   sleep_.look_at(motion_, frequency, shapes_);
   projection_.start(shapes_, *grid.of_motion, *grid.of_force, rows);
   keep_states(q, frequency);
-  sum_line(frequency, !rows.empty(), grid);
+  defect_ = 0.0;
+  if (shapes_.w.size() > 0) {
+    sum_plane(frequency, !rows.empty(), grid);
+  } else {
+    sum_line(frequency, !rows.empty(), grid);
+  }
   ForceAndJacobian result = projection_.take();
+  result.defect = defect_;
   if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, rows.size());
   return result;
 }
@@ -184,11 +219,18 @@ CycleReport PatchForce::report(const Harmonics& q, double frequency) const {
   const std::span<const Eigen::Index> awake(sleep_.awake());
   for (std::size_t begin = 0; begin < awake.size(); begin += block_size) {
     const auto points = awake.subspan(begin, std::min(block_size, awake.size() - begin));
-    line_.evaluate(surfaces_, motion_, points, frequency, *grid.of_motion, *grid.of_force);
+    const bool planar = shapes_.w.size() > 0;
+    if (planar) {
+      plane_.evaluate(surfaces_, motion_, points, frequency, PlaneBlock::Ask::force,
+                      *grid.of_motion, *grid.of_force);
+    } else {
+      line_.evaluate(surfaces_, motion_, points, frequency, *grid.of_motion, *grid.of_force);
+    }
     for (std::size_t p = 0; p < points.size(); ++p) {
       const double weight = weights_[points[p]];
       if (weight == 0.0) continue;
-      sum.add(cycle_segments(line_.runs(p), grid.of_motion->size()), line_.slip_work(p), weight);
+      sum.add(cycle_segments(planar ? plane_.runs(p) : line_.runs(p), grid.of_motion->size()),
+              planar ? plane_.slip_work(p) : line_.slip_work(p), weight);
     }
   }
   CycleReport report = sum.result();

@@ -6,6 +6,7 @@
 ///
 /// The error falls with n²; derivatives are those of the sums, so that Newton's method converges on them. n is
 /// a constant of the object: whoever solves chooses it between solutions (estimated_error, with_instants).
+/// In two directions the slider is marched until it repeats (plane_block.hpp); what has not settled is the defect.
 /// Points proved stuck or open cost next to nothing (sleeping_laws.hpp), and are exact.
 ///
 /// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (event_law.hpp) are exact and slower.
@@ -19,6 +20,7 @@
 #include "contact/force/sleeping_laws.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/sampled/line_block.hpp"
+#include "contact/sampled/plane_block.hpp"
 #include "contact/sampled/projection.hpp"
 #include "contact/surface/surface_law.hpp"
 
@@ -76,6 +78,7 @@ class PatchForce final : public ModalForce {
   [[nodiscard]] ForceAndJacobian sum(const Harmonics& q, double frequency,
                                      const std::vector<Eigen::Index>& rows, const Grid& grid) const;
   void sum_line(double frequency, bool derivatives, const Grid& grid) const;
+  void sum_plane(double frequency, bool derivatives, const Grid& grid) const;
   void keep_states(const Harmonics& q, double frequency) const;
   [[nodiscard]] bool is_frictionless(Eigen::Index point) const;
 
@@ -88,6 +91,8 @@ class PatchForce final : public ModalForce {
   mutable SleepingLaws sleep_;
   mutable PatchMotion motion_;
   mutable LineBlock line_;
+  mutable PlaneBlock plane_;
+  mutable double defect_ = 0.0;
   mutable Projection projection_;
   mutable std::vector<CycleStates> cycles_;  // of the motion evaluated last
   mutable Harmonics states_q_;

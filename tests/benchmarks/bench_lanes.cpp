@@ -138,5 +138,5 @@ void compare(int H, bool second_direction, Eigen::Index n) {
 int main() {
   std::printf("%-18s %2s  %9s %9s  %8s %8s\n", "", "H", "G", "dG/dq", "us/point", "force");
   for (const int H : {1, 3, 9}) compare(H, false, 384);
-  // PLANE
+  for (const int H : {1, 3, 9}) compare(H, true, 64);
 }

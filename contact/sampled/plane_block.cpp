@@ -1,0 +1,388 @@
+#include "contact/sampled/plane_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/sampled/line_kernels.hpp"
+
+namespace microslip::contact::sampled {
+namespace {
+
+// Enough for (1); a march into rest may creep along a valley between two windows that push in turn.
+constexpr int most_periods = 60;
+// Periods after which the march is helped: a slider that comes to rest soon is left alone.
+constexpr int first_jump = 3;
+// Of the width of the ellipse: below what instants leave, above what rounding of a period does.
+constexpr double settled = 1e-12;
+
+}  // namespace
+
+void PlaneBlock::resize() {
+  const std::size_t n = instants_->size();
+  for (auto* values :
+       {&u_,      &v_,       &w_,       &rate_u_,    &rate_w_,    &closeness_, &normal_,
+        &limit_,  &width_p_, &width_r_, &inverse_p_, &inverse_r_, &slider_p_,  &slider_r_,
+        &pull_p_, &pull_r_,  &force_p_, &force_r_,   &state_,     &entry_}) {
+    values->resize(n * block_size);
+  }
+  coefficients_.resize(3 * instants_->n_rows() * block_size);
+  turns_.resize(n * n_turn_numbers * block_size);
+  arrays_ = {n,
+             u_.data(),
+             w_.data(),
+             closeness_.data(),
+             width_p_.data(),
+             width_r_.data(),
+             inverse_p_.data(),
+             inverse_r_.data(),
+             slider_p_.data(),
+             slider_r_.data(),
+             pull_p_.data(),
+             pull_r_.data(),
+             state_.data(),
+             entry_.data(),
+             turns_.data()};
+}
+
+/// Directions without stiffness carry no friction: there the point does not move. Places without a point repeat
+/// the first.
+void PlaneBlock::load_motion(const PatchMotion& motion) {
+  const std::size_t rows = instants_->n_rows();
+  for (std::size_t p = 0; p < block_size; ++p) {
+    const PointRows of_point = motion.of(point(p));
+    const double along_p = stiffness_p_[p] > 0.0 ? 1.0 : 0.0;
+    const double along_r = stiffness_r_[p] > 0.0 ? 1.0 : 0.0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const std::size_t to = instants_->split(row) * block_size + p;
+      coefficients_[to] = along_p * of_point.u[row];
+      coefficients_[rows * block_size + to] = of_point.v[row];
+      coefficients_[2 * rows * block_size + to] = along_r * of_point.w[row];
+    }
+  }
+  const LineKernels& kernels = line_kernels();
+  const std::size_t n = instants_->size();
+  const double* c = coefficients_.data();
+  kernels.synthesize(n, rows, instants_->basis(), c, u_.data());
+  kernels.synthesize(n, rows, instants_->basis(), c + rows * block_size, v_.data());
+  kernels.synthesize(n, rows, instants_->basis(), c + 2 * rows * block_size, w_.data());
+  if (simple_) return;
+  kernels.synthesize(n, rows, instants_->rates(), c, rate_u_.data());
+  kernels.synthesize(n, rows, instants_->rates(), c + 2 * rows * block_size, rate_w_.data());
+}
+
+void PlaneBlock::load_constants() {
+  simple_ = equal_ = true;
+  for (std::size_t p = 0; p < block_size; ++p) {
+    const SurfaceLaw& surface = (*surfaces_)[static_cast<std::size_t>(point(p))];
+    simple_ = simple_ && surface.is_smooth() && !surface.is_rate_dependent();
+    const PointParameters& constants = surface.point();
+    const bool slides = surface.is_rate_dependent() || constants.friction_coefficient > 0.0;
+    preload_[p] = constants.preload;
+    normal_stiffness_[p] = constants.normal_stiffness;
+    coefficient_[p] = constants.friction_coefficient;
+    stiffness_p_[p] = slides ? surface.first_stiffness() : 0.0;
+    stiffness_r_[p] = slides ? surface.second_stiffness() : 0.0;
+    const bool plain = surface.at(0.0, 0.0).ratio_of_stiffness == 1.0;
+    equal_ = equal_ && stiffness_p_[p] == stiffness_r_[p] && plain;
+    closeness_by_approach_[p] = surface.is_smooth() ? constants.normal_stiffness : 1.0;
+  }
+}
+
+void PlaneBlock::load_smooth() {
+  const std::size_t n = instants_->size();
+  std::array<double, block_size> compliance_p{}, compliance_r{};
+  for (std::size_t p = 0; p < block_size; ++p) {
+    // A direction without stiffness takes the width of the other: it does not move.
+    const double k_p = stiffness_p_[p] > 0.0 ? stiffness_p_[p] : stiffness_r_[p];
+    const double k_r = stiffness_r_[p] > 0.0 ? stiffness_r_[p] : stiffness_p_[p];
+    compliance_p[p] = k_p > 0.0 ? coefficient_[p] / k_p : 0.0;
+    compliance_r[p] = k_r > 0.0 ? coefficient_[p] / k_r : 0.0;
+    smooth_slopes(p);
+  }
+  line_kernels().load(
+      n, {preload_.data(), normal_stiffness_.data(), compliance_p.data(), stiffness_p_.data()},
+      v_.data(), closeness_.data(), normal_.data(), width_p_.data());
+  for (std::size_t at = 0; at < n * block_size; at += block_size) {
+    for (std::size_t p = 0; p < block_size; ++p) {
+      width_r_[at + p] = compliance_r[p] * normal_[at + p];
+      limit_[at + p] = coefficient_[p] * normal_[at + p];
+    }
+  }
+}
+
+void PlaneBlock::smooth_slopes(std::size_t p) {
+  const double k_p = stiffness_p_[p] > 0.0 ? stiffness_p_[p] : stiffness_r_[p];
+  const double k_r = stiffness_r_[p] > 0.0 ? stiffness_r_[p] : stiffness_p_[p];
+  PlaneSlopes slopes;
+  slopes.stiffness = {stiffness_p_[p], stiffness_r_[p]};
+  slopes.load_by_approach = normal_stiffness_[p];
+  slopes.limit_by_approach = coefficient_[p] * normal_stiffness_[p];
+  if (k_p > 0.0)
+    slopes.width_by_approach = {slopes.limit_by_approach / k_p, slopes.limit_by_approach / k_r};
+  slopes_[p].assign(1, slopes);
+}
+
+/// Instant by instant and point by point: surfaces are a class with branches.
+void PlaneBlock::ask_surfaces() {
+  const std::size_t n = instants_->size();
+  for (std::size_t p = 0; p < block_size; ++p) {
+    const SurfaceLaw& surface = (*surfaces_)[static_cast<std::size_t>(point(p))];
+    const bool smooth = surface.is_smooth();
+    const double touch = smooth ? 0.0 : surface.kinks().front();
+    const double k_p = stiffness_p_[p];
+    const double k_r = stiffness_r_[p];
+    const bool rubs = k_p > 0.0 || k_r > 0.0;
+    slopes_[p].resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t at = i * block_size + p;
+      const double speed = std::hypot(rate_u_[at], rate_w_[at]);
+      const SurfaceState now = surface.at(v_[at], frequency_ * speed);
+      const double mu = rubs ? now.friction_coefficient : 0.0;
+      const double by_rate = rubs ? now.friction_coefficient_by_rate : 0.0;
+      closeness_[at] = smooth ? now.gap_load : v_[at] - touch;
+      normal_[at] = now.load;
+      limit_[at] = mu * now.load;
+      PlaneSlopes& s = slopes_[p][i];
+      s = {};
+      s.stiffness = {k_p * now.stiffness_ratio, k_r * now.second_stiffness_ratio};
+      s.stiffness_by_approach = {k_p * now.stiffness_ratio_by_approach,
+                                 k_r * now.second_stiffness_ratio_by_approach};
+      s.limit = limit_[at];
+      s.limit_by_approach = mu * now.load_by_approach;
+      s.limit_by_rate = by_rate * now.load;
+      s.load_by_approach = now.load_by_approach;
+      if (speed > 0.0) {
+        s.rate_by_speed = {frequency_ * rate_u_[at] / speed, frequency_ * rate_w_[at] / speed};
+      }
+      s.rate_by_frequency = speed;
+      // A direction without stiffness takes the width of the other: it does not move.
+      const double c_p = rubs ? 1.0 / (k_p > 0.0 ? k_p : k_r) : 0.0;
+      const double c_r = rubs ? 1.0 / (k_r > 0.0 ? k_r : k_p) : 0.0;
+      const bool touching = closeness_[at] > 0.0;
+      const double load_p = k_p > 0.0 ? now.load_per_ratio : now.second_load_per_ratio;
+      const double load_r = k_r > 0.0 ? now.second_load_per_ratio : now.load_per_ratio;
+      width_p_[at] = touching ? c_p * mu * load_p : 0.0;
+      width_r_[at] = touching ? c_r * mu * load_r : 0.0;
+      s.width_by_rate = {c_p * by_rate * load_p, c_r * by_rate * load_r};
+      s.width_by_approach = {
+          c_p * mu *
+              (k_p > 0.0 ? now.load_per_ratio_by_approach : now.second_load_per_ratio_by_approach),
+          c_r * mu *
+              (k_r > 0.0 ? now.second_load_per_ratio_by_approach : now.load_per_ratio_by_approach)};
+    }
+  }
+}
+
+PlaneBlock::State PlaneBlock::virgin() const {
+  State state{};
+  plane_kernels().start(arrays_, state.data());
+  return state;
+}
+
+void PlaneBlock::settle() {
+  const PlaneKernels& kernels = plane_kernels();
+  std::array<double, block_size> slips{};
+  std::array<double, block_size> least{};
+  std::array<double, block_size> most{};
+  line_kernels().range(instants_->size(), closeness_.data(), least.data(), most.data());
+  start_ = virgin();
+  for (std::size_t p = 0; p < block_size; ++p) {
+    search_[p] = {};
+    defect_[p] = 0.0;
+    search_[p].settled = most[p] <= 0.0;
+  }
+  for (int period = 0; period < most_periods; ++period) {
+    if (std::ranges::all_of(search_, [](const Search& s) { return s.settled; })) return;
+    const State before = start_;
+    State end = start_;
+    kernels.march(arrays_, equal_, end.data(), slips.data());
+    for (std::size_t p = 0; p < block_size; ++p) {
+      if (search_[p].settled) continue;
+      if (least[p] <= 0.0) {  // parts: what was before touch-down does not matter
+        copy(end, p, start_);
+        search_[p].settled = true;
+      }
+    }
+    step_on(before, end, slips);
+  }
+  for (std::size_t p = 0; p < block_size; ++p) {
+    if (search_[p].settled) continue;
+    defect_[p] = search_[p].change_size * std::max(stiffness_p_[p], stiffness_r_[p]);
+  }
+}
+
+/// Of one point.
+void PlaneBlock::copy(const State& from, std::size_t p, State& to) {
+  for (std::size_t k = 0; k < n_state_numbers; ++k) {
+    to[k * block_size + p] = from[k * block_size + p];
+  }
+}
+
+/// (1) for one point that slips: where its next period is to begin, if not where this one has ended.
+bool PlaneBlock::jump(std::size_t p, const State& before, const State& end, State& next) {
+  Search& search = search_[p];
+  const auto along = [&](const State& s, std::size_t k) { return s[k * block_size + p]; };
+  const std::array<double, 2> g = {along(end, 0) - along(before, 0),
+                                   along(end, 1) - along(before, 1)};
+  if (!search.jumped) ++search.periods;
+  search.change_size = std::hypot(g[0], g[1]);
+  if (search.change_size <= settled * std::max(width_p_[p], width_r_[p])) {
+    search.settled = true;
+    copy(end, p, start_);
+    return false;
+  }
+  const std::array<double, 2> moved = {g[0] - search.change[0], g[1] - search.change[1]};
+  const std::array<double, 2> ends = {along(end, 0) - search.end[0], along(end, 1) - search.end[1]};
+  search.change = g;
+  search.end = {along(end, 0), along(end, 1)};
+  if (search.marches || search.periods < first_jump) return false;
+  if (!search.jumped) copy(end, p, march_);
+  const double square = moved[0] * moved[0] + moved[1] * moved[1];
+  if (!(square > 0.0)) return false;
+  const double share = (g[0] * moved[0] + g[1] * moved[1]) / square;
+  next[p] = along(end, 0) - share * ends[0];
+  next[block_size + p] = along(end, 1) - share * ends[1];
+  search.jumped = true;
+  return true;
+}
+
+/// From the end of a period to the begin of the next, of points that are not settled.
+void PlaneBlock::step_on(const State& before, const State& end, std::span<const double> slips) {
+  std::array<bool, block_size> jumps{};
+  State next = end;
+  for (std::size_t p = 0; p < block_size; ++p) {
+    Search& search = search_[p];
+    if (search.settled) continue;
+    if (slips[p] > 0.0) {
+      jumps[p] = jump(p, before, end, next);
+    } else if (search.jumped) {  // rest: by the march alone
+      search.jumped = false;
+      search.marches = true;
+      copy(march_, p, next);
+    } else {
+      search.settled = true;
+    }
+  }
+  State started = next;
+  plane_kernels().start(arrays_, started.data());
+  for (std::size_t p = 0; p < block_size; ++p) {
+    if (!search_[p].settled) copy(jumps[p] ? started : next, p, start_);
+  }
+}
+
+PlaneStart PlaneBlock::start_of(const State& state, std::size_t place) const {
+  const auto number = [&](std::size_t k) { return state[k * block_size + place]; };
+  const InstantState kind = closeness_[place] <= 0.0 ? InstantState::separated
+                            : number(4) > 0.0        ? InstantState::slip
+                                                     : InstantState::stick;
+  return {{number(0), number(1)}, {number(2), number(3)}, kind};
+}
+
+PlaneDerivatives::Point PlaneBlock::point_of(std::size_t place) const {
+  return {&arrays_, place, slopes_[place].data(), simple_, closeness_by_approach_[place]};
+}
+
+/// Whether a point is where it is by its history: at rest, or on its way there.
+bool PlaneBlock::has_history(std::size_t p) const {
+  const bool rests = runs_[p].size() == 1 && runs_[p][0].state == InstantState::stick;
+  return rests || search_[p].marches;
+}
+
+/// Of points that something has pushed to where they rest: all their periods again.
+void PlaneBlock::keep_histories() {
+  int most = 0;
+  State state = virgin();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    derivatives_[p].reset(*instants_);
+    if (!has_history(p)) continue;
+    derivatives_[p].begin_history(point_of(p), start_of(state, p));
+    most = std::max(most, search_[p].periods);
+  }
+  std::array<double, block_size> slips{};
+  for (int period = 0; period < most; ++period) {
+    const State begin = state;
+    plane_kernels().linearise(arrays_, equal_, state.data(), slips.data());
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (!has_history(p) || period >= search_[p].periods) continue;
+      derivatives_[p].carry_history(point_of(p), start_of(begin, p));
+    }
+  }
+  if (most == 0) return;
+  state = start_;
+  plane_kernels().linearise(arrays_, equal_, state.data(), slips.data());
+}
+
+void PlaneBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMotion& motion,
+                          std::span<const Eigen::Index> points, double frequency, Ask ask,
+                          const Instants& of_motion, const Instants& of_force) {
+  surfaces_ = &surfaces;
+  points_ = points;
+  frequency_ = frequency;
+  instants_ = &of_motion;
+  resize();
+  load_constants();
+  load_motion(motion);
+  if (simple_) {
+    load_smooth();
+  } else {
+    ask_surfaces();
+  }
+  const std::size_t n = of_motion.size();
+  plane_kernels().invert(n, width_p_.data(), inverse_p_.data());
+  plane_kernels().invert(n, width_r_.data(), inverse_r_.data());
+  settle();
+  std::array<double, block_size> slips{};
+  State state = start_;
+  const bool derivatives = ask == Ask::derivatives;
+  (derivatives ? plane_kernels().linearise : plane_kernels().record)(arrays_, equal_, state.data(),
+                                                                     slips.data());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    find_runs(state_.data() + p, n, block_size, runs_[p]);
+  }
+  if (derivatives) keep_histories();
+  for (std::size_t at = 0; at < n * block_size; ++at) {
+    force_p_[at] = limit_[at] * pull_p_[at];
+    force_r_[at] = limit_[at] * pull_r_[at];
+  }
+  const std::array<const double*, 3> signal{force_p_.data(), normal_.data(), force_r_.data()};
+  for (std::size_t s = 0; s < 3; ++s) {
+    sums_[s].resize(of_force.n_rows() * block_size);
+    line_kernels().analyze(n, of_force.n_rows(), of_force.n_rows(), of_force.basis(), signal[s],
+                           sums_[s].data());
+  }
+}
+
+const PlaneDerivatives& PlaneBlock::derivatives(std::size_t place) {
+  if (has_history(place)) {
+    derivatives_[place].after_history(point_of(place), start_of(start_, place), runs_[place]);
+  } else {
+    derivatives_[place].steady(point_of(place), runs_[place]);
+  }
+  return derivatives_[place];
+}
+
+double PlaneBlock::slip_work(std::size_t place) const {
+  const std::size_t n = instants_->size();
+  double work = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t now = i * block_size + place;
+    const std::size_t before = (i + n - 1) % n * block_size + place;
+    if (instant_state(state_[now]) != InstantState::slip) continue;
+    double start_p = slider_p_[before];
+    double start_r = slider_r_[before];
+    double limit = limit_[before];
+    if (closeness_[before] <= 0.0) {
+      const double x = -closeness_[before] / (closeness_[now] - closeness_[before]);
+      start_p = u_[before] + x * (u_[now] - u_[before]);
+      start_r = w_[before] + x * (w_[now] - w_[before]);
+      limit = 0.0;
+    } else if (instant_state(state_[before]) == InstantState::stick) {
+      limit = limit_[now];
+    }
+    work += 0.5 * (limit + limit_[now]) *
+            std::hypot(slider_p_[now] - start_p, slider_r_[now] - start_r);
+  }
+  return work;
+}
+
+}  // namespace microslip::contact::sampled
