@@ -49,7 +49,7 @@ Eigen::Index n_points(std::span<const Patch> patches) {
 /// The switch: which method serves these patches.
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
   if (effects.n_harmonics == 1 && are_plain(patches, effects)) return Method::closed_form;
-  if (!effects.second_direction && n_points(patches) >= least_points_in_lanes) return Method::lanes;
+  if (n_points(patches) >= least_points_in_lanes) return Method::lanes;
   return Method::point_laws;
 }
 
