@@ -111,62 +111,15 @@ CycleJacobian jacobian(const CycleForce& force) {
   return J;
 }
 
-// The cycle is homogeneous of degree one in motion and preload. Where its forces would be subnormal
-// numbers it is solved at a larger amplitude, by a power of two, and the forces taken back.
-constexpr double lift = 0x1p500;
-
-bool is_tiny(const PointParameters& point, const PointMotion& m) {
-  const double u = std::abs(m.u_mean) + std::abs(m.u_sin) + std::abs(m.u_cos);
-  const double v = std::abs(m.v_mean) + std::abs(m.v_sin) + std::abs(m.v_cos);
-  const double size =
-      point.tangential_stiffness * u + point.normal_stiffness * v + std::abs(point.preload);
-  return size < 1e-250 && (u > 0.0 || v > 0.0 || point.preload != 0.0) && u < 1e100 && v < 1e100;
-}
-
-PointParameters lifted(PointParameters point) {
-  point.preload *= lift;
-  return point;
-}
-
-PointMotion lifted(const PointMotion& m) {
-  return {m.u_mean * lift, m.u_sin * lift, m.u_cos * lift,
-          m.v_mean * lift, m.v_sin * lift, m.v_cos * lift};
-}
-
-ForceCoefficients lowered(const ForceCoefficients& force) {
-  return {force.mean / lift, force.sin / lift, force.cos / lift};
-}
-
-FrictionCycle lowered(FrictionCycle cycle) {
-  cycle.friction = lowered(cycle.friction);
-  cycle.normal = lowered(cycle.normal);
-  for (CycleSegment& segment : cycle.segment_) {
-    segment.offset /= lift;
-  }
-  cycle.slip_distance /= lift;
-  cycle.normal_slip = cycle.normal_slip / lift / lift;
-  cycle.dissipated_energy = cycle.dissipated_energy / lift / lift;
-  return cycle;
-}
-
 }  // namespace
 
 CycleForce cycle_force(const PointParameters& point, const PointMotion& motion) {
-  if (is_tiny(point, motion)) {
-    CycleForce force = cycle_force(lifted(point), lifted(motion));
-    force.friction = lowered(force.friction);
-    force.normal = lowered(force.normal);
-    return force;
-  }
   const SlipFunctions w = slip_functions(point, motion);
   const CycleRegime regime = cycle_regime(w);
   return cycle_force(point, motion, w, regime, cycle_phases(w, regime));
 }
 
 FrictionCycle friction_cycle(const PointParameters& point, const PointMotion& motion) {
-  if (is_tiny(point, motion)) {
-    return lowered(friction_cycle(lifted(point), lifted(motion)));
-  }
   const SlipFunctions w = slip_functions(point, motion);
   const CycleRegime regime = cycle_regime(w);
   const CyclePhases phases = cycle_phases(w, regime);

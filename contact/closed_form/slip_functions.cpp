@@ -7,23 +7,12 @@ namespace {
 
 __extension__ using Quad = __float128;
 
-// Length of a vector; hypot only where the squares could underflow or overflow.
-double length(double x, double y) {
-  const double square = x * x + y * y;
-  return square > 1e-280 && square < 1e280 ? std::sqrt(square) : std::hypot(x, y);
-}
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // One Newton step from the double root doubles the digits.
 Quad root(Quad x) {
-  constexpr double shift = 0x1p300;  // its square lifts squares of the smallest doubles into range
-  const bool small = x < Quad(1e-250);
-  const Quad value = small ? x * shift * shift : x;
-  const Quad guess = std::sqrt(static_cast<double>(value));
-  if (guess == 0) {
-    return 0;
-  }
-  const Quad result = guess + (value - guess * guess) / (2 * guess);
-  return small ? result / shift : result;
+  const Quad guess = std::sqrt(static_cast<double>(x));
+  return guess > 0 ? guess + (x - guess * guess) / (2 * guess) : guess;
 }
 
 Direction direction(double sin, double cos, double size) {

@@ -40,12 +40,11 @@ double slip_integral(const EventGuards& guards, const TrigonometricPolynomial& r
 
 }  // namespace
 
-std::vector<CycleSegment> event_segments(const PointParameters& point, const EventGuards& guards,
-                                         const EventPhases& phases) {
+std::vector<CycleSegment> event_segments(const PointParameters& point, const EventPhases& phases) {
   const bool has_spring = point.tangential_stiffness > 0.0;
   std::vector<CycleSegment> segments;
   for (const EventPhase& phase : phases.phases) {
-    CycleSegment segment{phase.state, phase.begin, phase.length, phase.offset / guards.scale};
+    CycleSegment segment{phase.state, phase.begin, phase.length, phase.offset};
     if (!has_spring && segment.state != ContactState::separated) {
       segment.state = ContactState::stick;
     }
@@ -81,8 +80,8 @@ EventWork event_work(const PointParameters& point, const EventGuards& guards,
     work.slip_distance += std::max(up ? moved : -moved, 0.0);
     work.normal_slip += slip_integral(guards, rate, phase);
   }
-  work.slip_distance /= point.tangential_stiffness * guards.scale;
-  work.normal_slip = work.normal_slip / point.tangential_stiffness / guards.scale / guards.scale;
+  work.slip_distance /= point.tangential_stiffness;
+  work.normal_slip /= point.tangential_stiffness;
   return work;
 }
 

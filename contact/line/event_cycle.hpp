@@ -13,7 +13,6 @@ namespace microslip::contact {
 /// States in order of time from the smallest start; neighbours differ, lengths sum to 2π. Phases as short
 /// as the rounding of their angles are joined to the one before. Offsets in Pa.
 [[nodiscard]] std::vector<CycleSegment> event_segments(const PointParameters& point,
-                                                       const EventGuards& guards,
                                                        const EventPhases& phases);
 
 /// The segment that holds at a phase. @param segments  as of event_segments(). @param phase any [rad].

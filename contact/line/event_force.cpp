@@ -117,8 +117,8 @@ void EventForce::set_force(const PointParameters& point, const EventGuards& guar
            point.friction_coefficient * n_j * slip_.product(i, j);
       load += n_j * contact_.product(i, j);
     }
-    force.rows()(i, 0) = has_friction_ ? norm(i) * f / guards.scale : 0.0;
-    force.rows()(i, 1) = norm(i) * load / guards.scale;
+    force.rows()(i, 0) = has_friction_ ? norm(i) * f : 0.0;
+    force.rows()(i, 1) = norm(i) * load;
     force.rows()(i, 2) = 0.0;
   }
 }

@@ -21,8 +21,6 @@ struct EventGuards {
   TrigonometricPolynomial negative_rate;  ///< dw_N/dθ
   double limit = 0.0;                     ///< q = μ n₀
   double spring_mean = 0.0;               ///< k_u u₀
-  /// All of them are this times the forces [Pa]: a power of two, 1 unless those are tiny or huge.
-  double scale = 1.0;
 };
 
 /// @param motion  column 0 is u, column 1 is v.

@@ -46,7 +46,7 @@ PointHistory EventLaw::history(const Harmonics& motion, double /*frequency*/,
   const EventWork work = event_work(point_, shop.guards, found);
   PointHistory history;
   history.regime = found.regime;
-  history.segments = event_segments(point_, shop.guards, found);
+  history.segments = event_segments(point_, found);
   history.force = shop.force.force(point_, shop.guards, found, n_harmonics);
   history.normal_slip = work.normal_slip;
   history.slip_distance = work.slip_distance;

@@ -31,8 +31,8 @@ struct EventPhase {
   StickOrigin origin = StickOrigin::none;  ///< stick only
   double begin = 0.0;                      ///< [rad], in [0, 4π)
   double length = 0.0;                     ///< [rad], ≥ 0
-  double offset = 0.0;  ///< stick: c of f = spring + c, in the scale of the guards
-  double memory = 0.0;  ///< stick: phase at which c was set [rad]
+  double offset = 0.0;                     ///< stick: c of f = spring + c
+  double memory = 0.0;                     ///< stick: phase at which c was set [rad]
 };
 
 struct EventPhases {

@@ -10,7 +10,6 @@
 #include "contact/line/band_walk.hpp"
 #include "contact/line/slider_band.hpp"
 #include "contact/point/cycle_segments.hpp"
-#include "contact/point/scaled_point.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -80,22 +79,17 @@ PointInstant instant_of(SliderBand& band, const BandCycle& cycle, double phase) 
 
 void SurfaceEventLaw::traction(const Harmonics& motion, double frequency,
                                PointTraction& result) const {
-  const ScaledPoint point(law_, along_p(motion), frequency);
   Workshop& shop = workshop();
-  shop.band.set(point.law, point.motion, point.frequency, 2 * motion.n_harmonics());
+  shop.band.set(law_, along_p(motion), frequency, 2 * motion.n_harmonics());
   walk_band(shop.band, shop.cycle);
   shop.traction.set(shop.band, shop.cycle, result);
-  result.force.rows() *= point.unit;
-  result.frequency_derivative *= point.unit;
-  result.frequency_derivative *= point.unit;
 }
 
 PointHistory SurfaceEventLaw::history(const Harmonics& motion, double frequency,
                                       const Eigen::VectorXd& phases, int n_harmonics) const {
-  const ScaledPoint point(law_, along_p(motion), frequency);
   Workshop& shop = workshop();
   const int n_basis = std::max(n_harmonics, motion.n_harmonics());
-  shop.band.set(point.law, point.motion, point.frequency, n_basis);
+  shop.band.set(law_, along_p(motion), frequency, n_basis);
   walk_band(shop.band, shop.cycle);
   const BandWork work = band_work(shop.band, shop.cycle);
   PointHistory result;
@@ -109,7 +103,6 @@ PointHistory SurfaceEventLaw::history(const Harmonics& motion, double frequency,
   for (const double phase : phases) {
     result.instants.push_back(instant_of(shop.band, shop.cycle, phase));
   }
-  point.count_back(result);
   for (std::size_t i = 0; i < result.instants.size(); ++i) {
     PointInstant& instant = result.instants[i];
     instant.motion = motion.at(phases[static_cast<Eigen::Index>(i)]);

@@ -10,7 +10,6 @@
 #include "contact/plane/planar_integrals.hpp"
 #include "contact/plane/planar_quadrature.hpp"
 #include "contact/plane/planar_steady.hpp"
-#include "contact/point/scaled_point.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -111,8 +110,7 @@ PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance) : law_(law), tolerance_(t
 
 void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
   check_motion(motion);
-  const ScaledPoint point(law_, motion, frequency);
-  const PlanarMotion planar(point.law, point.motion, point.frequency);
+  const PlanarMotion planar(law_, motion, frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
   const OrbitOptions options{tolerance_of(planar, tolerance_), static_cast<double>(H)};
@@ -122,9 +120,8 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   for (const PlanarPiece& piece : steady.orbit.pieces) {
     result.period.set(piece.state, piece.begin, piece.end - piece.begin);
   }
-  result.defect = defect_of(planar, steady, options.tolerance) * point.unit;
+  result.defect = defect_of(planar, steady, options.tolerance);
   result.force = planar_force(planar, intervals, steady.orbit, H);
-  result.force.rows() *= point.unit;
   result.jacobian.setZero(m, m);
   result.frequency_derivative.setZero(m);
   const Eigen::MatrixXd load = load_derivative(planar, intervals);
@@ -138,16 +135,15 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   for (Eigen::Index i = 0; i < load.rows(); ++i) {
     result.jacobian.row(3 * i) = friction.first.row(i).head(m);
     result.jacobian.row(3 * i + 2) = friction.second.row(i).head(m);
-    result.frequency_derivative[3 * i] = friction.first(i, m) * point.unit * point.unit;
-    result.frequency_derivative[3 * i + 2] = friction.second(i, m) * point.unit * point.unit;
+    result.frequency_derivative[3 * i] = friction.first(i, m);
+    result.frequency_derivative[3 * i + 2] = friction.second(i, m);
   }
 }
 
 PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
                                 const Eigen::VectorXd& phases, int n_harmonics) const {
   check_motion(motion);
-  const ScaledPoint point(law_, motion, frequency);
-  const PlanarMotion planar(point.law, point.motion, point.frequency);
+  const PlanarMotion planar(law_, motion, frequency);
   const Intervals intervals = planar_intervals(planar);
   const double highest = std::max(n_harmonics, motion.n_harmonics());
   const OrbitOptions options{tolerance_of(planar, tolerance_), highest};
@@ -169,7 +165,6 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   for (const double phase : phases) {
     result.instants.push_back(planar_instant(planar, steady.orbit, phase));
   }
-  point.count_back(result);
   return result;
 }
 

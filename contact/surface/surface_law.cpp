@@ -79,17 +79,6 @@ SurfaceLaw::SurfaceLaw(const PointParameters& point, double second_stiffness,
   start_at_rest(point.preload);
 }
 
-SurfaceLaw SurfaceLaw::in_units(double factor) const {
-  if (!is_smooth()) {
-    throw std::invalid_argument("SurfaceLaw: rough surfaces cannot be counted in other units");
-  }
-  if (!(std::isfinite(factor) && factor > 0.0)) refuse("factor", factor, "finite and above 0");
-  SurfaceLaw law = *this;
-  law.point_.preload *= factor;
-  law.load_at_rest_ *= factor;
-  return law;
-}
-
 void SurfaceLaw::start_at_rest(double pressure) {
   const double compression = pressure / local_stiffness_;
   rest_ = pressure > 0.0 ? roughness_->approach(compression) + compliance_ratio_ * compression

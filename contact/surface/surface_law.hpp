@@ -86,12 +86,6 @@ class SurfaceLaw {
              const std::optional<RoughSurface>& roughness = std::nullopt,
              const SeriesCompliance& series = {});
 
-  /// Smooth surfaces alone: the law of the same point with loads and lengths counted in a smaller unit,
-  /// preload × factor; what depends on the speed is left to the caller.
-  /// @param factor  finite, > 0.
-  /// @throws std::invalid_argument  rough surfaces: they have a length of their own.
-  [[nodiscard]] SurfaceLaw in_units(double factor) const;
-
   /// Derivatives are exact; at a kink they are those of the open side.
   /// @param approach  v, mean included [m].   @param rate  σ [m/s], ≥ 0.
   [[nodiscard]] SurfaceState at(double approach, double rate) const;

@@ -127,25 +127,6 @@ void require_response(const SceneDescription& scene) {
   require_pressing_loads(scene);
 }
 
-/// Numbers that are finite one by one may leave the range of double precision together.
-void require_finite(const ReducedModel& model, const SceneDescription& scene) {
-  const auto require = [&](const char* what, double sum) {
-    if (std::isfinite(sum)) return;
-    throw SceneError(
-        fmt::format("{}: {} comes to more than double precision holds: are all units right?",
-                    scene.file.string(), what));
-  };
-  require("a natural frequency", model.frequency.squaredNorm());
-  require("the excitation", model.force_sine.squaredNorm() + model.force_cosine.squaredNorm());
-  require("the output", model.output.squaredNorm());
-  for (const contact::Patch& patch : model.patches) {
-    const contact::PatchSamples& cells = patch.cells;
-    require("the normal stiffness of the contact", cells.stiffness.col(1).dot(cells.weights));
-    require("the tangential stiffness of the contact", cells.stiffness.col(0).dot(cells.weights));
-    require("the preload of the contact", cells.preload.dot(cells.weights));
-  }
-}
-
 void require_held(const ReducedModel& model, const SceneDescription& scene) {
   const Eigen::Index n_rigid = (model.frequency.array() == 0.0).count();
   if (n_rigid == 0) return;
@@ -181,7 +162,6 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
 }
 
 void require_curves(const ReducedModel& model, const SceneDescription& scene) {
-  require_finite(model, scene);
   require_loads(model, scene);
   const bool in_time = scene.response->method == ResponseDescription::Method::time;
   for (const CurveRequest& request : curve_requests(scene)) {

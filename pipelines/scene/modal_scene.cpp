@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -10,6 +9,7 @@
 
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/scene_keys.hpp"
+#include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -66,8 +66,11 @@ double inline_value(const SectionReader& section, const toml::node& entry,
     if (may_be_absent(column)) return 0.0;
     section.fail("points", fmt::format("this point has no {}", column), &entry);
   }
-  if (!value->is_number() || !std::isfinite(*value->value<double>())) {
-    section.fail("points", fmt::format("{}: expected a finite number", column), value);
+  if (!value->is_number() || !is_of_usable_size(*value->value<double>())) {
+    section.fail(
+        "points",
+        fmt::format("{}: expected a finite number, 0 or of a size from 1e-100 to 1e100", column),
+        value);
   }
   return *value->value<double>();
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -145,9 +144,11 @@ double CsvTable::number_in(std::string_view cell, std::size_t line, std::size_t 
   } catch (const UnitError& error) {
     throw SceneError(fmt::format("{}:{}: {}: {}", name_, line, columns_[column], error.what()));
   }
-  if (!std::isfinite(value)) {
-    throw SceneError(fmt::format("{}:{}: {}: \"{}\" is not a finite number", name_, line,
-                                 columns_[column], cell));
+  if (!is_of_usable_size(value)) {
+    throw SceneError(fmt::format(
+        "{}:{}: {}: \"{}\" is out of range: expected a finite number, 0 or of a size from "
+        "1e-100 to 1e100",
+        name_, line, columns_[column], cell));
   }
   return value;
 }

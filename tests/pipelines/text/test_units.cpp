@@ -142,6 +142,14 @@ TEST(Units, NumbersTooSmallForADoubleAreZero) {
   EXPECT_EQ(parse_number("1e-320"), 1e-320);
 }
 
+TEST(Units, SizesBeyondAllUnitsAreNotUsable) {
+  for (const double value : {0.0, -0.0, 1e-100, -1e100, 3.0}) EXPECT_TRUE(is_of_usable_size(value));
+  for (const double value :
+       {1e-101, -5e-324, 1e101, std::nan(""), -std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(is_of_usable_size(value)) << value;
+  }
+}
+
 TEST(Units, ZeroBytesDoNotHideWhatFollows) {
   EXPECT_TRUE(refuses(std::string_view("5 mm\0furlong", 12), "m"));
 }
