@@ -51,8 +51,8 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   for (const std::string& warning : warnings) record.progress().warning(warning);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
-        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes a "
-        "hundred times "
+        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes "
+        "some ten times "
         "longer than friction along p; effects.second_direction = \"off\" leaves it out",
         100.0 * model.effects.motion_ratio));
   }

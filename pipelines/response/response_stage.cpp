@@ -196,6 +196,28 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
   return problem;
 }
 
+namespace {
+
+/// Where harmonics are given and the contact is not proved linear: the highest peak with eight more of them.
+void check_harmonics(ReducedModel model, const ResponseDescription& response, double load,
+                     CurveResult& result) {
+  constexpr int more = 8;
+  constexpr std::size_t most_unknowns = 1500;  // seconds a step beyond
+  const solver::ResponseCurve& curve = result.curve;
+  const bool is_given = response.harmonic_tolerance == 0.0 && !model.patches.empty();
+  if (!is_given || !curve.certificate.empty() || curve.points.empty()) return;
+  if (curve.diagnosis == "interrupted") return;
+  const int highest = curve.points.front().q.n_harmonics() + more;
+  const auto n_modes = static_cast<std::size_t>(model.frequency.size());
+  if (n_modes * static_cast<std::size_t>(2 * highest + 1) > most_unknowns) return;
+  model.effects.n_harmonics = highest;
+  solver::ContinuationOptions options = continuation_options(response, model);
+  options.search_starts = 0;
+  result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
+}
+
+}  // namespace
+
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
   solver::ContinuationOptions options = continuation_options(*scene.response, model);
@@ -233,6 +255,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);
   add_patch_shares(model, load, result);
+  check_harmonics(model, *scene.response, load, result);
   return result;
 }
 

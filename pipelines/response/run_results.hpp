@@ -15,6 +15,7 @@
 #include "pipelines/scene/scene_description.hpp"
 #include "solver/peak.hpp"
 #include "solver/response_curve.hpp"
+#include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
 
@@ -43,6 +44,7 @@ struct CurveResult {
   std::vector<PatchShares> patch_shares;  ///< where there are several patches, else empty
   std::optional<double> gap;              ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
+  std::optional<solver::RicherPeak> richer;  ///< the peak with more harmonics than were given
 };
 
 /// The best value when one uncertain number of the contact is multiplied.

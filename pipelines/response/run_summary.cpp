@@ -35,6 +35,9 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
 
 CurveSummary summarise(const CurveResult& result) {
   CurveSummary summary;
+  if (result.richer && result.richer->change) {
+    summary.largest_left_out = std::abs(*result.richer->change);
+  }
   summary.name = result.name;
   summary.preload = result.preload;
   summary.gap = result.gap;

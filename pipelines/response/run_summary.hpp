@@ -65,8 +65,8 @@ struct CurveSummary {
   double largest_three_states_share = 0.0;
   std::set<int> harmonic_orders;   ///< that were unknowns at some point, beside the mean
   std::size_t most_harmonics = 0;  ///< at one point
-  double largest_left_out =
-      0.0;  ///< of the amplitude, where harmonics are chosen: by those left out
+  /// Of the amplitude, by harmonics left out: estimated where they are chosen, solved for where they are given.
+  double largest_left_out = 0.0;
   std::vector<std::string> maps;  ///< stems in maps/
   std::string certificate;        ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;

@@ -1,6 +1,7 @@
 #include "pipelines/run/run_messages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -65,6 +66,27 @@ std::vector<std::string> detached_text(const CurveResult& result) {
         highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
   }
   return lines;
+}
+
+std::string left_out_text(const CurveResult& result) {
+  constexpr double worth_a_word = 0.02;
+  if (!result.richer || result.curve.points.empty()) return {};
+  const solver::RicherPeak& richer = *result.richer;
+  const int given = result.curve.points.front().q.n_harmonics();
+  if (!richer.change) {
+    return fmt::format(
+        "curve {}: with harmonics up to {} there is no such peak within a third of it: harmonics "
+        "up to {} do "
+        "not tell this curve; set response.harmonics = {} or \"auto\"",
+        result.name, richer.highest, given, richer.highest);
+  }
+  if (std::abs(*richer.change) < worth_a_word) return {};
+  return fmt::format(
+      "curve {}: with harmonics up to {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put "
+      "it {:.0f} % too "
+      "{}; set response.harmonics = {} or \"auto\"",
+      result.name, richer.highest, richer.amplitude, to_hz * richer.frequency, given,
+      100.0 * std::abs(*richer.change), *richer.change > 0.0 ? "low" : "high", richer.highest);
 }
 
 std::string precision_text(const CurveSummary& curve, const ReducedModel& model) {

@@ -22,6 +22,9 @@ namespace microslip::pipelines {
 /// A line for each branch or solution that was found beside the curve.
 [[nodiscard]] std::vector<std::string> detached_text(const CurveResult& result);
 
+/// What the harmonics given leave out at the highest peak, if that is 2 % or more. Empty: less, or not known.
+[[nodiscard]] std::string left_out_text(const CurveResult& result);
+
 /// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told. Empty:
 /// all are. On rough surfaces the two counts of dissipation differ by themselves (theory section 11).
 [[nodiscard]] std::string precision_text(const CurveSummary& curve, const ReducedModel& model);

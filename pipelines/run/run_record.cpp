@@ -216,6 +216,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
       progress_.warning(text);
   }
   warn_of_unsolved(result);
+  if (const std::string text = left_out_text(result); !text.empty()) progress_.warning(text);
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && !in_newtons(model)) {
     summary.preload_scale = *scale;
