@@ -12,8 +12,8 @@ namespace microslip::solver {
 struct RicherPeak {
   double frequency = 0.0;  ///< with more harmonics [rad/s]
   double amplitude = 0.0;  ///< [m]
-  /// (amplitude − that of the curve) / amplitude; empty: Newton's method finds no such peak near by, which is more
-  /// than a third of it away then, or on another branch.
+  /// (amplitude − that of the curve) / amplitude; empty: the peak is not found from that of the curve, which is far
+  /// from it then, or on another branch.
   std::optional<double> change;
   int highest = 0;  ///< harmonic
 };
@@ -21,7 +21,7 @@ struct RicherPeak {
 /// @param scene    the same with a contact that takes `highest` harmonics.
 /// @param range    of the curve, harmonics given.
 /// @param curve    its highest peak, or end of the range, is taken.
-/// @param highest  > those of the curve.
+/// @param highest  harmonic, ≥ 5 more than those of the curve.
 /// @return empty: the curve has no point to begin with.
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,

@@ -95,6 +95,14 @@ Json to_array(const std::vector<Item>& items) {
   return array;
 }
 
+/// Null: not found from the peak of the curve.
+Json to_json(const solver::RicherPeak& peak) {
+  const bool found = peak.change.has_value();
+  return {{"highest", peak.highest},
+          {"frequency_Hz", found ? Json(hertz(peak.frequency)) : Json(nullptr)},
+          {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
+}
+
 Json to_json(const CurveSummary& curve) {
   Json folds = Json::array();
   for (const double fold : curve.folds) folds.push_back(hertz(fold));
@@ -124,7 +132,8 @@ Json to_json(const CurveSummary& curve) {
           {"harmonics",
            {{"most", curve.most_harmonics},
             {"orders", curve.harmonic_orders},
-            {"largest_left_out", curve.largest_left_out}}},
+            {"largest_left_out", curve.largest_left_out},
+            {"with_more", curve.richer ? to_json(*curve.richer) : Json(nullptr)}}},
           {"maps", curve.maps},
           {"certificate", curve.certificate},
           {"remedies", to_array(curve.remedies)},

@@ -35,6 +35,7 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
 
 CurveSummary summarise(const CurveResult& result) {
   CurveSummary summary;
+  summary.richer = result.richer;
   if (result.richer && result.richer->change) {
     summary.largest_left_out = std::abs(*result.richer->change);
   }

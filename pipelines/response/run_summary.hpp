@@ -67,6 +67,7 @@ struct CurveSummary {
   std::size_t most_harmonics = 0;  ///< at one point
   /// Of the amplitude, by harmonics left out: estimated where they are chosen, solved for where they are given.
   double largest_left_out = 0.0;
+  std::optional<solver::RicherPeak> richer;  ///< the peak with more harmonics than were given
   std::vector<std::string> maps;  ///< stems in maps/
   std::string certificate;        ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;

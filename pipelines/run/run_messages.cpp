@@ -75,9 +75,9 @@ std::string left_out_text(const CurveResult& result) {
   const int given = result.curve.points.front().q.n_harmonics();
   if (!richer.change) {
     return fmt::format(
-        "curve {}: with harmonics up to {} there is no such peak within a third of it: harmonics "
-        "up to {} do "
-        "not tell this curve; set response.harmonics = {} or \"auto\"",
+        "curve {}: with harmonics up to {} its peak is not found from the one with {}: these do "
+        "not tell this "
+        "curve; set response.harmonics = {} or \"auto\"",
         result.name, richer.highest, given, richer.highest);
   }
   if (std::abs(*richer.change) < worth_a_word) return {};

@@ -1,6 +1,6 @@
 #include "solver/richer_peak.hpp"
 
-#include <algorithm>
+#include <vector>
 
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
@@ -11,22 +11,40 @@ namespace {
 
 constexpr double farthest = 4.0;  // amplitudes or widths along the branch
 
+/// From set to set; empty where one of them is not reached.
+std::optional<LocalPeak> through(const Scene& scene, const ContinuationOptions& range,
+                                 HarmonicSet set, std::optional<LocalPeak> peak,
+                                 const std::vector<int>& highest) {
+  PeakWork work;
+  for (const int next : highest) {
+    if (!peak) break;
+    const HarmonicBalance coarse(scene, set);
+    set = set.united(HarmonicSet(next).orders());
+    const HarmonicBalance richer(scene, set);
+    peak = level_point(richer, embedded(*peak, coarse, richer), range, work, farthest);
+  }
+  return peak;
+}
+
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
                                       const ResponseCurve& curve, int highest) {
   if (curve.points.empty() || !scene.contact) return std::nullopt;
   const HarmonicBalance coarse(scene, first_harmonics(scene, range));
-  const HarmonicBalance richer(scene, HarmonicSet(highest));
   const std::vector<HighPoint> high = high_points(scene, curve, range);
   const HighPoint& top = high.front();
   const std::optional<LocalPeak> peak = top.place == PeakPlace::range_end
                                             ? local_end(coarse, top.point, range)
                                             : local_peak(coarse, top.point);
   if (!peak) return std::nullopt;
-  PeakWork work;
   RicherPeak result{top.point.frequency, top.point.amplitude, std::nullopt, highest};
-  const auto found = level_point(richer, embedded(*peak, coarse, richer), range, work, farthest);
+  const int given = coarse.set().highest();
+  std::optional<LocalPeak> found = through(scene, range, coarse.set(), peak, {highest});
+  // A peak that is far is nearer by steps.
+  if (!found) {
+    found = through(scene, range, coarse.set(), peak, {given + 1, given + 2, given + 4, highest});
+  }
   if (!found) return result;
   result.frequency = found->point.parameter;
   result.amplitude = found->amplitude;

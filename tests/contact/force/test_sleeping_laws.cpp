@@ -220,7 +220,9 @@ TEST(SleepingLaws, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
       expect_same(p, n_harmonics, 1e-12, random, seen);
     }
     EXPECT_LT(seen.least, make == &rough ? 0.9 : 0.3);
-    if (make == &rough) EXPECT_GT(seen.least, 0.5);  // two thirds are pressed
+    if (make == &rough) {
+      EXPECT_GT(seen.least, 0.5);  // two thirds are pressed
+    }
   }
 }
 

@@ -1,0 +1,65 @@
+#include "solver/richer_peak.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/enrichment/solved_peaks.hpp"
+#include "tests/support/modal_scenes.hpp"
+
+namespace microslip::solver {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+ContinuationOptions given(int n_harmonics, ContinuationOptions::Corrector corrector) {
+  ContinuationOptions options;
+  options.frequency_begin = two_pi * 18.0;
+  options.frequency_end = two_pi * 28.0;
+  options.n_harmonics = n_harmonics;
+  options.corrector = corrector;
+  return options;
+}
+
+TEST(RicherPeak, IsThePeakOfTheCurveWithMoreHarmonics) {
+  for (const double preload : {0.0, 10.0, 50.0}) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::use_event_cycles(scene);
+    for (const auto corrector :
+         {ContinuationOptions::Corrector::newton, ContinuationOptions::Corrector::few_jacobians}) {
+      const ContinuationOptions one = given(1, corrector);
+      const ResponseCurve curve = trace_response(scene, one);
+      const auto found = richer_peak(scene, one, curve, 9);
+      ASSERT_TRUE(found.has_value()) << preload;
+      ASSERT_TRUE(found->change.has_value()) << preload;
+      const auto expected = tests::solved_peak(scene, given(9, corrector), 9);
+      std::printf("%g N: %+.3f by harmonics 2 to 9, %+.1e off the curve\n", preload, *found->change,
+                  found->amplitude / expected.peak.amplitude - 1.0);
+      EXPECT_NEAR(found->amplitude, expected.peak.amplitude, 1e-6 * expected.peak.amplitude);
+      EXPECT_NEAR(found->frequency, expected.peak.point.parameter,
+                  1e-4 * expected.peak.point.parameter);
+      EXPECT_GT(std::abs(*found->change), 0.05) << preload;
+      EXPECT_EQ(found->highest, 9);
+    }
+  }
+}
+
+TEST(RicherPeak, NothingChangesWhereHarmonicsAreManyAlready) {
+  Scene scene = tests::three_dof_scene(50.0);
+  tests::use_event_cycles(scene);
+  const ContinuationOptions many = given(13, ContinuationOptions::Corrector::newton);
+  const auto found = richer_peak(scene, many, trace_response(scene, many), 21);
+  ASSERT_TRUE(found && found->change);
+  EXPECT_LT(std::abs(*found->change), 1e-3);
+}
+
+TEST(RicherPeak, NoCurveHasNone) {
+  Scene scene = tests::three_dof_scene(50.0);
+  const ContinuationOptions one = given(1, ContinuationOptions::Corrector::newton);
+  EXPECT_FALSE(richer_peak(scene, one, ResponseCurve{}, 9).has_value());
+}
+
+}  // namespace
+}  // namespace microslip::solver
