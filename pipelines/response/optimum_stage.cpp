@@ -1,6 +1,7 @@
 #include "pipelines/response/optimum_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "solver/continuation.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -59,6 +61,7 @@ solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
                                : with_point_stiffness(given, factors.stiffness, load);
   load = with_same_gap(load, given, model);
   if (factors.friction != 1.0) model = with_friction(std::move(model), factors.friction);
+  if (factors.n_harmonics > 0) model.effects.n_harmonics = factors.n_harmonics;
   return solver_scene(model, load);
 }
 
@@ -98,7 +101,52 @@ solver::Optimum OptimumSearch::best() {
   if (const std::string text = warning(); !text.empty()) {
     optimum.notes.insert(optimum.notes.begin(), text);
   }
+  if (optimum.found) {
+    if (const std::string text = left_out(optimum.best); !text.empty()) {
+      optimum.warnings.push_back(text);
+    }
+  }
   return optimum;
+}
+
+/// The peak at a value, traced with the harmonics given and solved again with more.
+std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int highest) {
+  const solver::ResponseCurve curve =
+      solver::trace_response(scene_at(value, {}), continuation_options(*scene_.response, model_));
+  ReducedModel richer = model_;
+  richer.effects.n_harmonics = highest;
+  Factors more;
+  more.n_harmonics = highest;
+  return solver::richer_peak(scene_at(value, more), continuation_options(*scene_.response, richer),
+                             curve, highest);
+}
+
+std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
+  constexpr double worth_a_word = 0.02;
+  const int highest = harmonics_to_check(model_, *scene_.response);
+  if (highest == 0) return {};
+  const auto here = richer_at(best.parameter, highest);
+  if (!here || (here->change && std::abs(*here->change) < worth_a_word)) return {};
+  // Where the lowest of a few neighbours lies tells which way the best value moves.
+  std::string lowest = "not found";
+  double least = std::numeric_limits<double>::infinity();
+  for (const double factor : {0.7, 0.84, 1.0, 1.19, 1.42}) {
+    const double value = factor * best.parameter;
+    if (value < options_.lower || value > options_.upper) continue;
+    const auto there = factor == 1.0 ? here : richer_at(value, highest);
+    if (!there || !there->change || there->amplitude >= least) continue;
+    least = there->amplitude;
+    lowest = fmt::format("{:.2g} m at {:.3g}", least, value);
+  }
+  const std::string peak = here->change
+                               ? fmt::format("{:.2g} m, {:+.0f} %", here->amplitude,
+                                             100.0 * (here->amplitude / best.amplitude - 1.0))
+                               : "not found from there";
+  return fmt::format(
+      "with harmonics up to {} the peak at the best value is {}; of 0.7 to 1.4 times this value "
+      "the lowest is {}: "
+      "set response.harmonics = {} or \"auto\"",
+      highest, peak, lowest, highest);
 }
 
 OptimumBracket OptimumSearch::bracket() {

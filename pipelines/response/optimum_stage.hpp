@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/scene/scene_description.hpp"
 #include "solver/peak.hpp"
+#include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
 
@@ -37,11 +39,15 @@ class OptimumSearch {
   struct Factors {
     double friction = 1.0;
     double stiffness = 1.0;
+    int n_harmonics = 0;  ///< 0: those given
   };
   /// The bounds of the scene, or wider ones where the best value is known to move.
   [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
   [[nodiscard]] solver::Optimum search(const Factors& factors);
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
+  /// What harmonics beyond those given do to the best value and its neighbours; empty: little, or not checked.
+  [[nodiscard]] std::string left_out(const solver::PeakOfParameter& best);
+  [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value, int highest);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
 
   const ReducedModel& model_;

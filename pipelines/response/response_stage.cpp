@@ -196,20 +196,24 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
   return problem;
 }
 
+int harmonics_to_check(const ReducedModel& model, const ResponseDescription& response) {
+  constexpr int more = 8;
+  constexpr int most_unknowns = 1500;  // seconds a step beyond
+  if (response.harmonic_tolerance > 0.0 || model.patches.empty()) return 0;
+  const int highest = response.harmonics + more;
+  return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
+                                                                                       : 0;
+}
+
 namespace {
 
-/// Where harmonics are given and the contact is not proved linear: the highest peak with eight more of them.
+/// The highest peak with more harmonics than were given, where the contact is not proved linear.
 void check_harmonics(ReducedModel model, const ResponseDescription& response, double load,
                      CurveResult& result) {
-  constexpr int more = 8;
-  constexpr std::size_t most_unknowns = 1500;  // seconds a step beyond
   const solver::ResponseCurve& curve = result.curve;
-  const bool is_given = response.harmonic_tolerance == 0.0 && !model.patches.empty();
-  if (!is_given || !curve.certificate.empty() || curve.points.empty()) return;
+  const int highest = harmonics_to_check(model, response);
+  if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
   if (curve.diagnosis == "interrupted") return;
-  const int highest = curve.points.front().q.n_harmonics() + more;
-  const auto n_modes = static_cast<std::size_t>(model.frequency.size());
-  if (n_modes * static_cast<std::size_t>(2 * highest + 1) > most_unknowns) return;
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(response, model);
   options.search_starts = 0;

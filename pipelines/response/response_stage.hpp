@@ -33,6 +33,11 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene);
 [[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response,
                                                                const ReducedModel& model);
 
+/// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are chosen, there is
+/// no contact, or the check would be dear.
+[[nodiscard]] int harmonics_to_check(const ReducedModel& model,
+                                     const ResponseDescription& response);
+
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
 /// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.
 void require_response(const SceneDescription& scene);
