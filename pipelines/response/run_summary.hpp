@@ -68,8 +68,8 @@ struct CurveSummary {
   /// Of the amplitude, by harmonics left out: estimated where they are chosen, solved for where they are given.
   double largest_left_out = 0.0;
   std::optional<solver::RicherPeak> richer;  ///< the peak with more harmonics than were given
-  std::vector<std::string> maps;  ///< stems in maps/
-  std::string certificate;        ///< what was proved instead of solved; empty: solved
+  std::vector<std::string> maps;             ///< stems in maps/
+  std::string certificate;                   ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;
   std::size_t detached_branches = 0;
   int search_starts = 0;
