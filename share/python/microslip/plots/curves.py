@@ -30,6 +30,26 @@ def line_width(load):
     return 1.3 if is_number(load) else 2.4
 
 
+def richer_peak(curve):
+    """The highest peak solved again with more harmonics: (harmonics, Hz, m); None: not checked, or not found."""
+    more = (curve.get("harmonics") or {}).get("with_more") or {}
+    found = (more.get("highest"), more.get("frequency_Hz"), more.get("amplitude_m"))
+    return found if all(is_number(value) for value in found) else None
+
+
+def draw_richer(axes, run, curve):
+    """A star, and the way to it from the peak that the curve has."""
+    richer, peak = richer_peak(curve), curve.get("peak")
+    if not richer or not peak:
+        return
+    colour = run.colour(load_of(curve))
+    _, frequency, amplitude = richer
+    axes.plot([peak["frequency_Hz"], frequency], [peak["amplitude_m"] / run.size, amplitude / run.size],
+              color=colour, linewidth=0.7, linestyle=":", zorder=3.5)
+    axes.scatter(frequency, amplitude / run.size, marker="*", s=42, color="white", edgecolor=colour,
+                 linewidth=0.8, zorder=5)
+
+
 def draw_curve(axes, run, curve, table):
     load = load_of(curve)
     colour = run.colour(load)
@@ -44,6 +64,7 @@ def draw_curve(axes, run, curve, table):
         chosen = marks == mark
         axes.scatter(frequency[chosen], amplitude[chosen], color=face, edgecolor=colour,
                      linewidth=0.8, zorder=4, **style)
+    draw_richer(axes, run, curve)
     if not curve["complete"]:
         axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
 
@@ -65,6 +86,10 @@ def legend_of_marks(figure, run):
              Line2D([], [], linestyle=DASHED, label="unstable", **grey),
              Line2D([], [], marker="o", markersize=4, linestyle="", label="peak", **grey),
              Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
+    highest = sorted({richer[0] for richer in (richer_peak(curve) for curve, _ in run.curves) if richer})
+    if highest:
+        kinds.append(Line2D([], [], marker="*", markersize=7, linestyle="", markerfacecolor="white",
+                            label=f"peak with {highest[-1]} harmonics", **grey))
     if any(not curve["complete"] for curve, _ in run.curves):
         kinds.append(Line2D([], [], color=ACCENT, marker="x", markersize=5, linestyle="",
                             label="ends here (incomplete)"))
