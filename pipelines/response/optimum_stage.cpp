@@ -136,7 +136,7 @@ std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
     const auto there = factor == 1.0 ? here : richer_at(value, highest);
     if (!there || !there->change || there->amplitude >= least) continue;
     least = there->amplitude;
-    lowest = fmt::format("{:.2g} m at {:.3g}", least, value);
+    lowest = fmt::format("{:.2g} m at {} {:.3g}", least, request_.key, value);
   }
   const std::string peak = here->change
                                ? fmt::format("{:.2g} m, {:+.0f} %", here->amplitude,
