@@ -1,0 +1,66 @@
+#include "contact/dense.hpp"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+namespace microslip::contact {
+namespace {
+
+Eigen::MatrixXd random_matrix(Eigen::Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
+}
+
+/// On either side of the size from which LAPACK is called.
+class DenseOfSize : public testing::TestWithParam<Eigen::Index> {};
+INSTANTIATE_TEST_SUITE_P(Sizes, DenseOfSize, testing::Values(1, 5, 63, 64, 150));
+
+TEST_P(DenseOfSize, FactorsSolveBothWays) {
+  const Eigen::MatrixXd A = random_matrix(GetParam(), 1);
+  const Eigen::MatrixXd B = random_matrix(GetParam(), 2).leftCols(1);
+  const LuFactors factors(A);
+  EXPECT_LT((A * factors.solve(B) - B).norm(), 1e-10 * B.norm());
+  EXPECT_LT((A.transpose() * factors.solve_transposed(B) - B).norm(), 1e-10 * B.norm());
+  EXPECT_LT((A * solved(A, B) - B).norm(), 1e-10 * B.norm());
+}
+
+TEST_P(DenseOfSize, SignOfTheDeterminant) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Eigen::MatrixXd A = random_matrix(GetParam(), seed);
+    A /= std::sqrt(static_cast<double>(GetParam()));
+    const double sign = Eigen::FullPivLU<Eigen::MatrixXd>(A).determinant() > 0.0 ? 1.0 : -1.0;
+    EXPECT_EQ(LuFactors(A).sign_of_determinant(), sign) << seed;
+    A.col(0).setZero();
+    EXPECT_EQ(LuFactors(A).sign_of_determinant(), 0.0) << seed;
+  }
+}
+
+TEST_P(DenseOfSize, PairsAreOfTheMatrix) {
+  const Eigen::MatrixXd A = random_matrix(GetParam(), 3);
+  const auto pairs = general_pairs(A);
+  const auto values = general_eigenvalues(A);
+  ASSERT_TRUE(pairs && values);
+  ASSERT_EQ(pairs->values.size(), GetParam());
+  for (Eigen::Index i = 0; i < GetParam(); ++i) {
+    const Eigen::VectorXcd v = pairs->vectors.col(i);
+    EXPECT_NEAR(v.norm(), 1.0, 1e-12);
+    EXPECT_LT((A.cast<std::complex<double>>() * v - pairs->values[i] * v).norm(), 1e-10 * A.norm());
+  }
+  EXPECT_LT(std::abs(values->sum() - A.trace()), 1e-9 * A.norm());
+}
+
+TEST(Dense, WhatIsNotFiniteHasNoEigenvalues) {
+  Eigen::MatrixXd A = random_matrix(100, 4);
+  A(3, 7) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(general_pairs(A).has_value());
+  EXPECT_FALSE(LuFactors(A).solve(Eigen::MatrixXd::Ones(100, 1)).allFinite());
+}
+
+}  // namespace
+}  // namespace microslip::contact
