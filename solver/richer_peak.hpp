@@ -22,7 +22,7 @@ struct RicherPeak {
 /// @param range    of the curve, harmonics given.
 /// @param curve    its highest peak, or end of the range, is taken.
 /// @param highest  harmonic, ≥ 5 more than those of the curve.
-/// @return empty: the curve has no point to begin with.
+/// @return empty: the curve has no peak, and no end of the range, to begin with.
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,
                                                     const ResponseCurve& curve, int highest);

@@ -17,7 +17,7 @@ namespace {
 // times at 270.
 constexpr Eigen::Index large = 64;
 
-bool is_large(const Eigen::MatrixXd& A) { return A.rows() >= large; }
+bool is_large(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large; }
 
 /// Eigenvalues, and vectors where `vectors` is not null. @return false: they do not converge.
 bool general_problem(Eigen::MatrixXd A, Eigen::VectorXcd& values, Eigen::MatrixXd* vectors) {

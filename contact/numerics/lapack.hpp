@@ -2,6 +2,8 @@
 /// The three routines of LAPACK that large matrices are worth a call of: its interface, not a wrapper.
 #pragma once
 
+#ifdef MICROSLIP_HAS_LAPACK
+constexpr bool has_lapack = true;
 extern "C" {
 // NOLINTBEGIN(readability-identifier-naming): names of the library.
 /// PA = LU in place, column by column. @param info  0, or the first pivot that vanishes.
@@ -16,3 +18,12 @@ void dgeev_(const char* left, const char* right, const int* n, double* a, const 
             const int* ldvr, double* work, const int* lwork, int* info);
 // NOLINTEND(readability-identifier-naming)
 }
+#else  // the same names, never called
+constexpr bool has_lapack = false;
+template <typename... Arguments>
+void dgetrf_(Arguments... /*unused*/) {}
+template <typename... Arguments>
+void dgetrs_(Arguments... /*unused*/) {}
+template <typename... Arguments>
+void dgeev_(Arguments... /*unused*/) {}
+#endif

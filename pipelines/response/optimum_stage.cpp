@@ -10,6 +10,7 @@
 
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "solver/continuation.hpp"
 
@@ -111,14 +112,20 @@ solver::Optimum OptimumSearch::best() {
 
 /// The peak at a value, traced with the harmonics given and solved again with more.
 std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int highest) {
-  const solver::ResponseCurve curve =
-      solver::trace_response(scene_at(value, {}), continuation_options(*scene_.response, model_));
+  const auto go_on = [](const solver::ResponsePoint&) { return !interrupt_requested(); };
   ReducedModel richer = model_;
   richer.effects.n_harmonics = highest;
   Factors more;
   more.n_harmonics = highest;
-  return solver::richer_peak(scene_at(value, more), continuation_options(*scene_.response, richer),
-                             curve, highest);
+  try {
+    const solver::ResponseCurve curve = solver::trace_response(
+        scene_at(value, {}), continuation_options(*scene_.response, model_), go_on);
+    if (interrupt_requested()) return std::nullopt;
+    return solver::richer_peak(scene_at(value, more),
+                               continuation_options(*scene_.response, richer), curve, highest);
+  } catch (const RefusedError&) {  // a neighbour that the search need not have visited
+    return std::nullopt;
+  }
 }
 
 std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
@@ -132,6 +139,7 @@ std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
   double least = std::numeric_limits<double>::infinity();
   for (const double factor : {0.7, 0.84, 1.0, 1.19, 1.42}) {
     const double value = factor * best.parameter;
+    if (value == best.parameter && factor != 1.0) continue;  // zero has no neighbours
     if (value < options_.lower || value > options_.upper) continue;
     const auto there = factor == 1.0 ? here : richer_at(value, highest);
     if (!there || !there->change || there->amplitude >= least) continue;

@@ -14,6 +14,7 @@
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
+#include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -198,9 +199,11 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 
 int harmonics_to_check(const ReducedModel& model, const ResponseDescription& response) {
   constexpr int more = 8;
+  constexpr int most_harmonics = 99;   // of a scene
   constexpr int most_unknowns = 1500;  // seconds a step beyond
   if (response.harmonic_tolerance > 0.0 || model.patches.empty()) return 0;
-  const int highest = response.harmonics + more;
+  const int highest = std::min(response.harmonics + more, most_harmonics);
+  if (highest <= response.harmonics + more / 2) return 0;
   return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
                                                                                        : 0;
 }
@@ -213,7 +216,7 @@ void check_harmonics(ReducedModel model, const ResponseDescription& response, do
   const solver::ResponseCurve& curve = result.curve;
   const int highest = harmonics_to_check(model, response);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
-  if (curve.diagnosis == "interrupted") return;
+  if (curve.diagnosis == "interrupted" || interrupt_requested()) return;
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(response, model);
   options.search_starts = 0;

@@ -1,6 +1,7 @@
 #include "pipelines/response/run_summary.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace microslip::pipelines {
 namespace {
@@ -36,8 +37,10 @@ void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
 CurveSummary summarise(const CurveResult& result) {
   CurveSummary summary;
   summary.richer = result.richer;
-  if (result.richer && result.richer->change) {
-    summary.largest_left_out = std::abs(*result.richer->change);
+  if (result.richer) {
+    const auto& change = result.richer->change;
+    summary.largest_left_out =
+        change ? std::abs(*change) : std::numeric_limits<double>::quiet_NaN();
   }
   summary.name = result.name;
   summary.preload = result.preload;

@@ -38,6 +38,7 @@ class Corrector {
         best.tangent = std::move(tangent_);
         return finished(std::move(best));
       }
+      if (!(best.residual < at.residual)) break;  // a kink: for Newton's method
       at = evaluated(system_.whole, std::move(best.point));
     }
     if (at.residual <= tolerance_) return finished(std::move(at));

@@ -128,7 +128,8 @@ NewtonResult evaluated_at(const ParametricSystem& system, BranchVector point,
   result.evaluation = system(result.point.x, result.point.parameter);
   // A residual that is not known cannot be small.
   const double size = result.evaluation.residual.norm() + result.evaluation.defect;
-  result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite()
+  result.residual = std::isfinite(size) && result.evaluation.jacobian.allFinite() &&
+                            result.evaluation.parameter_derivative.allFinite()
                         ? size / scaling.residual
                         : std::numeric_limits<double>::infinity();
   return result;

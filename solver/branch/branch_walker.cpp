@@ -162,7 +162,10 @@ bool BranchWalker::advance() {
 Stall BranchWalker::stall() const {
   constexpr double chattering = 1e-3;  // relative change of the Jacobian over a step of 1e-6
   constexpr double vertical = 0.1;     // share of the parameter in the tangent
-  const Eigen::MatrixXd& here = now_.solution.evaluation.jacobian;
+  // That of the solution itself: its evaluation may have the derivatives of the guess.
+  const BranchVector& at = now_.solution.point;
+  const Eigen::MatrixXd here = system_(at.x, at.parameter).jacobian;
+  ++evaluations_;
   for (const double ahead : {-1e-6, 1e-6}) {
     const BranchVector probe = moved(now_.solution.point, now_.tangent, ahead, now_.scaling);
     const Eigen::MatrixXd there = system_(probe.x, probe.parameter).jacobian;

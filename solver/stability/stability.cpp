@@ -65,13 +65,18 @@ std::vector<Eigen::Index> all_modes(const Scene& scene) {
   return modes;
 }
 
-/// Modes that a cycle's first harmonics can move; those far above follow like springs.
-std::vector<Eigen::Index> low_modes(const Scene& scene, double frequency, double reach) {
+/// Modes that move by themselves: the low ones, and those near a harmonic. Others follow like springs.
+std::vector<Eigen::Index> moving_modes(const HarmonicBalance& balance, double frequency) {
+  const Eigen::VectorXd& natural = balance.scene().natural_frequency;
   std::vector<Eigen::Index> modes;
-  for (Eigen::Index i = 0; i < scene.n_modes(); ++i) {
-    if (scene.natural_frequency[i] <= reach * frequency) modes.push_back(i);
+  for (Eigen::Index i = 0; i < natural.size(); ++i) {
+    bool moves = natural[i] <= reach_of_width * frequency;
+    for (const int k : balance.set().orders()) {
+      moves = moves || std::abs(natural[i] - k * frequency) < slow_share * frequency;
+    }
+    if (moves) modes.push_back(i);
   }
-  return modes.empty() ? all_modes(scene) : modes;
+  return modes.empty() ? all_modes(balance.scene()) : modes;
 }
 
 /// As many as Hill's problem can hold.
@@ -221,7 +226,7 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen:
   report.determinant_sign = determinant_sign ? *determinant_sign : sign_of_determinant(jacobian);
   const Scene& scene = balance.scene();
   const bool single = balance.set().highest() == 1;
-  const auto modes = single ? all_modes(scene) : low_modes(scene, frequency, reach_of_width);
+  const auto modes = single ? all_modes(scene) : moving_modes(balance, frequency);
   const Eigen::MatrixXd flow = slow_flow(
       scene, reduced(balance, jacobian, slow_orders(balance, frequency), modes), frequency);
   if (!flow.allFinite()) return report;

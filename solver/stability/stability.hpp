@@ -38,6 +38,8 @@ struct StabilityReport {
   double nearest = 0.0;
 };
 
+/// @param jacobian  of the point, or of one from which the solution was reached in a step or two (few_jacobians.hpp):
+///                  then the verdict may be that of the neighbour within 3e-4 of a fold.
 /// By the slow flow alone: what one harmonic is judged by, and the width of resonances for any number.
 [[nodiscard]] StabilityReport slow_flow_stability(const HarmonicBalance& balance,
                                                   const Eigen::MatrixXd& jacobian, double frequency,
