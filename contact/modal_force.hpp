@@ -8,7 +8,6 @@
 ///   (Ω − k²ω² + ikωC_r) A^(k) + G^(k)(B, A) = Q^(k),        Ω B + G_b(B, A) = Q_b.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -42,50 +41,50 @@ struct CycleReport {
 /// What a force is known to be over a set of motions: its linear limit, stuck or free, exactly.
 enum class LinearState { unknown, stuck, free };
 
+/// What is asked of the equations at a motion.
+struct Asked {
+  /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, much cheaper.
+  std::vector<Eigen::Index> rows{};
+  /// Of the force, those of the motion at least: what a motion asks of equations left out. 0: those of the motion.
+  int n_harmonics = 0;
+};
+
+/// Storage is kept from one question to the next: an object serves one thread at a time.
 class ModalForce {
  public:
-  ModalForce() = default;
+  /// @param n_modes  of all motions asked for.
+  explicit ModalForce(Eigen::Index n_modes) : n_modes_(n_modes) {}
   ModalForce(const ModalForce&) = delete;
   ModalForce& operator=(const ModalForce&) = delete;
   ModalForce(ModalForce&&) = delete;
   ModalForce& operator=(ModalForce&&) = delete;
   virtual ~ModalForce() = default;
 
-  [[nodiscard]] virtual Eigen::Index n_modes() const = 0;
+  [[nodiscard]] Eigen::Index n_modes() const { return n_modes_; }
+
+  /// The equations.
   /// @param q          harmonics of the modal coordinates [m√kg].
   /// @param frequency  ω [rad/s].
-  [[nodiscard]] virtual ForceAndJacobian evaluate(const Harmonics& q, double frequency) const = 0;
-  /// The same where only some harmonics are unknowns.
-  /// @param rows  of Harmonics::rows(), ascending, any number; derivatives are by these and of these alone:
-  ///              n = rows · n_modes. `force` has all rows of q.
-  [[nodiscard]] virtual ForceAndJacobian evaluate_rows(
-      const Harmonics& q, double frequency, const std::vector<Eigen::Index>& rows) const {
-    ForceAndJacobian all = evaluate(q, frequency);
-    const auto n = n_modes();
-    const auto n_rows = static_cast<Eigen::Index>(rows.size());
-    if (n_rows == q.rows().rows()) return all;
-    ForceAndJacobian some{std::move(all.force), Eigen::MatrixXd(n_rows * n, n_rows * n),
-                          Eigen::VectorXd(n_rows * n), all.defect};
-    for (Eigen::Index i = 0; i < n_rows; ++i) {
-      const Eigen::Index row = rows[static_cast<std::size_t>(i)] * n;
-      some.frequency_derivative.segment(i * n, n) = all.frequency_derivative.segment(row, n);
-      for (Eigen::Index j = 0; j < n_rows; ++j) {
-        const Eigen::Index column = rows[static_cast<std::size_t>(j)] * n;
-        some.jacobian.block(i * n, j * n, n, n) = all.jacobian.block(row, column, n, n);
-      }
-    }
-    return some;
+  /// @return           derivatives by the rows asked for and by these alone: n = rows · n_modes.
+  /// @throws std::invalid_argument  another number of modes than n_modes(), or of harmonics than the force knows.
+  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency,
+                                          const Asked& asked) {
+    return evaluated(q, frequency, asked);
   }
-  /// G alone, with harmonics that the motion does not have: what a motion asks of equations left out.
-  /// @param n_harmonics  of the result, those of q at least.
-  [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& q, double frequency,
-                                              int n_harmonics) const {
-    Harmonics wide(n_harmonics, n_modes());
-    wide.rows().topRows(q.rows().rows()) = q.rows();
-    return evaluate_rows(wide, frequency, {}).force;
+  /// By all rows.
+  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency);
+
+  /// What a solution did: shares of the states and work of slip.
+  /// @throws std::invalid_argument  as evaluate().
+  [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) = 0;
+  /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
+  /// next to nothing at the motion evaluated last.
+  /// @param result  written whole, storage is used again; empty: not told.
+  /// @throws std::invalid_argument  as evaluate().
+  virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) {
+    result.clear();
   }
-  /// Shares of the states and work of slip for a solution.
-  [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) const = 0;
+
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
   /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg]; unknown unless overridden.
@@ -94,12 +93,17 @@ class ModalForce {
     return LinearState::unknown;
   }
 
-  /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
-  /// next to nothing at the motion evaluated last.
-  /// @param result  written whole, storage is used again; empty: not told.
-  virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) const {
-    result.clear();
-  }
+ private:
+  /// See evaluate().
+  [[nodiscard]] virtual ForceAndJacobian evaluated(const Harmonics& q, double frequency,
+                                                   const Asked& asked) = 0;
+
+  Eigen::Index n_modes_;
 };
+
+/// Of a force that is only known with all its derivatives: those asked for.
+/// @param all  with derivatives by all its rows; as many harmonics as asked for, or the motion has.
+[[nodiscard]] ForceAndJacobian restricted(ForceAndJacobian all,
+                                          const std::vector<Eigen::Index>& rows);
 
 }  // namespace microslip::contact

@@ -164,14 +164,14 @@ void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harm
 }  // namespace
 
 PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
-    : patch_(std::move(patch)),
+    : ModalForce(shapes.u.cols()),
+      patch_(std::move(patch)),
       shapes_(checked(std::move(shapes), patch_.n_points())),
       sleep_(patch_, shapes_),
       blocks_(packed(shapes_, sleep_.order())) {}
 
-Eigen::Index PatchForce::n_modes() const { return shapes_.u.cols(); }
-
-ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) const {
+ForceAndJacobian PatchForce::evaluated(const Harmonics& q, double /*frequency*/,
+                                       const Asked& asked) {
   require_single_harmonic(q, n_modes());
   const auto n = static_cast<std::size_t>(n_modes());
   if (sleep_.look_at(q, patch_, shapes_)) {
@@ -203,10 +203,10 @@ ForceAndJacobian PatchForce::evaluate(const Harmonics& q, double /*frequency*/) 
   if (const SleepingPart* part = sleep_.part()) {
     add_sleeping(result, *part, q);
   }
-  return result;
+  return restricted(std::move(result), asked.rows);
 }
 
-CycleReport PatchForce::report(const Harmonics& q, double /*frequency*/) const {
+CycleReport PatchForce::report(const Harmonics& q, double /*frequency*/) {
   CycleReport report = cycle_report(patch_, point_motions(shapes_, q));
   report.awake_share = sleep_.awake_share_at(q);
   return report;
@@ -229,7 +229,7 @@ LinearState PatchForce::linear_state(const Harmonics& centre, double radius) con
   return contact::linear_state(patch_, shapes_, centre, radius);
 }
 
-void PatchForce::states(const Harmonics& q, double /*frequency*/, ContactStates& result) const {
+void PatchForce::states(const Harmonics& q, double /*frequency*/, ContactStates& result) {
   require_single_harmonic(q, n_modes());
   u_.noalias() = shapes_.u * q.rows().transpose();
   v_.noalias() = shapes_.v * q.rows().transpose();

@@ -28,32 +28,29 @@ class PatchForce final : public ModalForce {
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
   PatchForce(ContactPatch patch, ModalShapes shapes);
 
-  [[nodiscard]] Eigen::Index n_modes() const override;
-  /// H = 1. The force does not depend on the frequency. Which points sleep depends on the motions seen
-  /// before, so that equal input gives equal numbers to rounding, and equal bits after equal histories.
-  /// Not for two threads at a time.
-  /// @throws std::invalid_argument  another number of harmonics or modes.
-  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency) const override;
-  /// @throws std::invalid_argument  as evaluate().
-  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) const override;
+  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) override;
   /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ) dA; a point without friction (μ = 0) resists normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
   /// See linear_proof.hpp.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
-  /// @throws std::invalid_argument  as evaluate().
-  void states(const Harmonics& q, double frequency, ContactStates& result) const override;
+  void states(const Harmonics& q, double frequency, ContactStates& result) override;
 
   [[nodiscard]] const ContactPatch& patch() const { return patch_; }
   [[nodiscard]] const ModalShapes& shapes() const { return shapes_; }
 
  private:
+  /// H = 1. The force does not depend on the frequency. Which points sleep depends on the motions seen
+  /// before, so that equal input gives equal numbers to rounding, and equal bits after equal histories.
+  [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency,
+                                           const Asked& asked) override;
+
   ContactPatch patch_;
   ModalShapes shapes_;
-  mutable SleepingPoints sleep_;
+  SleepingPoints sleep_;
   // In the order of sleep_: [block][u, v][mode][point of the block], padded with zeros.
-  mutable std::vector<double> blocks_;
-  mutable Eigen::MatrixX3d u_, v_;  // motion of the points, for states()
+  std::vector<double> blocks_;
+  Eigen::MatrixX3d u_, v_;  // motion of the points, for states()
 };
 
 }  // namespace microslip::contact

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/patch/point_motions.hpp"
+#include "contact/point/point_law.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -14,13 +15,6 @@ namespace {
 // they are looked up.
 constexpr Eigen::Index largest_n_groups = 256;
 constexpr Eigen::Index smallest_group = 16;
-
-// Kept for the next call of the same thread.
-const PhaseTable& phase_table(int n_harmonics) {
-  thread_local PhaseTable table;
-  if (table.n_harmonics != n_harmonics) table = PhaseTable(n_harmonics);
-  return table;
-}
 
 Eigen::Index n_groups(Eigen::Index n, Eigen::Index group) { return (n + group - 1) / group; }
 
@@ -47,28 +41,12 @@ void PatchMotion::copy(Eigen::Index point, Harmonics& result) const {
   if (w.size() > 0) result.rows().col(2) = w.row(point).transpose();
 }
 
-SleepingLaws::SleepingLaws(const Eigen::VectorXd& weights,
-                           const std::vector<std::shared_ptr<const PointLaw>>& laws,
-                           const ModalShapes& shapes)
-    : weights_(weights), load_at_rest_(weights.size()) {
-  range_.reserve(laws.size());
-  for (const auto& law : laws) {
-    load_at_rest_[static_cast<Eigen::Index>(range_.size())] = law->load_at_rest();
-    range_.push_back(law->linear_range());
-  }
-  start(shapes);
-}
-
 SleepingLaws::SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
                            std::vector<std::optional<LinearRange>> ranges,
                            const ModalShapes& shapes)
     : weights_(std::move(weights)),
       load_at_rest_(std::move(load_at_rest)),
       range_(std::move(ranges)) {
-  start(shapes);
-}
-
-void SleepingLaws::start(const ModalShapes& shapes) {
   const Eigen::Index n = weights_.size();
   group_ = std::max(smallest_group, (n + largest_n_groups - 1) / largest_n_groups);
   state_.assign(range_.size(), SleepState::awake);
@@ -78,26 +56,19 @@ void SleepingLaws::start(const ModalShapes& shapes) {
   rows_.resize(n_point_signals * group_, shapes.u.cols());
 }
 
-void SleepingLaws::decide(const PatchMotion& motion, double frequency,
-                          std::vector<SleepState>& states) const {
-  const PhaseTable& table = phase_table(static_cast<int>(motion.u.cols() / 2));
-  states.resize(range_.size());
+void SleepingLaws::decide(const PatchMotion& motion, double frequency) {
+  if (table_.n_harmonics != motion.n_harmonics()) table_ = PhaseTable(motion.n_harmonics());
+  next_.resize(range_.size());
   for (std::size_t i = 0; i < range_.size(); ++i) {
-    states[i] =
+    next_[i] =
         range_[i].has_value()
-            ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)), table, frequency)
+            ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)), table_, frequency)
             : SleepState::awake;
   }
 }
 
-std::vector<SleepState> SleepingLaws::states(const PatchMotion& motion, double frequency) const {
-  std::vector<SleepState> states;
-  decide(motion, frequency, states);
-  return states;
-}
-
 void SleepingLaws::look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes) {
-  decide(motion, frequency, next_);
+  decide(motion, frequency);
   if (next_ == state_) return;
   const auto n = static_cast<Eigen::Index>(next_.size());
   std::swap(state_, next_);  // next_ is what was
@@ -157,11 +128,11 @@ LinearState SleepingLaws::linear_state(const ModalShapes& shapes, const Harmonic
                                        double radius) const {
   PatchMotion motion;
   motion.set(shapes, centre);
-  const PhaseTable& table = phase_table(centre.n_harmonics());
+  const PhaseTable table(centre.n_harmonics());
   bool stuck = true;
   bool open = true;
   for (Eigen::Index i = 0; i < weights_.size() && (stuck || open); ++i) {
-    const std::optional<LinearRange>& range = this->range(i);
+    const std::optional<LinearRange>& range = range_[static_cast<std::size_t>(i)];
     if (weights_[i] == 0.0) continue;
     if (!range.has_value()) return LinearState::unknown;
     if (range->sticks_linearly && !range->rubs() && range->stiffness[1] == 0.0) continue;

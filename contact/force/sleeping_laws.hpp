@@ -10,7 +10,6 @@
 /// bits, whatever was asked before. A decision costs some 10 ns per point and harmonic.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,7 +18,6 @@
 #include "contact/contact_patch.hpp"
 #include "contact/force/sleeping_points.hpp"
 #include "contact/modal_force.hpp"
-#include "contact/point/point_law.hpp"
 #include "contact/surface/linear_range.hpp"
 
 namespace microslip::contact {
@@ -35,6 +33,7 @@ struct PatchMotion {
   /// @throws std::invalid_argument  H = 0, or another number of modes than the shapes.
   void set(const ModalShapes& shapes, const Harmonics& q);
   [[nodiscard]] PointRows of(Eigen::Index point) const;
+  [[nodiscard]] int n_harmonics() const { return static_cast<int>(u.cols() / 2); }
   /// The three signals of a point. @param result  written whole.
   void copy(Eigen::Index point, Harmonics& result) const;
 };
@@ -42,15 +41,9 @@ struct PatchMotion {
 class SleepingLaws {
  public:
   SleepingLaws() = default;
-  /// All of the same size n; see LawPatchForce.
-  SleepingLaws(const Eigen::VectorXd& weights,
-               const std::vector<std::shared_ptr<const PointLaw>>& laws, const ModalShapes& shapes);
-  /// The same for points known by their constants.
+  /// All of the same size n. @param ranges  none: the point is always evaluated.
   SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
                std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
-
-  /// What every point is proved to do.
-  [[nodiscard]] std::vector<SleepState> states(const PatchMotion& motion, double frequency) const;
 
   /// Decides for this motion. @param shapes  those of the constructor, here and below.
   void look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes);
@@ -66,20 +59,16 @@ class SleepingLaws {
   /// What is proved of a ball of motions, see linear_proof.hpp.
   [[nodiscard]] LinearState linear_state(const ModalShapes& shapes, const Harmonics& centre,
                                          double radius) const;
-  /// Constants of a point, none: its law is always evaluated.
-  [[nodiscard]] const std::optional<LinearRange>& range(Eigen::Index point) const {
-    return range_[static_cast<std::size_t>(point)];
-  }
 
  private:
-  void start(const ModalShapes& shapes);
-  void decide(const PatchMotion& motion, double frequency, std::vector<SleepState>& states) const;
+  void decide(const PatchMotion& motion, double frequency);
   void add_up(Eigen::Index group, const ModalShapes& shapes);
   void add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part);
 
   Eigen::VectorXd weights_;
   Eigen::VectorXd load_at_rest_;
   std::vector<std::optional<LinearRange>> range_;
+  PhaseTable table_;        // for the harmonics of the motion
   Eigen::Index group_ = 0;  // points of a group
   std::vector<SleepState> state_;
   std::vector<SleepState> next_;

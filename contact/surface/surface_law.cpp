@@ -158,16 +158,15 @@ SurfaceState SurfaceLaw::at(double approach, double rate) const {
   return state;
 }
 
-std::optional<LinearRange> SurfaceLaw::linear_range() const {
+LinearRange SurfaceLaw::linear_range() const {
   const double k_v = point_.normal_stiffness;
   if (!is_smooth()) {
-    return LinearRange{{0.0, k_v, 0.0}, -k_v * kinks().front(), friction_, false};
+    return {{0.0, k_v, 0.0}, -k_v * kinks().front(), friction_, false};
   }
   const bool rubs = friction_.is_rate_dependent() || friction_.at_rest() > 0.0;
-  return LinearRange{
-      {rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
-      point_.preload,
-      friction_};
+  return {{rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
+          point_.preload,
+          friction_};
 }
 
 std::vector<double> SurfaceLaw::kinks() const {

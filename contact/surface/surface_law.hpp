@@ -101,7 +101,7 @@ class SurfaceLaw {
   /// Whether g is 1 and N is piecewise linear.
   [[nodiscard]] bool is_smooth() const { return !roughness_.has_value(); }
   /// Where (1) is linear. Rough surfaces: only where open.
-  [[nodiscard]] std::optional<LinearRange> linear_range() const;
+  [[nodiscard]] LinearRange linear_range() const;
   /// Approaches at which (1) has a kink: where contact begins, and where rough surfaces are all in
   /// contact [m]; ascending.
   [[nodiscard]] std::vector<double> kinks() const;

@@ -41,10 +41,10 @@ struct CurveResult {
   std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
-  std::vector<PatchShares> patch_shares;  ///< where there are several patches, else empty
-  std::optional<double> gap;              ///< the preload was given as this length [m]
+  std::vector<PatchShares> patch_shares{};  ///< where there are several patches, else empty
+  std::optional<double> gap{};              ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
-  std::optional<solver::RicherPeak> richer;  ///< the peak with more harmonics than were given
+  std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
 };
 
 /// The best value when one uncertain number of the contact is multiplied.

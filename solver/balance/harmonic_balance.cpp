@@ -83,8 +83,7 @@ Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
 /// Force and derivatives in the unknowns alone; all rows of the force.
 contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
                                                       double frequency) const {
-  if (set_.complete()) return scene_.contact->evaluate(harmonics(x), frequency);
-  return scene_.contact->evaluate_rows(harmonics(x), frequency, rows_);
+  return scene_.contact->evaluate(harmonics(x), frequency, {.rows = rows_});
 }
 
 void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequency,
@@ -157,8 +156,7 @@ BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double fre
   BalanceEvaluation result;
   result.contact_force = Eigen::VectorXd::Zero(size());
   if (scene_.contact) {
-    const contact::ForceAndJacobian contact =
-        scene_.contact->evaluate_rows(harmonics(x), frequency, {});
+    const contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency, {});
     result.contact_force = unknowns(contact.force);
     result.defect = contact.defect;
   }

@@ -3,6 +3,7 @@
 /// the same way as the contact itself.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "contact/modal_force.hpp"
@@ -14,35 +15,41 @@ class LinearForce final : public contact::ModalForce {
   /// @param stiffness  S [1/s²], n_modes × n_modes: G^(k) = S A^(k).
   /// @param report     what every cycle is said to be.
   LinearForce(Eigen::MatrixXd stiffness, const contact::CycleReport& report)
-      : stiffness_(std::move(stiffness)), report_(report) {}
+      : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), report_(report) {}
   /// In the place of a contact that is known to be linear: its reports are the contact's own.
   /// @param contact  borrowed.
-  LinearForce(Eigen::MatrixXd stiffness, const contact::ModalForce& contact)
-      : stiffness_(std::move(stiffness)), contact_(&contact) {}
+  LinearForce(Eigen::MatrixXd stiffness, contact::ModalForce& contact)
+      : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), contact_(&contact) {}
 
-  [[nodiscard]] Eigen::Index n_modes() const override { return stiffness_.rows(); }
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override { return stiffness_; }
   [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q,
-                                            double frequency) const override {
+                                            double frequency) override {
     return contact_ != nullptr ? contact_->report(q, frequency) : report_;
   }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const contact::Harmonics& q,
-                                                   double /*frequency*/) const override {
+  /// Stuck, if nothing but the stiffness is meant by that, whatever the motion.
+  [[nodiscard]] contact::LinearState linear_state(const contact::Harmonics& /*centre*/,
+                                                  double /*radius*/) const override {
+    return contact::LinearState::stuck;
+  }
+
+ private:
+  [[nodiscard]] contact::ForceAndJacobian evaluated(const contact::Harmonics& q,
+                                                    double /*frequency*/,
+                                                    const contact::Asked& asked) override {
     contact::ForceAndJacobian result;
-    result.force = q;
-    result.force.rows() = q.rows() * stiffness_.transpose();
-    const Eigen::Index size = q.rows().size();
+    result.force = contact::Harmonics(std::max(q.n_harmonics(), asked.n_harmonics), n_modes());
+    result.force.rows().topRows(q.rows().rows()) = q.rows() * stiffness_.transpose();
     const Eigen::Index n = n_modes();
+    const Eigen::Index size = static_cast<Eigen::Index>(asked.rows.size()) * n;
     result.jacobian = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index i = 0; i < size; i += n) result.jacobian.block(i, i, n, n) = stiffness_;
     result.frequency_derivative = Eigen::VectorXd::Zero(size);
     return result;
   }
 
- private:
   Eigen::MatrixXd stiffness_;
   contact::CycleReport report_;
-  const contact::ModalForce* contact_ = nullptr;
+  contact::ModalForce* contact_ = nullptr;
 };
 
 }  // namespace microslip::solver

@@ -270,6 +270,7 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
   ContinuationOptions alone = options;
   if (options.harmonic_tolerance > 0.0) alone = with_harmonics(options, least_harmonics(scene));
   alone.search_starts = 0;  // a linear response is the only one
+  alone.linear_certificate = false;
   const std::optional<double> unbounded =
       unbounded_resonance(scene, stiffness, options.frequency_begin, options.frequency_end);
   ResponseCurve curve =

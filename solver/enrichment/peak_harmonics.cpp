@@ -64,7 +64,9 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   const HarmonicBalance coarse(scene_, set);
   const int highest = std::max(set.highest(), std::min(highest_probed, range_.n_harmonics));
   const Harmonics force =
-      scene_.contact->force_up_to(coarse.harmonics(peak.point.x), peak.point.parameter, highest);
+      scene_.contact
+          ->evaluate(coarse.harmonics(peak.point.x), peak.point.parameter, {.n_harmonics = highest})
+          .force;
   const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
   if (orders.empty()) return result;
   const HarmonicBalance richer(scene_, set.united(orders));

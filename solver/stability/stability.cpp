@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contact/dense.hpp"
-#include "solver/balance/linear_force.hpp"
 #include "solver/stability/floquet.hpp"
 
 namespace microslip::solver {
@@ -214,8 +213,10 @@ bool is_damped_linear(const Scene& scene) {
   const bool damped =
       (scene.natural_frequency.array() > 0.0).all() && (scene.damping_ratio.array() > 0.0).all();
   if (!damped || !scene.contact) return damped;
-  const auto* linear = dynamic_cast<const LinearForce*>(scene.contact.get());
-  return linear != nullptr && is_spring(linear->stuck_stiffness());
+  const contact::Harmonics rest(1, scene.n_modes());
+  const double any = std::numeric_limits<double>::infinity();
+  return scene.contact->linear_state(rest, any) == contact::LinearState::stuck &&
+         is_spring(scene.contact->stuck_stiffness());
 }
 
 }  // namespace

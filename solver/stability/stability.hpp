@@ -16,7 +16,7 @@
 /// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
 /// point is not assessed. With no exponent growing it is called stable, which pairs of a hysteretic force do
 /// not prove either: where the scene can be integrated in time, the multipliers of its period map judge them
-/// (floquet.hpp). A linear structure, without contact or with a LinearForce that is a spring (S = Sᵀ ≥ 0), needs
+/// (floquet.hpp). A linear structure, without contact or with one that is known to be a spring (S = Sᵀ ≥ 0), needs
 /// none of this: with every natural frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 

@@ -70,7 +70,7 @@ void count_points(benchmark::State& state, std::size_t n) {
 
 void patch_force(benchmark::State& state) {
   const Setup s = setup(state.range(0));
-  const PatchForce force(s.patch, s.shapes);
+  PatchForce force(s.patch, s.shapes);
   for (auto _ : state) {
     benchmark::DoNotOptimize(force.evaluate(s.q, 1000.0));
   }

@@ -96,7 +96,7 @@ std::vector<Harmonics> motions_of(int n_harmonics, int n) {
   return motions;
 }
 
-using Force = std::shared_ptr<const ModalForce>;
+using Force = std::shared_ptr<ModalForce>;
 
 struct Kind {
   std::string name;
@@ -194,7 +194,7 @@ struct Trial {
   double microseconds = 0.0;  // of one evaluation
 };
 
-Trial tried(const ModalForce& force, const std::vector<Harmonics>& motions, const Effort& effort) {
+Trial tried(ModalForce& force, const std::vector<Harmonics>& motions, const Effort& effort) {
   Trial trial;
   std::vector<double> times;
   for (const Harmonics& q : motions) {
@@ -242,7 +242,7 @@ void title(const std::string& text, const char* unit) {
               "dG/dq", unit);
 }
 
-std::string shares(const ModalForce& force, const std::vector<Harmonics>& motions) {
+std::string shares(ModalForce& force, const std::vector<Harmonics>& motions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Harmonics& q : motions) {
     const CycleReport report = force.report(q, frequency);
@@ -284,7 +284,7 @@ void compare_cells(const Effort& effort, std::vector<Row>& rows) {
   Eigen::MatrixXd K;
   for (int level = 0; level < effort.n_levels; ++level) {
     const Samples samples = samples_of(Eigen::Index{4} << level, Eigen::Index{6} << level, false);
-    const PatchForce force(ContactPatch(samples.weights, samples.points), samples.shapes);
+    PatchForce force(ContactPatch(samples.weights, samples.points), samples.shapes);
     trials.push_back(tried(force, motions, effort));
     K = force.stuck_stiffness();
   }

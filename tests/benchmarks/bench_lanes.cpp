@@ -75,7 +75,7 @@ struct Timed {
   double force = 0.0;
 };
 
-Timed timed(const ModalForce& force, const Harmonics& q, Eigen::Index n) {
+Timed timed(ModalForce& force, const Harmonics& q, Eigen::Index n) {
   Timed result;
   result.value = force.evaluate(q, 1.0);
   const auto measure = [&](const std::function<void()>& work) {
@@ -90,12 +90,12 @@ Timed timed(const ModalForce& force, const Harmonics& q, Eigen::Index n) {
     return 1e6 * best / static_cast<double>(n);
   };
   result.whole = measure([&] { static_cast<void>(force.evaluate(q, 1.0)); });
-  result.force = measure([&] { static_cast<void>(force.evaluate_rows(q, 1.0, {})); });
+  result.force = measure([&] { static_cast<void>(force.evaluate(q, 1.0, {})); });
   return result;
 }
 
-void print(const std::string& name, int H, const Timed& row, const Timed& exact,
-           const PatchForce& patch, const Harmonics& q) {
+void print(const std::string& name, int H, const Timed& row, const Timed& exact, PatchForce& patch,
+           const Harmonics& q) {
   const Eigen::MatrixXd K = patch.stuck_stiffness();
   const double scale = std::max(exact.value.force.rows().norm(), (q.rows() * K).norm());
   const double stiffness = std::max(exact.value.jacobian.norm(), K.norm());
@@ -118,16 +118,16 @@ void compare(int H, bool second_direction, Eigen::Index n) {
       laws.push_back(std::make_shared<EventLaw>(surface.point()));
     }
   }
-  const LawPatchForce reference(weights, laws, shapes);
+  LawPatchForce reference(weights, laws, shapes);
   const Timed exact = timed(reference, q, n);
   const std::string name = second_direction ? "plane" : "line";
-  const PatchForce first(weights, surfaces, shapes, {32});
+  PatchForce first(weights, surfaces, shapes, {32});
   std::printf("%s: awake %.2f, stick %.2f, slip %.2f, apart %.2f\n", name.c_str(),
               first.report(q, 1.0).awake_share, first.report(q, 1.0).stick_share,
               first.report(q, 1.0).slip_share, first.report(q, 1.0).separated_share);
   for (int instants = 32; instants <= 2048; instants *= 2) {
     if (instants < 8 * (H + 1)) continue;
-    const PatchForce patch(weights, surfaces, shapes, {instants});
+    PatchForce patch(weights, surfaces, shapes, {instants});
     print(name + " n = " + std::to_string(instants), H, timed(patch, q, n), exact, first, q);
   }
   print(second_direction ? "planar law" : "located events", H, exact, exact, first, q);

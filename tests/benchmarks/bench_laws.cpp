@@ -105,7 +105,7 @@ void event_patch(benchmark::State& state) {
   constexpr Eigen::Index n = 488;
   const Laws laws = event_laws(n, 1);
   const ModalShapes shapes = shapes_of(n, false);
-  const LawPatchForce force(Eigen::VectorXd::Ones(n), laws, shapes);
+  LawPatchForce force(Eigen::VectorXd::Ones(n), laws, shapes);
   const Harmonics q = motion_of(H);
   for (auto _ : state) benchmark::DoNotOptimize(force.evaluate(q, 1.0));
   state.counters["ns_per_point"] = benchmark::Counter(
@@ -129,8 +129,8 @@ BENCHMARK(event_patch)->Arg(1)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
 void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shapes,
              const Harmonics& q) {
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(shapes.u.rows());
-  const LawPatchForce force(weights, laws, shapes);
-  const LawPatchForce all(weights, sleepless(laws), shapes);
+  LawPatchForce force(weights, laws, shapes);
+  LawPatchForce all(weights, sleepless(laws), shapes);
   benchmark::DoNotOptimize(all.evaluate(q, 1.0));
   const double begin = seconds_spent();
   constexpr int repeats = 3;

@@ -8,25 +8,24 @@
 #include <cmath>
 #include <memory>
 
-#include "contact/modal_force.hpp"
 #include "solver/scene.hpp"
+#include "tests/support/full_force.hpp"
 
 namespace microslip::tests {
 
-class CubicSpring final : public contact::ModalForce {
+class CubicSpring final : public FullForce {
  public:
-  explicit CubicSpring(double alpha) : alpha_(alpha) {}
-  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
+  explicit CubicSpring(double alpha) : FullForce(1), alpha_(alpha) {}
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
   [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
+                                            double /*frequency*/) override {
     return {};
   }
   /// α (q³) on mean and first harmonic: b³ + 3/2 b A² and (3b² + ¾A²)(q_s, q_c).
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const contact::Harmonics& q,
-                                                   double /*frequency*/) const override {
+  [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,
+                                                 double /*frequency*/) const override {
     const double b = q.rows()(0, 0);
     const double s = q.rows()(1, 0);
     const double c = q.rows()(2, 0);

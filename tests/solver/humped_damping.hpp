@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "contact/modal_force.hpp"
 #include "solver/scene.hpp"
+#include "tests/support/full_force.hpp"
 
 namespace microslip::tests {
 
@@ -14,19 +14,19 @@ namespace microslip::tests {
 /// d = 0.1 + exp(−(S − 4)²): with F = 0.5 and ω₀ = 1
 ///   (1 − ω²)² = F²/S − d²
 /// has solutions for small S, on the curve, and again between S = 5.5 and 25: an isola.
-class HumpedDamping final : public contact::ModalForce {
+class HumpedDamping final : public FullForce {
  public:
-  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
+  HumpedDamping() : FullForce(1) {}
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
   [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
+                                            double /*frequency*/) override {
     return {};
   }
   static double damping(double square) { return 0.1 + std::exp(-(square - 4.0) * (square - 4.0)); }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const contact::Harmonics& q,
-                                                   double /*frequency*/) const override {
+  [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,
+                                                 double /*frequency*/) const override {
     const double s = q.rows()(1, 0);
     const double c = q.rows()(2, 0);
     const double square = s * s + c * c;

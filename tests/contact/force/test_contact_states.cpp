@@ -106,8 +106,8 @@ TEST(ContactStates, OfAPatchAreTheSameByClosedFormAndByLaws) {
   points[7].friction_coefficient = 0.0;
   laws[7] = std::make_shared<EventLaw>(points[7]);
   Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);  // the first has no area
-  const PatchForce closed(ContactPatch(weights, points), shapes_of(200));
-  const LawPatchForce by_laws(weights, laws, shapes_of(200));
+  PatchForce closed(ContactPatch(weights, points), shapes_of(200));
+  LawPatchForce by_laws(weights, laws, shapes_of(200));
   Harmonics q(1, 1);
   q.rows().col(0) << 0.1, 0.6, 0.7;
   ContactStates a;

@@ -25,7 +25,7 @@ constexpr PointParameters pressed{2.0, 1.0, 0.5, 10.0};
 constexpr PointParameters gap{2.0, 1.0, 0.5, -1.0};
 
 TEST(LinearState, OfASetShrinksToTheStateOfItsPoints) {
-  const PatchForce force = patch(pressed, pressed);
+  PatchForce force = patch(pressed, pressed);
   // The second point moves in phase: no mean force while L₂ = k_u a + μ k_v b = 2.25 a ≤ μ n₀ = 5.
   EXPECT_EQ(force.linear_state(motion(0.0, 1.0), 0.5), LinearState::stuck);
   EXPECT_EQ(force.linear_state(motion(0.0, 2.22), 0.0), LinearState::stuck);
@@ -34,7 +34,7 @@ TEST(LinearState, OfASetShrinksToTheStateOfItsPoints) {
 }
 
 TEST(LinearState, NeedsTheMeanForceToBeThatOfTheSprings) {
-  const PatchForce force = patch(pressed, pressed);
+  PatchForce force = patch(pressed, pressed);
   EXPECT_EQ(force.linear_state(motion(1.0, 1.0), 0.0), LinearState::stuck);
   EXPECT_EQ(force.linear_state(motion(2.0, 1.0), 0.0), LinearState::unknown);  // 2·2 + 2 > 5
 }

@@ -45,7 +45,7 @@ Harmonics random_motion(unsigned seed) {
 }
 
 // The sum of the theory, point by point with dense matrices.
-ForceAndJacobian by_definition(const PatchForce& patch, const Harmonics& q) {
+ForceAndJacobian by_definition(PatchForce& patch, const Harmonics& q) {
   const Eigen::Index N = patch.n_modes();
   ForceAndJacobian sum{Harmonics(1, N), Eigen::MatrixXd::Zero(3 * N, 3 * N), {}};
   const std::vector<PointMotion> motions = point_motions(patch.shapes(), q);
@@ -73,7 +73,7 @@ class PatchForceSizes : public testing::TestWithParam<int> {};
 TEST_P(PatchForceSizes, IsTheWeightedSumOverThePoints) {
   const Eigen::Index n = GetParam();
   for (const double preload : {-2.0, 0.0, 0.5, 3.0}) {
-    const PatchForce patch(random_patch(n, preload, 1), random_shapes(n, 2));
+    PatchForce patch(random_patch(n, preload, 1), random_shapes(n, 2));
     const Harmonics q = random_motion(3);
     const ForceAndJacobian ours = patch.evaluate(q, 1.0);
     const ForceAndJacobian expected = by_definition(patch, q);
@@ -88,7 +88,7 @@ TEST_P(PatchForceSizes, IsTheWeightedSumOverThePoints) {
 INSTANTIATE_TEST_SUITE_P(Counts, PatchForceSizes, testing::Values(1, 2, 63, 64, 65, 130));
 
 TEST(PatchForce, JacobianAgreesWithCentralDifferences) {
-  const PatchForce patch(random_patch(50, 1.0, 4), random_shapes(50, 5));
+  PatchForce patch(random_patch(50, 1.0, 4), random_shapes(50, 5));
   const Harmonics q = random_motion(6);
   const Eigen::MatrixXd J = patch.evaluate(q, 1.0).jacobian;
   // 50 points: none within h = 1e-6 of a kink at this seed; truncation h² times curvatures that
@@ -107,7 +107,7 @@ TEST(PatchForce, JacobianAgreesWithCentralDifferences) {
 }
 
 TEST(PatchForce, EqualInputGivesEqualBits) {
-  const PatchForce patch(random_patch(777, 1.0, 7), random_shapes(777, 8));
+  PatchForce patch(random_patch(777, 1.0, 7), random_shapes(777, 8));
   const Harmonics q = random_motion(9);
   const ForceAndJacobian a = patch.evaluate(q, 1.0);
   const ForceAndJacobian b = patch.evaluate(q, 2.0);
@@ -135,9 +135,9 @@ TEST(PatchForce, PowersOfTwoScaleBitByBit) {
 
 // M11: with a preload that nothing can overcome the force is linear, with the stuck stiffness.
 TEST(PatchForce, StuckLimitIsTheStuckStiffness) {
-  const PatchForce patch(ContactPatch(Eigen::VectorXd::Constant(70, 0.3),
-                                      std::vector<PointParameters>(70, {2.0, 3.0, 0.5, 1e3})),
-                         random_shapes(70, 13));
+  PatchForce patch(ContactPatch(Eigen::VectorXd::Constant(70, 0.3),
+                                std::vector<PointParameters>(70, {2.0, 3.0, 0.5, 1e3})),
+                   random_shapes(70, 13));
   const Harmonics q = random_motion(14);
   const ForceAndJacobian ours = patch.evaluate(q, 1.0);
   const Eigen::MatrixXd K = patch.stuck_stiffness();
@@ -153,7 +153,7 @@ TEST(PatchForce, StuckLimitIsTheStuckStiffness) {
 
 TEST(PatchForce, PointsWithoutFrictionDoNotStick) {
   const ModalShapes shapes = random_shapes(5, 15);
-  const PatchForce patch(
+  PatchForce patch(
       ContactPatch(Eigen::VectorXd::Ones(5), std::vector<PointParameters>(5, {2.0, 3.0, 0.0, 1.0})),
       shapes);
   EXPECT_LE((patch.stuck_stiffness() - 3.0 * shapes.v.transpose() * shapes.v).cwiseAbs().maxCoeff(),
@@ -163,7 +163,7 @@ TEST(PatchForce, PointsWithoutFrictionDoNotStick) {
 // Energy: the modal force does the work of slip, and what the springs store comes back.
 TEST(PatchForce, WorkOfTheModalForceIsTheWorkOfSlip) {
   for (const double preload : {-1.0, 0.0, 0.6, 2.0}) {
-    const PatchForce patch(random_patch(200, preload, 16), random_shapes(200, 17));
+    PatchForce patch(random_patch(200, preload, 16), random_shapes(200, 17));
     const Harmonics q = random_motion(18);
     const ForceAndJacobian f = patch.evaluate(q, 1.0);
     const double work =
@@ -198,7 +198,7 @@ TEST(PatchForce, TellsTheRegimeOfEachPoint) {
                                             {1.0, 2.0, 0.5, 1.0},     // 2 N lift 1 N
                                             {1.0, 2.0, 0.5, -10.0}};  // a gap of 5
   const ModalShapes shapes{Eigen::MatrixXd::Ones(4, 1), Eigen::MatrixXd::Ones(4, 1), {}};
-  const PatchForce force(ContactPatch(Eigen::VectorXd::Ones(4), points), shapes);
+  PatchForce force(ContactPatch(Eigen::VectorXd::Ones(4), points), shapes);
   Harmonics q(1, 1);
   q.rows()(1, 0) = 1.0;
   ContactStates states;
@@ -216,7 +216,7 @@ TEST(PatchForce, RefusesWhatDoesNotFit) {
   ModalShapes broken = random_shapes(3, 1);
   broken.v(1, 1) = std::nan("");
   EXPECT_THROW(PatchForce(random_patch(3, 1.0, 1), broken), std::invalid_argument);
-  const PatchForce patch(random_patch(3, 1.0, 1), random_shapes(3, 1));
+  PatchForce patch(random_patch(3, 1.0, 1), random_shapes(3, 1));
   EXPECT_THROW((void)patch.evaluate(Harmonics(2, n_modes), 1.0), std::invalid_argument);
   EXPECT_THROW((void)patch.evaluate(Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
   EXPECT_THROW((void)patch.report(Harmonics(0, n_modes), 1.0), std::invalid_argument);
@@ -225,7 +225,7 @@ TEST(PatchForce, RefusesWhatDoesNotFit) {
 TEST(PatchForce, DoesNotReadTheShapesItHasNoUseFor) {
   ModalShapes shapes = random_shapes(3, 1);
   shapes.w = Eigen::MatrixXd::Constant(3, n_modes, std::nan(""));
-  const PatchForce patch(random_patch(3, 1.0, 1), shapes);
+  PatchForce patch(random_patch(3, 1.0, 1), shapes);
   EXPECT_TRUE(patch.evaluate(random_motion(2), std::nan("")).jacobian.allFinite());
 }
 

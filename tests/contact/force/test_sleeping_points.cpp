@@ -51,14 +51,14 @@ TEST(SleepingPoints, GiveWhatPointsEvaluatedOneByOneGive) {
   for (int scene = 0; scene < 20; ++scene) {
     const Eigen::Index n = 16 + 37 * scene;
     const Patch p = random_patch(n, random);
-    const PatchForce walked(ContactPatch(p.weights, p.points), p.shapes);
+    PatchForce walked(ContactPatch(p.weights, p.points), p.shapes);
     Harmonics q = random_motion(0.5, random);
     for (int step = 0; step < 60; ++step) {
       // Steps from the size of a Newton correction to one that wakes everything.
       const double size = std::pow(10.0, -6.0 + 0.1 * step);
       q.vector() += random_motion(size, random).vector();
       q.vector() *= 0.7 / std::max(0.7, q.vector().norm() / 4.0);
-      const PatchForce fresh(ContactPatch(p.weights, p.points), p.shapes);
+      PatchForce fresh(ContactPatch(p.weights, p.points), p.shapes);
       const ForceAndJacobian a = walked.evaluate(q, 1.0);
       const ForceAndJacobian b = fresh.evaluate(q, 1.0);
       const double rounding = 1e-14 * static_cast<double>(n);
@@ -74,7 +74,7 @@ TEST(SleepingPoints, GiveWhatPointsEvaluatedOneByOneGive) {
 TEST(SleepingPoints, LinearPartIsThatOfTheCycles) {
   std::mt19937_64 random(2);
   const Patch p = random_patch(300, random);
-  const PatchForce force(ContactPatch(p.weights, p.points), p.shapes);
+  PatchForce force(ContactPatch(p.weights, p.points), p.shapes);
   const Harmonics q = random_motion(0.4, random);
   const ForceAndJacobian ours = force.evaluate(q, 1.0);
   ASSERT_LT(force.report(q, 1.0).awake_share, 0.8);

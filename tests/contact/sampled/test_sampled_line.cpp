@@ -53,7 +53,7 @@ double rms(const std::vector<MotionCase>& cases, const test::SurfaceCase& surfac
   double sum = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Harmonics q = modal(cases[i].motion, 2);
-    const auto force = one_point(surface.make(cases[i]), 2, n).evaluate_rows(q, frequency, {});
+    const auto force = one_point(surface.make(cases[i]), 2, n).evaluate(q, frequency, {});
     sum += std::pow(error(force.force, exact[i], cases[i]), 2);
   }
   return std::sqrt(sum / static_cast<double>(cases.size()));
@@ -86,7 +86,7 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
   int n_checked = 0;
   int n_drawn = 0;
   for (const MotionCase& c : motions(30)) {
-    const PatchForce force = one_point(GetParam().make(c), 2, 128);
+    PatchForce force = one_point(GetParam().make(c), 2, 128);
     const Harmonics q = modal(c.motion, 2);
     const ForceAndJacobian now = force.evaluate(q, frequency);
     const double scale = c.point.tangential_stiffness +
@@ -97,8 +97,8 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
         Harmonics b = q;
         a.vector()[k] += h;
         b.vector()[k] -= h;
-        return (force.evaluate_rows(a, frequency, {}).force.vector() -
-                force.evaluate_rows(b, frequency, {}).force.vector()) /
+        return (force.evaluate(a, frequency, {}).force.vector() -
+                force.evaluate(b, frequency, {}).force.vector()) /
                (2.0 * h);
       };
       const double h = 1e-6 * (k % 2 == 0 ? friction_scale(c) / c.point.tangential_stiffness
@@ -116,12 +116,12 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
 TEST_P(LineSurfaces, FrequencyDerivativeIsThatOfDifferences) {
   int n_checked = 0;
   for (const MotionCase& c : motions(30)) {
-    const PatchForce force = one_point(GetParam().make(c), 2, 128);
+    PatchForce force = one_point(GetParam().make(c), 2, 128);
     const Harmonics q = modal(c.motion, 2);
     const ForceAndJacobian now = force.evaluate(q, frequency);
     const auto central = [&](double h) -> Eigen::VectorXd {
-      return (force.evaluate_rows(q, frequency + h, {}).force.vector() -
-              force.evaluate_rows(q, frequency - h, {}).force.vector()) /
+      return (force.evaluate(q, frequency + h, {}).force.vector() -
+              force.evaluate(q, frequency - h, {}).force.vector()) /
              (2.0 * h);
     };
     const double scale = (friction_scale(c) + normal_scale(c)) / frequency;

@@ -115,7 +115,7 @@ TEST_P(PlaneSurfaces, ConvergeToThePlanarLawInSecondOrder) {
     const int n = 128 << 2 * k;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const auto force = one_point(GetParam().make(cases[i]), 3, n)
-                             .evaluate_rows(modal(cases[i].motion, 3), frequency, {});
+                             .evaluate(modal(cases[i].motion, 3), frequency, {});
       if (force.defect > 0.0) {  // a march into rest that has not arrived
         ++n_unsettled;
         continue;
@@ -142,7 +142,7 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
   double worst = 0.0;
   int n_unsettled = 0;
   for (const PlanarCase& c : cases_of(40)) {
-    const PatchForce force = one_point(GetParam().make(c), 3, 128);
+    PatchForce force = one_point(GetParam().make(c), 3, 128);
     const Harmonics q = modal(c.motion, 3);
     const ForceAndJacobian now = force.evaluate(q, frequency);
     if (now.defect > 0.0) ++n_unsettled;
@@ -164,15 +164,15 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
         Harmonics b = q;
         a.vector()[k] += h;
         b.vector()[k] -= h;
-        return (force.evaluate_rows(a, frequency, {}).force.vector() -
-                force.evaluate_rows(b, frequency, {}).force.vector()) /
+        return (force.evaluate(a, frequency, {}).force.vector() -
+                force.evaluate(b, frequency, {}).force.vector()) /
                (2.0 * h);
       });
     }
     check(now.frequency_derivative, size / frequency, [&](double part) -> Eigen::VectorXd {
       const double h = 1e-5 * part * frequency;
-      return (force.evaluate_rows(q, frequency + h, {}).force.vector() -
-              force.evaluate_rows(q, frequency - h, {}).force.vector()) /
+      return (force.evaluate(q, frequency + h, {}).force.vector() -
+              force.evaluate(q, frequency - h, {}).force.vector()) /
              (2.0 * h);
     });
   }
@@ -192,11 +192,11 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Theory section 9: |f| = μn, f leads u by arccos(μn/(k a)); work 2π μn sqrt(a² − (μn/k)²).
 TEST(SampledPlane, CircularMotionUnderConstantLoad) {
-  const PatchForce force = one_point(SurfaceLaw({2.0, 0.0, 0.5, 1.0}, 2.0), 3, 1024);
+  PatchForce force = one_point(SurfaceLaw({2.0, 0.0, 0.5, 1.0}, 2.0), 3, 1024);
   Harmonics q(1, 3);
   q.rows()(2, 0) = 1.0;
   q.rows()(1, 2) = 1.0;
-  const Harmonics f = force.evaluate_rows(q, 1.0, {}).force;
+  const Harmonics f = force.evaluate(q, 1.0, {}).force;
   const double tolerance =
       std::pow(2.0 * std::numbers::pi / 1024.0, 2);  // order two, coefficient 1
   const double lead = std::acos(0.25);

@@ -91,20 +91,16 @@ TEST(StepStates, OnePointIsFollowedToWhereItBeginsToSlip) {
 class Chatter final : public contact::ModalForce {
  public:
   explicit Chatter(std::size_t n_points)
-      : linear_(Eigen::MatrixXd::Ones(1, 1), contact::CycleReport{}), n_points_(n_points) {}
-  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
+      : ModalForce(1),
+        linear_(Eigen::MatrixXd::Ones(1, 1), contact::CycleReport{}),
+        n_points_(n_points) {}
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return linear_.stuck_stiffness();
   }
-  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency) const override {
+  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency) override {
     return linear_.report(q, frequency);
   }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const Harmonics& q,
-                                                   double frequency) const override {
-    return linear_.evaluate(q, frequency);
-  }
-  void states(const Harmonics& /*q*/, double frequency,
-              contact::ContactStates& result) const override {
+  void states(const Harmonics& /*q*/, double frequency, contact::ContactStates& result) override {
     const bool slips = std::remainder(1e9 * frequency, 2.0) > 0.0;
     const double share = 1.0 / static_cast<double>(n_points_);
     const contact::CycleStates stuck{contact::CycleRegime::full_stick, contact::PeriodStates()};
@@ -115,6 +111,11 @@ class Chatter final : public contact::ModalForce {
   }
 
  private:
+  [[nodiscard]] contact::ForceAndJacobian evaluated(const Harmonics& q, double frequency,
+                                                    const contact::Asked& asked) override {
+    return linear_.evaluate(q, frequency, asked);
+  }
+
   LinearForce linear_;
   std::size_t n_points_;
 };

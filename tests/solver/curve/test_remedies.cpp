@@ -10,23 +10,22 @@
 #include <gtest/gtest.h>
 
 #include "solver/continuation.hpp"
+#include "tests/support/full_force.hpp"
 
 namespace microslip::solver {
 namespace {
 
-class JumpingForce final : public contact::ModalForce {
+class JumpingForce final : public tests::FullForce {
  public:
-  explicit JumpingForce(double jump) : jump_(jump) {}
-  [[nodiscard]] Eigen::Index n_modes() const override { return 1; }
+  explicit JumpingForce(double jump) : FullForce(1), jump_(jump) {}
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
-  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
+  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/, double /*frequency*/) override {
     return {};
   }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const Harmonics& q,
-                                                   double /*frequency*/) const override {
+  [[nodiscard]] contact::ForceAndJacobian by_all(const Harmonics& q,
+                                                 double /*frequency*/) const override {
     contact::ForceAndJacobian result;
     result.force = Harmonics(1, 1);
     result.jacobian = Eigen::MatrixXd::Zero(3, 3);

@@ -7,24 +7,24 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/modal_force.hpp"
 #include "solver/scene.hpp"
+#include "tests/support/full_force.hpp"
 
 namespace microslip::tests {
 
-class CubicBar final : public contact::ModalForce {
+class CubicBar final : public FullForce {
  public:
-  CubicBar(double alpha, Eigen::VectorXd shape) : alpha_(alpha), shape_(std::move(shape)) {}
-  [[nodiscard]] Eigen::Index n_modes() const override { return shape_.size(); }
+  CubicBar(double alpha, Eigen::VectorXd shape)
+      : FullForce(shape.size()), alpha_(alpha), shape_(std::move(shape)) {}
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(n_modes(), n_modes());
   }
   [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) const override {
+                                            double /*frequency*/) override {
     return {};
   }
-  [[nodiscard]] contact::ForceAndJacobian evaluate(const contact::Harmonics& q,
-                                                   double /*frequency*/) const override {
+  [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,
+                                                 double /*frequency*/) const override {
     const Eigen::Index rows = q.rows().rows();
     const Eigen::VectorXd u = q.rows() * shape_;
     const Eigen::Index n = 4 * rows;  // a product of three has 3H, with a weight 4H < n/2

@@ -115,7 +115,9 @@ TEST(PeakHarmonics, ResonantOrdersAreThoseNearAMode) {
   const auto peak = tests::solved_peak(scene, choosing(1e-2), 1).peak;
   const auto at = one.evaluate(peak.point.x, peak.point.parameter);
   const Harmonics force =
-      scene.contact->force_up_to(one.harmonics(peak.point.x), peak.point.parameter, 12);
+      scene.contact
+          ->evaluate(one.harmonics(peak.point.x), peak.point.parameter, {.n_harmonics = 12})
+          .force;
   const auto orders = resonant_orders(one, peak.point, at.jacobian, force, 1e-3);
   EXPECT_EQ(std::ranges::count(orders, 3), 1);
   for (const int k : orders) {

@@ -1,0 +1,32 @@
+#include "contact/modal_force.hpp"
+
+#include <numeric>
+#include <utility>
+
+namespace microslip::contact {
+
+ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency) {
+  Asked all;
+  all.rows.resize(static_cast<std::size_t>(q.rows().rows()));
+  std::iota(all.rows.begin(), all.rows.end(), Eigen::Index{0});
+  return evaluated(q, frequency, all);
+}
+
+ForceAndJacobian restricted(ForceAndJacobian all, const std::vector<Eigen::Index>& rows) {
+  const Eigen::Index n = all.force.n_signals();
+  const auto n_rows = static_cast<Eigen::Index>(rows.size());
+  if (n_rows == all.force.rows().rows()) return all;
+  ForceAndJacobian some{std::move(all.force), Eigen::MatrixXd(n_rows * n, n_rows * n),
+                        Eigen::VectorXd(n_rows * n), all.defect};
+  for (Eigen::Index i = 0; i < n_rows; ++i) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(i)] * n;
+    some.frequency_derivative.segment(i * n, n) = all.frequency_derivative.segment(row, n);
+    for (Eigen::Index j = 0; j < n_rows; ++j) {
+      const Eigen::Index column = rows[static_cast<std::size_t>(j)] * n;
+      some.jacobian.block(i * n, j * n, n, n) = all.jacobian.block(row, column, n, n);
+    }
+  }
+  return some;
+}
+
+}  // namespace microslip::contact

@@ -1,0 +1,132 @@
+#include "contact/force/pointwise_force.hpp"
+
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "contact/patch/mode_shape_check.hpp"
+
+namespace microslip::contact {
+namespace {
+
+void check(const RestingPoints& points, const ModalShapes& shapes) {
+  const Eigen::Index n = points.weights.size();
+  if (n < 1 || static_cast<Eigen::Index>(points.ranges.size()) != n) {
+    throw std::invalid_argument("contact force: " + std::to_string(n) + " weights for " +
+                                std::to_string(points.ranges.size()) + " points");
+  }
+  if (!points.weights.allFinite() || points.weights.minCoeff() < 0.0) {
+    throw std::invalid_argument("contact force: a weight is negative or not finite");
+  }
+  require_mode_shape("contact force", "u", shapes.u, n, shapes.u.cols());
+  require_mode_shape("contact force", "v", shapes.v, n, shapes.u.cols());
+  if (shapes.w.size() > 0) {
+    require_mode_shape("contact force", "w", shapes.w, n, shapes.u.cols());
+  }
+}
+
+void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harmonics& q,
+                  std::size_t n_rows) {
+  const Eigen::Index n = part.mean.size();
+  result.force.rows().topRows(q.rows().rows()).noalias() += q.rows() * part.stiffness;  // symmetric
+  result.force.rows().row(0) += part.mean.transpose();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(n_rows); ++k) {
+    result.jacobian.block(k * n, k * n, n, n) += part.stiffness;
+  }
+}
+
+}  // namespace
+
+PointwiseForce::PointwiseForce(RestingPoints points, ModalShapes&& shapes)
+    : ModalForce(shapes.u.cols()), points_(std::move(points)), shapes_(std::move(shapes)) {
+  check(points_, shapes_);
+  sleep_ = SleepingLaws(points_.weights, points_.load_at_rest, points_.ranges, shapes_);
+  cycles_.resize(points_.ranges.size());
+}
+
+void PointwiseForce::look_at(const Harmonics& q, double frequency) {
+  motion_.set(shapes_, q);
+  sleep_.look_at(motion_, frequency, shapes_);
+}
+
+ForceAndJacobian PointwiseForce::evaluated(const Harmonics& q, double frequency,
+                                           const Asked& asked) {
+  look_at(q, frequency);
+  const bool wider = asked.n_harmonics > q.n_harmonics();
+  kept_q_ = wider ? Harmonics() : q;  // laws asked for more harmonics do not tell their cycles
+  kept_frequency_ = frequency;
+  keep_sleeping();
+  ForceAndJacobian result = awake_force(frequency, asked);
+  if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, asked.rows.size());
+  return result;
+}
+
+void PointwiseForce::keep(Eigen::Index point, const CycleStates& cycle) {
+  const auto i = static_cast<std::size_t>(point);
+  cycles_[i] = points_.frictionless[i] ? cycle.without_slip() : cycle;
+}
+
+void PointwiseForce::keep_sleeping() {
+  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+    const SleepState state = sleep_.state(static_cast<Eigen::Index>(i));
+    if (state == SleepState::awake) continue;
+    const bool stuck = state == SleepState::stuck;
+    cycles_[i] = {stuck ? CycleRegime::full_stick : CycleRegime::separated,
+                  PeriodStates(stuck ? ContactState::stick : ContactState::separated)};
+  }
+}
+
+void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates& result) {
+  const bool known = frequency == kept_frequency_ && q.rows().rows() == kept_q_.rows().rows() &&
+                     q.vector() == kept_q_.vector();
+  if (!known) static_cast<void>(evaluated(q, frequency, {}));
+  const double area = points_.weights.sum();
+  result.clear();
+  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+    const double weight = points_.weights[static_cast<Eigen::Index>(i)];
+    if (weight > 0.0) result.push_back({weight / area, cycles_[i]});
+  }
+}
+
+CycleReport PointwiseForce::report(const Harmonics& q, double frequency) {
+  look_at(q, frequency);
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  ReportSum sum;
+  std::vector<Eigen::Index> others;
+  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+    const auto point = static_cast<Eigen::Index>(i);
+    const SleepState state = sleep_.state(point);
+    const double weight = points_.weights[point];
+    if (weight == 0.0) continue;
+    const bool open = state == SleepState::open;
+    // In contact without friction: whether that is slip, the cycle tells.
+    if (state == SleepState::awake || (!open && points_.frictionless[i])) {
+      others.push_back(point);
+      continue;
+    }
+    const CycleSegment whole{open ? ContactState::separated : ContactState::stick, 0.0, two_pi,
+                             0.0};
+    sum.add({&whole, 1}, 0.0, weight);
+  }
+  add_cycles(others, frequency, sum);
+  CycleReport report = sum.result();
+  report.awake_share = static_cast<double>(awake().size()) / static_cast<double>(cycles_.size());
+  return report;
+}
+
+LinearState PointwiseForce::linear_state(const Harmonics& centre, double radius) const {
+  return sleep_.linear_state(shapes_, centre, radius);
+}
+
+Eigen::MatrixXd PointwiseForce::stuck_stiffness() const {
+  const Eigen::MatrixX3d k = points_.stuck_stiffness.array().colwise() * points_.weights.array();
+  Eigen::MatrixXd stiffness = shapes_.u.transpose() * k.col(0).asDiagonal() * shapes_.u;
+  stiffness += shapes_.v.transpose() * k.col(1).asDiagonal() * shapes_.v;
+  if (shapes_.w.size() > 0) {
+    stiffness += shapes_.w.transpose() * k.col(2).asDiagonal() * shapes_.w;
+  }
+  return stiffness;
+}
+
+}  // namespace microslip::contact
