@@ -34,7 +34,7 @@ class Mesh {
   /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
   ///         loose parts, a surface that is not on the boundary.
   Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
-       std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets,
+       const std::map<std::string, std::vector<FaceBlock>>& surfaces, const NodeSets& node_sets,
        Eigen::Index n_repeated = 0);
 
   [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }

@@ -2,6 +2,7 @@
 /// The program `microslip`: reads the command line, calls one study, turns its end into an exit code.
 
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -72,9 +73,7 @@ int guarded(Arguments& arguments, const Action& action) {
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int answer(int argc, char** argv) {
   Arguments arguments;
   Action chosen;
   CLI::App app(
@@ -95,4 +94,15 @@ int main(int argc, char** argv) {
     return misused(arguments, explained(error, app, argc, argv), argc, argv);
   }
   return guarded(arguments, chosen);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return answer(argc, argv);
+  } catch (const std::exception& error) {  // outside of what `guarded` watches
+    std::cerr << "microslip: internal error: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::internal);
+  }
 }

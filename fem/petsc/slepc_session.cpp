@@ -1,5 +1,6 @@
 #include "fem/slepc_session.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
@@ -97,10 +98,10 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     check(get(&major, &minor, &patch, nullptr));
     return dotted(major, minor, patch);
   };
-  char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> mpi{};
   int length = 0;
-  check(MPI_Get_library_version(mpi, &length));
-  const std::string name(mpi, static_cast<std::size_t>(length));
+  check(MPI_Get_library_version(mpi.data(), &length));
+  const std::string name(mpi.data(), static_cast<std::size_t>(length));
   return {{"PETSc", of(&PetscGetVersionNumber)},
           {"SLEPc", of(&SlepcGetVersionNumber)},
           {"MUMPS", dotted(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,

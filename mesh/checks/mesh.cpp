@@ -126,6 +126,7 @@ std::string listed(const std::vector<std::string>& names) {
 template <typename Map>
 std::vector<std::string> keys_of(const Map& map) {
   std::vector<std::string> keys;
+  keys.reserve(map.size());
   for (const auto& [key, value] : map) keys.push_back(key);
   return keys;
 }
@@ -133,7 +134,7 @@ std::vector<std::string> keys_of(const Map& map) {
 }  // namespace
 
 Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
-           std::map<std::string, std::vector<FaceBlock>> surfaces, NodeSets node_sets,
+           const std::map<std::string, std::vector<FaceBlock>>& surfaces, const NodeSets& node_sets,
            Eigen::Index n_repeated)
     : elements_(std::move(elements)), n_repeated_elements_(n_repeated) {
   std::erase_if(elements_, [](const ElementBlock& b) { return b.connectivity.rows() == 0; });
@@ -158,13 +159,14 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
   check_outer_faces(nodes_, elements_, owners);
 
   SurfaceBuilder builder(elements_, owners);
-  for (auto& [name, blocks] : surfaces) {
+  for (const auto& [name, as_given] : surfaces) {
+    std::vector<FaceBlock> blocks = as_given;
     for (FaceBlock& block : blocks) block.connectivity = block.connectivity.unaryExpr(renumbered);
     Surface surface = builder.build(name, blocks);
     if (!surface.faces.empty()) surface.area = sample_surface(nodes_, surface, 1).weights.sum();
     surfaces_.emplace(name, std::move(surface));
   }
-  for (auto& [name, set] : node_sets) {
+  for (const auto& [name, set] : node_sets) {
     auto& kept = node_sets_[name];
     for (const Eigen::Index node : set) {
       if (renumbered(node) >= 0) kept.push_back(renumbered(node));

@@ -57,8 +57,7 @@ class MeshMaker {
     }
     std::vector<ElementBlock> blocks;
     for (auto& [type, list] : volumes_) blocks.push_back(block_of(type, list));
-    return {std::move(nodes_), std::move(blocks), std::move(surfaces_), std::move(node_sets_),
-            n_repeated_};
+    return {std::move(nodes_), std::move(blocks), surfaces_, node_sets_, n_repeated_};
   }
 
  private:

@@ -59,7 +59,7 @@ std::string GmshSource::next_section() {
     if (found > 0 && text_[found - 1] != '\n') continue;
     std::size_t end = at_;
     while (end < text_.size() && !is_space(text_[end])) ++end;
-    const std::string name = text_.substr(at_, std::min<std::size_t>(end - at_, 64));
+    std::string name = text_.substr(at_, std::min<std::size_t>(end - at_, 64));
     at_ = end;
     if (name.starts_with("End")) continue;
     end_line();

@@ -26,6 +26,39 @@ CLI::App* add_command(CLI::App& app, Arguments& a, Action& chosen, const char* n
   return command;
 }
 
+CLI::App* with_scene(CLI::App* command, Arguments& a) {
+  command->add_option("scene", a.input, "scene file (TOML)")->required();
+  return command;
+}
+
+CLI::App* with_output(CLI::App* command, Arguments& a, const char* what) {
+  command->add_option("-o,--output", a.output, what)->check([](const std::string& name) {
+    return name.empty() ? std::string("expected a name") : std::string();
+  });
+  return command;
+}
+
+void add_cycle(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* cycle_command =
+      add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
+                  [&] { return cycle(a); });
+  cycle_command
+      ->add_option("table", a.input,
+                   "CSV file, SI units, one point per row; columns tangential_stiffness, "
+                   "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
+                   "v_mean, v_sin, v_cos, optional id, u_mean and harmonics u_sin2, "
+                   "u_cos2, v_sin2, ..., second direction w_sin, w_cos, ... "
+                   "and tangential_stiffness_r, in any order")
+      ->required();
+  with_output(cycle_command, a, "JSON file to write; default standard output");
+  cycle_command
+      ->add_option("--harmonics", a.harmonics,
+                   "highest harmonic of the forces put out; default the highest of the table")
+      ->check(CLI::Range(1, largest_harmonic));
+  cycle_command->add_option("--plot", a.plot_folder,
+                            "folder for loops of every row: sampled CSV, SVG and PNG by its id");
+}
+
 }  // namespace
 
 void add_global_options(CLI::App& app, Arguments& a) {
@@ -48,64 +81,42 @@ void add_global_options(CLI::App& app, Arguments& a) {
 }
 
 void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
-  const auto with_scene = [&](CLI::App* command) {
-    command->add_option("scene", a.input, "scene file (TOML)")->required();
-    return command;
-  };
-  const auto with_output = [&](CLI::App* command, const char* what) {
-    command->add_option("-o,--output", a.output, what)->check([](const std::string& name) {
-      return name.empty() ? std::string("expected a name") : std::string();
-    });
-    return command;
-  };
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
   init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
       ->default_str("blade");
-  with_output(init_command, "file to write; it must not exist");
+  with_output(init_command, a, "file to write; it must not exist");
   with_scene(
       add_command(app, a, chosen, "check",
                   "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                  [&] { return check(a); }));
-  auto* mesh_command =
-      with_scene(add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }));
-  with_output(mesh_command, "gmsh file to write (.msh)")->get_option("--output")->required();
+                  [&] { return check(a); }),
+      a);
+  auto* mesh_command = with_scene(
+      add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
+  with_output(mesh_command, a, "gmsh file to write (.msh)")->get_option("--output")->required();
   auto* modes_command =
       with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
-                             [&] { return run_scene(a, modes_study); }));
-  with_output(modes_command, "run folder; default runs/SCENE");
+                             [&] { return run_scene(a, modes_study); }),
+                 a);
+  with_output(modes_command, a, "run folder; default runs/SCENE");
   auto* run_command =
       with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
-                             [&] { return run_scene(a, run_study); }));
-  with_output(run_command, "run folder; default runs/SCENE");
-  auto* cycle_command =
-      add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
-                  [&] { return cycle(a); });
-  cycle_command
-      ->add_option("table", a.input,
-                   "CSV file, SI units, one point per row; columns tangential_stiffness, "
-                   "normal_stiffness, friction_coefficient, preload, u_sin, u_cos, "
-                   "v_mean, v_sin, v_cos, optional id, u_mean and harmonics u_sin2, "
-                   "u_cos2, v_sin2, ..., second direction w_sin, w_cos, ... "
-                   "and tangential_stiffness_r, in any order")
-      ->required();
-  with_output(cycle_command, "JSON file to write; default standard output");
-  cycle_command
-      ->add_option("--harmonics", a.harmonics,
-                   "highest harmonic of the forces put out; default the highest of the table")
-      ->check(CLI::Range(1, largest_harmonic));
-  cycle_command->add_option("--plot", a.plot_folder,
-                            "folder for loops of every row: sampled CSV, SVG and PNG by its id");
-  with_scene(add_command(app, a, chosen, "converge",
-                         "what accuracy costs (not available in this version)", []() -> int {
-                           throw SceneError(
-                               "converge is not available in this version; "
-                               "share/scripts/mesh_convergence.py varies the mesh");
-                         }));
+                             [&] { return run_scene(a, run_study); }),
+                 a);
+  with_output(run_command, a, "run folder; default runs/SCENE");
+  add_cycle(app, a, chosen);
+  with_scene(
+      add_command(app, a, chosen, "converge", "what accuracy costs (not available in this version)",
+                  []() -> int {
+                    throw SceneError(
+                        "converge is not available in this version; "
+                        "share/scripts/mesh_convergence.py varies the mesh");
+                  }),
+      a);
   with_output(add_command(app, a, chosen, "columns",
                           "print every column and array of the files a run writes, with units",
                           [&] { return columns(a); }),
-              "file to write; default standard output");
+              a, "file to write; default standard output");
   auto* report_command =
       add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
                   [&] { return report_study(a.input); });

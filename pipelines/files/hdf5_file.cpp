@@ -84,7 +84,7 @@ void write_matrix(hid_t file, const std::string& name, const RowMajor<Scalar>& v
 Hdf5Writer::Hdf5Writer() {
   const Properties memory(H5Pcreate(H5P_FILE_ACCESS));
   constexpr std::size_t growth = 1U << 20U;  // bytes added at a time
-  H5Pset_fapl_core(memory.get(), growth, 0);
+  H5Pset_fapl_core(memory.get(), growth, false);
   file_ = H5Fcreate("in_memory.h5", H5F_ACC_TRUNC, H5P_DEFAULT, memory.get());
   require(file_ >= 0, "/");
 }

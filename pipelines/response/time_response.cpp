@@ -18,6 +18,7 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   const double end = 2.0 * std::numbers::pi * response.frequency_end_hz;
   if (begin == end) return {begin};
   std::vector<double> frequencies;
+  frequencies.reserve(static_cast<std::size_t>(response.n_time_points));
   for (int i = 0; i < response.n_time_points; ++i) {
     frequencies.push_back(begin + (end - begin) * i / (response.n_time_points - 1));
   }

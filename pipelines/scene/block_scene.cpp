@@ -18,7 +18,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 Eigen::VectorXd read_vector(const SectionReader& s, std::string_view key, Eigen::Index n,
                             const char* expected) {
-  const Eigen::VectorXd values = read_numbers(s, key);
+  Eigen::VectorXd values = read_numbers(s, key);
   if (values.size() != n) {
     s.fail(key, fmt::format("{} numbers; expected {}", values.size(), expected), s.node(key));
   }
@@ -73,7 +73,7 @@ Eigen::MatrixXd read_stiffness(const SectionReader& s) {
            "expected stiffness with rotational_stiffness, or stiffness_matrix: one of the two");
   }
   if (!diagonal) {
-    const Eigen::MatrixXd K = read_symmetric(s, "stiffness_matrix");
+    Eigen::MatrixXd K = read_symmetric(s, "stiffness_matrix");
     if (K.rows() == 6) return K;
     s.fail("stiffness_matrix", fmt::format("{0} x {0}; expected 6 x 6", K.rows()),
            s.node("stiffness_matrix"));
@@ -172,7 +172,7 @@ BlockOutput read_block_output(SectionReader& s) {
   complete.is_inline(true);
   const SectionReader output(node.as_table(), section_spec("output.block"), "response.output",
                              s.file(), complete);
-  const BlockOutput result{read_vector3(output, "at"), output.direction("direction")};
+  BlockOutput result{read_vector3(output, "at"), output.direction("direction")};
   s.complete("output", std::move(complete));
   return result;
 }

@@ -55,7 +55,7 @@ Field::Field(FieldDescription description) : description_(std::move(description)
 }
 
 Eigen::VectorXd Field::at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const {
-  const Eigen::VectorXd values =
+  Eigen::VectorXd values =
       expression_ ? expression_->at(p, r)
       : table_    ? table_->at(p, r)
                   : Eigen::VectorXd::Constant(p.size(), std::get<double>(description_.value));

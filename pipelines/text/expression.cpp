@@ -73,8 +73,8 @@ std::string in_our_count(const std::string& message) {
 }
 
 // The library's words; what it does not know gets ours.
-SceneError syntax_error(const mu::Parser& parser, const std::string& text, const std::string& place,
-                        const mu::ParserError& error) {
+[[noreturn]] void refuse(const mu::Parser& parser, const std::string& text,
+                         const std::string& place, const mu::ParserError& error) {
   const bool is_name = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !error.GetToken().empty() &&
                        (std::isalpha(static_cast<unsigned char>(error.GetToken()[0])) != 0 ||
                         error.GetToken()[0] == '_');
@@ -82,7 +82,7 @@ SceneError syntax_error(const mu::Parser& parser, const std::string& text, const
       is_name ? unknown_name(parser, error.GetToken()) : in_our_count(error.GetMsg());
   const auto end = static_cast<int>(text.size());
   const int position = std::clamp(error.GetPos() + 1, 1, end + 1);
-  return SceneError(fmt::format(
+  throw SceneError(fmt::format(
       "{}: expression \"{}\", {}: {}", place, text,
       fmt::format("character {}{}", position, position > end ? ", its end" : ""), what));
 }
@@ -129,11 +129,11 @@ void require_writable(const std::string& text, const std::string& place) {
 
 Expression::Expression(const std::string& text, std::string place,
                        const std::map<std::string, double>& constants,
-                       const std::array<std::string, 2>& coordinates)
+                       std::array<std::string, 2> coordinates)
     : parser_(std::make_unique<Parser>()),
       text_(text),
       place_(std::move(place)),
-      coordinates_(coordinates) {
+      coordinates_(std::move(coordinates)) {
   require_writable(text, place_);
   mu::Parser& parser = parser_->parser;
   define(parser, place_, constants);
@@ -151,7 +151,7 @@ Expression::Expression(const std::string& text, std::string place,
                       place_, text, n_values));
     }
   } catch (const mu::ParserError& error) {
-    throw syntax_error(parser, text, place_, error);
+    refuse(parser, text, place_, error);
   }
 }
 

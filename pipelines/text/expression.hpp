@@ -25,10 +25,12 @@ class Expression {
   ///         comes with the nearest known one and the list of them.
   Expression(const std::string& text, std::string place,
              const std::map<std::string, double>& constants = {},
-             const std::array<std::string, 2>& coordinates = {"p", "r"});
+             std::array<std::string, 2> coordinates = {"p", "r"});
   ~Expression();
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
 
   /// n values. Safe to call from several threads.
   /// @param p, r  [m], n each.

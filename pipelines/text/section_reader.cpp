@@ -61,7 +61,7 @@ std::string shown(const toml::node& node) {
 std::string place_of(const toml::node* node, const std::string& file) {
   if (node == nullptr) return file;
   const auto& source = node->source();
-  const std::string path = source.path ? *source.path : file;
+  std::string path = source.path ? *source.path : file;
   if (path.starts_with("--set ") || source.begin.line == 0) return path;
   return fmt::format("{}:{}", path, source.begin.line);
 }

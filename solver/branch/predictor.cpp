@@ -18,7 +18,7 @@ BranchVector times(double factor, const BranchVector& a) {
 /// What is added to the tangent's point, scaled.
 BranchVector bend(const WalkerPoint& before, const WalkerPoint& now, double ahead, int order) {
   const Eigen::Index n = now.solution.point.x.size();
-  const BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
+  BranchVector none{Eigen::VectorXd::Zero(n), 0.0};
   const BranchVector back = difference(before.solution.point, now.solution.point, now.scaling);
   const double way = length(back);
   if (order == 1 || way == 0.0) return none;

@@ -24,9 +24,9 @@ ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
       hill_stability(*balance_, at.evaluation.jacobian, at.point.parameter, stability_at(at));
   if (mark != PointMark::fold) {
     const bool is_peak = mark == PointMark::peak;
-    stability = stability_in_time(
-        *balance_, balance_->harmonics(at.point.x), at.point.parameter, std::move(stability),
-        is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
+    stability =
+        stability_in_time(*balance_, balance_->harmonics(at.point.x), at.point.parameter, stability,
+                          is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
   }
   ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
   point.mark = mark;

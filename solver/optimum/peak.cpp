@@ -186,7 +186,7 @@ class Search {
                     const PeakFunction& amplitude) {
     if (peaks.size() < 2) return;
     constexpr double close = 0.05;  // of the way to the neighbour
-    const Place neighbour = place == peaks.begin() ? std::next(place) : std::prev(place);
+    const auto neighbour = place == peaks.begin() ? std::next(place) : std::prev(place);
     const double here = position(place->parameter);
     static_cast<void>(amplitude(parameter(here + close * (position(neighbour->parameter) - here))));
   }
@@ -230,7 +230,7 @@ class Search {
     const std::vector<Place> valleys = open_valleys(peaks);
     const bool only_the_lowest = valleys.size() == 1 && valleys.front() == lowest(peaks);
     if (only_the_lowest) return;
-    for (const Place one : valleys) {
+    for (const auto one : valleys) {
       search_beside(peaks, one, amplitude, rough);
       searched_.insert(neighbourhood(one));
     }
@@ -239,12 +239,12 @@ class Search {
   /// Searches the minimum between the neighbours of the lowest value known.
   void search_lowest(const PeakFunction& amplitude) {
     std::vector<PeakOfParameter> known = peaks_.result().peaks;
-    const Place least = lowest(known);
+    const auto least = lowest(known);
     if (least == known.begin() || least == std::prev(known.end())) {
       probe_beside(known, least, amplitude);
       known = peaks_.result().peaks;
     }
-    const Place place = lowest(known);
+    const auto place = lowest(known);
     search_beside(known, place, amplitude, options_.relative_tolerance);
     if (place != known.begin() && std::next(place) != known.end()) {
       searched_.insert(neighbourhood(place));

@@ -58,6 +58,7 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
   options_.n_checks = std::min(options.n_checks, options.n_values);
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
   std::vector<double> checks;
+  checks.reserve(static_cast<std::size_t>(options_.n_checks));
   for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
   PeakWork work;
   range_ = with_common_harmonics(family_, checks, choosing_, work);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace microslip::solver {
 namespace {
@@ -18,8 +19,8 @@ constexpr double simultaneous = 1e-12;
 /// Memory with the internal variables of any instant of a segment.
 class MemoryAlong {
  public:
-  MemoryAlong(const TimeSegment& segment, const contact::TransientMemory& memory)
-      : segment_(segment), memory_(memory) {}
+  MemoryAlong(const TimeSegment& segment, contact::TransientMemory memory)
+      : segment_(segment), memory_(std::move(memory)) {}
   const contact::TransientMemory& at(double x) {
     if (segment_.has_internal()) memory_.internal = segment_.internal_at(x);
     return memory_;

@@ -158,7 +158,7 @@ class Builder {
     for (std::size_t e = 0; e < cells_.size(); ++e)
       block.tags.push_back(static_cast<std::int64_t>(e) + 1);
     const Eigen::Index last = corner(grid_.cells[0], grid_.cells[1], grid_.cells[2]);
-    return {coordinates(), {block}, std::move(surfaces), {{"corner", {last}}}};
+    return {coordinates(), {block}, surfaces, {{"corner", {last}}}};
   }
 
   mesh::FaceBlock side(const Eigen::MatrixX3d& on_box, int d, int end) {

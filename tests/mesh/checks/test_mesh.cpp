@@ -13,10 +13,10 @@ namespace {
 
 /// The reference element as a mesh of one element.
 Mesh single(ElementType type, Eigen::MatrixX3d nodes,
-            std::map<std::string, std::vector<FaceBlock>> surfaces = {}) {
+            const std::map<std::string, std::vector<FaceBlock>>& surfaces = {}) {
   ElementBlock block{type, Connectivity(1, nodes.rows()), {17}};
   for (Eigen::Index a = 0; a < nodes.rows(); ++a) block.connectivity(0, a) = a;
-  return {std::move(nodes), {block}, std::move(surfaces), {}};
+  return {std::move(nodes), {block}, surfaces, {}};
 }
 
 FaceBlock face_of(std::vector<Eigen::Index> nodes, FaceType type) {
