@@ -36,18 +36,19 @@ void require_stiffness_along_r(const ReducedModel& model) {
 
 ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
   ContactEffects effects;
-  effects.n_harmonics = scene.response ? scene.response->harmonics : 1;
+  effects.n_harmonics = scene.settings.harmonics.highest;
   if (scene.response && scene.response->method == ResponseDescription::Method::time) {
     effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
   }
   effects.normal_motion = setting_of(scene, "normal_motion") != "off";
-  const std::string setting = setting_of(scene, "second_direction");
+  using enum Discretisation::Choice;
+  const Discretisation::Choice choice = scene.settings.second_direction;
   effects.motion_ratio = motion_ratio_along_r(model, scene);
   // Motion of given modes along r is meant, unless it is rounding.
   const bool meshed = !scene.contacts.empty();
   const bool called_for = effects.motion_ratio > (meshed ? negligible_motion_along_r : 1e-9);
   effects.second_direction =
-      setting == "on" || (setting == "auto" && called_for && !model.patches.empty());
+      choice == on || (choice == automatic && called_for && !model.patches.empty());
   if (effects.second_direction) require_stiffness_along_r(model);
   return effects;
 }

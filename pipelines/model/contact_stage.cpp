@@ -90,14 +90,14 @@ Eigen::MatrixX2d places_between_nodes(const mesh::Mesh& mesh, const mesh::Surfac
 
 contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surface& surface,
                                         const mesh::SurfaceSampling& sampling,
-                                        const ContactDescription& contact,
+                                        const PatchSettings& settings,
                                         const contact::ModalShapes& nodal,
                                         const PatchPlane& plane) {
   const auto nodes = in_plane(node_positions(mesh, surface), plane.origin, plane.frame);
   // A positive share of the area for each node; interpolation weights themselves may be negative.
   const Eigen::VectorXd weights = sampling.to_centres.cwiseAbs().transpose() * sampling.weights;
-  const auto degree = contact.fit == ContactDescription::Fit::degree
-                          ? std::optional<int>(contact.fit_degree)
+  const auto degree = settings.fit == PatchSettings::Fit::degree
+                          ? std::optional<int>(settings.fit_degree)
                           : std::nullopt;
   return {nodes.p, nodes.r, weights, nodal, degree, places_between_nodes(mesh, surface, plane)};
 }
@@ -176,10 +176,11 @@ contact::SurfaceRules rules_of(const ContactDescription& contact) {
 }
 
 contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contact,
-                        const fem::ModalBasis& basis, const fem::ResidualFlexibility* residual) {
+                        const PatchSettings& settings, const fem::ModalBasis& basis,
+                        const fem::ResidualFlexibility* residual) {
   const mesh::Surface& surface = mesh.surface(contact.surface);
   const mesh::SurfaceSampling sampling =
-      mesh::sample_surface(mesh.nodes(), surface, contact.n_points);
+      mesh::sample_surface(mesh.nodes(), surface, settings.n_points);
   contact::Patch patch;
   patch.name = contact.name;
   patch.frame = contact_frame(mesh, contact);
@@ -194,12 +195,12 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
                                    along(basis.shapes, surface.nodes, patch.frame.row(1)),
                                    along(basis.shapes, surface.nodes, patch.frame.row(2))};
   ShapesOnPatch shapes;
-  if (contact.fit == ContactDescription::Fit::none) {
+  if (settings.fit == PatchSettings::Fit::none) {
     shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
   } else {
     const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
     const contact::ModalContactField field =
-        fitted_field(mesh, surface, sampling, contact, nodal, plane);
+        fitted_field(mesh, surface, sampling, settings, nodal, plane);
     patch.fit_degree = field.degree();
     patch.fit_error = field.fit_error();
     shapes = shapes_of(field, sampling, plane);
@@ -296,8 +297,8 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactDescription& contact = scene.contacts[i];
-    model.patches.push_back(
-        patch_of(mesh, contact, basis, residuals.empty() ? nullptr : &residuals[i]));
+    model.patches.push_back(patch_of(mesh, contact, scene.settings.patches[i], basis,
+                                     residuals.empty() ? nullptr : &residuals[i]));
     warn_of_the_fit(model.patches.back(), mesh, contact, warnings);
   }
   return model;

@@ -84,27 +84,27 @@ bool is_undamped(const SceneDescription& scene) {
 
 std::string harmonics_text(const SceneDescription& scene) {
   if (!scene.response) return "";
-  const ResponseDescription& response = *scene.response;
-  if (response.method == ResponseDescription::Method::time) {
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  if (scene.response->method == ResponseDescription::Method::time) {
     return "a motion integrated in time has all harmonics";
   }
-  if (response.harmonic_tolerance > 0.0) {
+  if (harmonics.chosen()) {
     return fmt::format(
         "response.harmonics = \"auto\": those beyond the first that change the highest peaks by "
         "more than "
         "{:.2g} %",
-        100.0 * response.harmonic_tolerance);
+        100.0 * harmonics.tolerance);
   }
-  if (response.harmonic_orders.empty()) {
-    return fmt::format("response.harmonics = {}", response.harmonics);
+  if (harmonics.orders.empty()) {
+    return fmt::format("response.harmonics = {}", harmonics.highest);
   }
-  return fmt::format("response.harmonics = [{}]", fmt::join(response.harmonic_orders, ", "));
+  return fmt::format("response.harmonics = [{}]", fmt::join(harmonics.orders, ", "));
 }
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
   const ContactFacts facts = facts_of(scene);
   const auto* modal = std::get_if<ModalModel>(&scene.model);
-  const ResidualKind residual = modal != nullptr ? modal->residual : scene.modes.residual;
+  const ResidualKind residual = modal != nullptr ? modal->residual : scene.settings.basis.residual;
   const bool left_out = setting_of(scene, "normal_motion") == "off";
   const bool normal = facts.has_normal_stiffness && !left_out;
   const std::string constant_load =
@@ -127,7 +127,7 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
           : "flexibility of the omitted modes stands in series with the contact stiffness",
       modal == nullptr ? "modes.residual = \"none\", or no contact"
                        : "the given stiffness is used as it is");
-  const bool several = scene.response && scene.response->harmonics > 1;
+  const bool several = scene.settings.harmonics.highest > 1;
   add("stability", facts.has_contact,
       several ? "Hill's exponents of every point with several harmonics, where they can tell; in "
                 "scenes of few "
@@ -135,7 +135,7 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
               : "slow-flow eigenvalues of every point",
       "a linear scene is stable");
   add_second_direction(scene, model, effects);
-  add("higher_harmonics", scene.response && scene.response->harmonics > 1, harmonics_text(scene),
+  add("higher_harmonics", scene.settings.harmonics.highest > 1, harmonics_text(scene),
       "response.harmonics = 1");
   add("roughness", is_rough(scene), "the surfaces are rough", "no roughness is given");
   add("rate_dependence", is_rate_dependent(scene),

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_factors.hpp"
@@ -49,6 +52,21 @@ ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* stru
   }
   model.effects = contact_effects(model, scene);
   return model;
+}
+
+ReducedModel model_with(const Discretisation& settings, const SceneDescription& scene,
+                        const SolvedStructure* structure, std::vector<std::string>& warnings) {
+  if (settings.patches.size() != scene.contacts.size()) {
+    throw std::invalid_argument(fmt::format("settings for {} patches, the scene has {}",
+                                            settings.patches.size(), scene.contacts.size()));
+  }
+  SceneDescription other = scene;
+  other.settings = settings;
+  if (structure == nullptr || settings.basis == scene.settings.basis) {
+    return model_of(other, structure, warnings);
+  }
+  const SolvedStructure solved{structure->mesh, solve_structure(structure->mesh, other)};
+  return model_of(other, &solved, warnings);
 }
 
 ModelFamily::ModelFamily(const SceneDescription& scene, std::string key, const ReducedModel& model,

@@ -34,6 +34,15 @@ struct SolvedStructure {
 [[nodiscard]] ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* structure,
                                     std::vector<std::string>& warnings);
 
+/// A richer, or leaner, model of the same scene.
+/// @param structure  of the scene: its mesh serves, and its modes where the basis is the same. nullptr as above.
+/// @param warnings   as above.
+/// @throws std::invalid_argument  not one patch per contact.
+/// @throws SceneError, RefusedError  as model_of() and solve_structure().
+[[nodiscard]] ReducedModel model_with(const Discretisation& settings, const SceneDescription& scene,
+                                      const SolvedStructure* structure,
+                                      std::vector<std::string>& warnings);
+
 class ModelFamily {
  public:
   /// @param scene      borrowed.

@@ -21,9 +21,9 @@ struct FacePoints {
   Eigen::VectorXd weights;  // [m²]
 };
 
-FacePoints face_points(const mesh::Mesh& mesh, const ContactDescription& contact) {
+FacePoints face_points(const mesh::Mesh& mesh, const ContactDescription& contact, int n_points) {
   const mesh::SurfaceSampling sampling =
-      mesh::sample_surface(mesh.nodes(), mesh.surface(contact.surface), contact.n_points);
+      mesh::sample_surface(mesh.nodes(), mesh.surface(contact.surface), n_points);
   const Eigen::Matrix3d frame = contact_frame(mesh, contact);
   const Eigen::RowVector3d centroid =
       sampling.weights.transpose() * sampling.centres / sampling.weights.sum();
@@ -77,11 +77,12 @@ std::vector<double> preload_shares(const mesh::Mesh& mesh, const SceneDescriptio
 }
 
 /// @param share  of a load that presses.
-void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene,
-                     const ContactDescription& contact, double share) {
+void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene, std::size_t index,
+                     double share) {
+  const ContactDescription& contact = scene.contacts[index];
   const bool turned = contact.preload_moment != std::array{0.0, 0.0};
   if (!contact.preload_field && !turned) return;
-  const FacePoints face = face_points(mesh, contact);
+  const FacePoints face = face_points(mesh, contact, scene.settings.patches[index].n_points);
   if (!turned) {
     static_cast<void>(unit_preload(contact, face.p, face.r, face.weights));
     return;
@@ -93,9 +94,10 @@ void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene,
   }
 }
 
-std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& contact) {
+std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& contact,
+                             int n_points) {
   if (!contact.preload_field) return {};
-  const FacePoints face = face_points(mesh, contact);
+  const FacePoints face = face_points(mesh, contact, n_points);
   const Eigen::VectorXd preload = unit_preload(contact, face.p, face.r, face.weights);
   const double integral = face.weights.dot(preload);
   const double pressed = face.weights.dot((preload.array() > 0.0).cast<double>().matrix());
@@ -112,14 +114,15 @@ std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& c
 void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
   const std::vector<double> shares = preload_shares(mesh, scene);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    require_preload(mesh, scene, scene.contacts[i], shares[i]);
+    require_preload(mesh, scene, i, shares[i]);
   }
 }
 
 std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
   std::string text;
-  for (const ContactDescription& contact : scene.contacts) {
-    const std::string one = describe_preload(mesh, contact);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const ContactDescription& contact = scene.contacts[i];
+    const std::string one = describe_preload(mesh, contact, scene.settings.patches[i].n_points);
     if (one.empty()) continue;
     text +=
         (text.empty() ? "" : "\n") + (scene.contacts.size() > 1 ? contact.name + ": " : "") + one;

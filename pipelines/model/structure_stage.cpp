@@ -50,7 +50,7 @@ std::string attachment_text(const fem::AttachedBasis& attached) {
 void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
             StructureModes& result) {
   fem::AttachmentOptions options;
-  options.degree = scene.modes.attachment_degree;
+  options.degree = scene.settings.basis.attachment_degree;
   std::vector<fem::AttachmentFace> faces;
   for (const ContactDescription& contact : scene.contacts) {
     const double tangential =
@@ -134,15 +134,15 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   result.n_dofs = structure.n_dofs();
   result.mass = structure.mass();
   fem::ModalOptions options;
-  options.n_modes = scene.modes.count;
+  options.n_modes = scene.settings.basis.n_modes;
   result.basis = structure.solve_modes(options);
-  if (scene.modes.residual == ResidualKind::stiffness) {
+  if (scene.settings.basis.residual == ResidualKind::stiffness) {
     for (const ContactDescription& contact : scene.contacts) {
       result.residuals.push_back(structure.residual_flexibility(
           result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact)));
     }
   }
-  if (!scene.contacts.empty() && scene.modes.residual == ResidualKind::attachment) {
+  if (!scene.contacts.empty() && scene.settings.basis.residual == ResidualKind::attachment) {
     attach(structure, mesh, scene, result);
   }
   result.timings = structure.timings();

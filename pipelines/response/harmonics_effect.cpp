@@ -12,7 +12,7 @@ namespace microslip::pipelines {
 
 void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                     std::vector<EffectRecord>& effects) {
-  if (!scene.response || !(scene.response->harmonic_tolerance > 0.0)) return;
+  if (!scene.response || !scene.settings.harmonics.chosen()) return;
   std::set<int> orders;
   std::size_t most = 0;
   double left_out = 0.0;

@@ -79,17 +79,17 @@ solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const 
 
 solver::Optimum OptimumSearch::search(const Factors& factors) {
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
-                               continuation_options(*scene_.response, model_),
-                               options_for(factors));
+                               continuation_options(scene_, model_), options_for(factors));
 }
 
 std::string OptimumSearch::warning() const {
   const ResponseDescription& response = *scene_.response;
   if (response.method != ResponseDescription::Method::time) return "";
-  const std::string harmonics = response.harmonic_tolerance > 0.0 ? "chosen harmonics"
-                                : response.harmonics == 1
+  const HarmonicSettings& settings = scene_.settings.harmonics;
+  const std::string harmonics = settings.chosen() ? "chosen harmonics"
+                                : settings.highest == 1
                                     ? "1 harmonic"
-                                    : fmt::format("harmonics up to {}", response.harmonics);
+                                    : fmt::format("harmonics up to {}", settings.highest);
   return fmt::format(
       "response.optimum: searched by harmonic balance with {}, not by integration in time as the "
       "curves: "
@@ -118,11 +118,11 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int hig
   Factors more;
   more.n_harmonics = highest;
   try {
-    const solver::ResponseCurve curve = solver::trace_response(
-        scene_at(value, {}), continuation_options(*scene_.response, model_), go_on);
+    const solver::ResponseCurve curve =
+        solver::trace_response(scene_at(value, {}), continuation_options(scene_, model_), go_on);
     if (interrupt_requested()) return std::nullopt;
-    return solver::richer_peak(scene_at(value, more),
-                               continuation_options(*scene_.response, richer), curve, highest);
+    return solver::richer_peak(scene_at(value, more), continuation_options(scene_, richer), curve,
+                               highest);
   } catch (const RefusedError&) {  // a neighbour that the search need not have visited
     return std::nullopt;
   }
@@ -130,7 +130,7 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int hig
 
 std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
   constexpr double worth_a_word = 0.02;
-  const int highest = harmonics_to_check(model_, *scene_.response);
+  const int highest = harmonics_to_check(model_, scene_);
   if (highest == 0) return {};
   const auto here = richer_at(best.parameter, highest);
   if (!here || (here->change && std::abs(*here->change) < worth_a_word)) return {};

@@ -173,14 +173,16 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   }
 }
 
-solver::ContinuationOptions continuation_options(const ResponseDescription& response,
+solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                  const ReducedModel& model) {
+  const ResponseDescription& response = *scene.response;
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
   solver::ContinuationOptions options;
   options.frequency_begin = two_pi * response.frequency_begin_hz;
   options.frequency_end = two_pi * response.frequency_end_hz;
-  options.n_harmonics = response.harmonics;
-  options.orders = response.harmonic_orders;
-  options.harmonic_tolerance = response.harmonic_tolerance;
+  options.n_harmonics = harmonics.highest;
+  options.orders = harmonics.orders;
+  options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = response.search_starts;
   if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
@@ -197,13 +199,14 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
   return problem;
 }
 
-int harmonics_to_check(const ReducedModel& model, const ResponseDescription& response) {
+int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
   constexpr int more = 8;
   constexpr int most_harmonics = 99;   // of a scene
   constexpr int most_unknowns = 1500;  // seconds a step beyond
-  if (response.harmonic_tolerance > 0.0 || model.patches.empty()) return 0;
-  const int highest = std::min(response.harmonics + more, most_harmonics);
-  if (highest <= response.harmonics + more / 2) return 0;
+  if (harmonics.chosen() || model.patches.empty()) return 0;
+  const int highest = std::min(harmonics.highest + more, most_harmonics);
+  if (highest <= harmonics.highest + more / 2) return 0;
   return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
                                                                                        : 0;
 }
@@ -211,14 +214,14 @@ int harmonics_to_check(const ReducedModel& model, const ResponseDescription& res
 namespace {
 
 /// The highest peak with more harmonics than were given, where the contact is not proved linear.
-void check_harmonics(ReducedModel model, const ResponseDescription& response, double load,
+void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
-  const int highest = harmonics_to_check(model, response);
+  const int highest = harmonics_to_check(model, scene);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
   if (curve.diagnosis == "interrupted" || interrupt_requested()) return;
   model.effects.n_harmonics = highest;
-  solver::ContinuationOptions options = continuation_options(response, model);
+  solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
 }
@@ -227,7 +230,7 @@ void check_harmonics(ReducedModel model, const ResponseDescription& response, do
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {
-  solver::ContinuationOptions options = continuation_options(*scene.response, model);
+  solver::ContinuationOptions options = continuation_options(scene, model);
   CurveResult result;
   result.name = request.name;
   result.preload = preload_of(request, model);
@@ -250,7 +253,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
       point.q.rows() *= factors.asDiagonal();
       return point;
     };
-    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), *scene.response,
+    result.curve = integrate_curve(integrated_scene(model, *scene.response, load), scene,
                                    [&](const auto& point) { return observe(in_modes(point)); });
     for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
@@ -262,7 +265,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);
   add_patch_shares(model, load, result);
-  check_harmonics(model, *scene.response, load, result);
+  check_harmonics(model, scene, load, result);
   return result;
 }
 
@@ -288,7 +291,7 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
       maps.push_back(std::move(map));
     }
   };
-  const solver::ContinuationOptions options = continuation_options(*scene.response, model);
+  const solver::ContinuationOptions options = continuation_options(scene, model);
   for (const MapEntry& entry : scene.response->maps) {
     if (const auto* frequency = std::get_if<double>(&entry)) {
       const ResponseDescription& range = *scene.response;

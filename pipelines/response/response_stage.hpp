@@ -30,13 +30,12 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene);
 void require_curves(const ReducedModel& model, const SceneDescription& scene);
 
 /// @param model  whose contact says how exactly its forces can be balanced.
-[[nodiscard]] solver::ContinuationOptions continuation_options(const ResponseDescription& response,
+[[nodiscard]] solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                                const ReducedModel& model);
 
 /// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are chosen, there is
 /// no contact, or the check would be dear.
-[[nodiscard]] int harmonics_to_check(const ReducedModel& model,
-                                     const ResponseDescription& response);
+[[nodiscard]] int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene);
 
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
 /// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.

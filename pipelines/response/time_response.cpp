@@ -25,9 +25,10 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   return frequencies;
 }
 
-solver::TimeOptions options_of(const ResponseDescription& response) {
+solver::TimeOptions options_of(const SceneDescription& scene) {
+  const ResponseDescription& response = *scene.response;
   solver::TimeOptions options;
-  options.n_harmonics = std::max(response.harmonics, least_harmonics_of_time);
+  options.n_harmonics = std::max(scene.settings.harmonics.highest, least_harmonics_of_time);
   if (response.steps_per_period > 0) {
     options.method = solver::TimeMethod::rk4;
     options.steps_per_period = response.steps_per_period;
@@ -65,14 +66,14 @@ struct Irregular {
   }
 };
 
-solver::ResponseCurve sweep(const solver::Scene& scene, const ResponseDescription& response,
+solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& description,
                             const solver::PointObserver& observe) {
-  const solver::TimeOptions options = options_of(response);
+  const solver::TimeOptions options = options_of(description);
   solver::ResponseCurve curve;
   Irregular irregular;
   solver::TimeState state;
   bool started = false;
-  for (const double frequency : swept_frequencies(response)) {
+  for (const double frequency : swept_frequencies(*description.response)) {
     const solver::TimeSystem system(scene, frequency);
     if (!started) state = solver::state_at_rest(system);
     started = true;
@@ -114,11 +115,11 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 }
 
 solver::ResponseCurve integrate_curve(const solver::Scene& scene,
-                                      const ResponseDescription& response,
+                                      const SceneDescription& description,
                                       const solver::PointObserver& observe) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  solver::ResponseCurve curve = sweep(scene, response, observe);
+  solver::ResponseCurve curve = sweep(scene, description, observe);
   curve.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return curve;
 }

@@ -19,7 +19,7 @@ void require_steps(const solver::Scene& scene, const ResponseDescription& respon
 /// Periodic motions only become points; the others are counted in the message (diagnosis `not-periodic`).
 /// @param scene  with `transient`.
 [[nodiscard]] solver::ResponseCurve integrate_curve(const solver::Scene& scene,
-                                                    const ResponseDescription& response,
+                                                    const SceneDescription& description,
                                                     const solver::PointObserver& observe);
 
 }  // namespace microslip::pipelines

@@ -42,20 +42,13 @@ constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 double curve_seconds(const SceneDescription& scene, bool second_direction) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
-  for (const ContactDescription& contact : scene.contacts) n_points += contact.n_points;
+  for (const PatchSettings& patch : scene.settings.patches) n_points += patch.n_points;
   const bool simple =
-      scene.response->harmonics == 1 && !is_rate_dependent(scene) && !is_rough(scene);
+      scene.settings.harmonics.highest == 1 && !is_rate_dependent(scene) && !is_rough(scene);
   const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
-  const bool chosen = scene.response->harmonic_tolerance > 0.0;
+  const bool chosen = scene.settings.harmonics.chosen();
   const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
   return iterations_per_curve * n_points * cost;
-}
-
-std::string second_direction_of(const SceneDescription& scene) {
-  for (const auto& [effect, setting] : scene.effects) {
-    if (effect == "second_direction") return setting;
-  }
-  return "auto";
 }
 
 /// @param model  where effects are decided, else nullptr.
@@ -63,10 +56,11 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   if (!scene.response) return;
   const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
   const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
-  const std::string along_r = second_direction_of(scene);
-  const bool is_on = model != nullptr ? model->effects.second_direction : along_r == "on";
+  using enum Discretisation::Choice;
+  const Discretisation::Choice along_r = scene.settings.second_direction;
+  const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
   forecast.curves_seconds = n_curves * curve_seconds(scene, is_on);
-  if (model == nullptr && along_r == "auto") {
+  if (model == nullptr && along_r == automatic) {
     forecast.curves_seconds_along_r = n_curves * curve_seconds(scene, true);
   }
 }
@@ -77,7 +71,8 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
   const double size = forecast.degrees_of_freedom / 115'000.0;
-  forecast.modes_seconds = 4.0 * std::pow(size, 1.5) * std::max(1.0, scene.modes.count / 10.0);
+  forecast.modes_seconds =
+      4.0 * std::pow(size, 1.5) * std::max(1.0, scene.settings.basis.n_modes / 10.0);
   forecast.memory_gb = 0.2 + 0.7 * std::pow(size, 1.3);
   add_curves(scene, nullptr, forecast);
   return forecast;

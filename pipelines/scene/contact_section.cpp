@@ -138,22 +138,21 @@ void read_preload(SectionReader& s, const std::filesystem::path& folder,
   }
 }
 
-void read_fit(const SectionReader& s, ContactDescription& contact) {
+void read_fit(const SectionReader& s, PatchSettings& patch) {
   const toml::node& fit = *s.node("fit");
   if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
     if (*word != "auto" && *word != "none") {
       s.fail("fit", "expected a degree, \"auto\" or \"none\"", &fit);
     }
-    contact.fit =
-        *word == "auto" ? ContactDescription::Fit::automatic : ContactDescription::Fit::none;
+    patch.fit = *word == "auto" ? PatchSettings::Fit::automatic : PatchSettings::Fit::none;
     return;
   }
   const auto degree = fit.value<std::int64_t>();
   if (!fit.is_integer() || *degree < 0 || *degree > 30) {
     s.fail("fit", "expected a degree from 0 to 30, \"auto\" or \"none\"", &fit);
   }
-  contact.fit = ContactDescription::Fit::degree;
-  contact.fit_degree = static_cast<int>(*degree);
+  patch.fit = PatchSettings::Fit::degree;
+  patch.fit_degree = static_cast<int>(*degree);
 }
 
 }  // namespace
@@ -222,9 +221,14 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   rules.roughness = read_roughness(s);
   read_preload(s, folder, contact);
   contact.wear_coefficient = s.number("wear_coefficient");
-  contact.n_points = s.integer("points");
-  read_fit(s, contact);
   return contact;
+}
+
+PatchSettings read_patch_settings(const SectionReader& s) {
+  PatchSettings patch;
+  patch.n_points = s.integer("points");
+  read_fit(s, patch);
+  return patch;
 }
 
 contact::SurfaceRules read_surface_rules(const SectionReader& s, double& wear_coefficient) {

@@ -14,6 +14,9 @@ namespace microslip::pipelines {
 [[nodiscard]] ContactDescription read_contact(SectionReader section,
                                               const std::filesystem::path& folder);
 
+/// How it is discretised.
+[[nodiscard]] PatchSettings read_patch_settings(const SectionReader& section);
+
 /// Modal scenes: laws beside the constants that the points carry.
 /// @param wear_coefficient  [m²/N], written.
 [[nodiscard]] contact::SurfaceRules read_surface_rules(const SectionReader& section,

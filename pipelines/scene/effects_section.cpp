@@ -11,10 +11,12 @@
 namespace microslip::pipelines {
 namespace {
 
+constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
+
 /// An effect that a key of another section switches: a setting that contradicts it is refused.
 void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
                          const SceneDescription& scene) {
-  const bool has = name == "higher_harmonics" ? scene.response && scene.response->harmonics > 1
+  const bool has = name == "higher_harmonics" ? scene.settings.harmonics.highest > 1
                    : name == "roughness"      ? is_rough(scene)
                                               : is_rate_dependent(scene);
   const char* key = name == "higher_harmonics" ? "response.harmonics"
@@ -48,9 +50,8 @@ void check_off(const SectionReader& s, std::string_view name, const SceneDescrip
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
-                                                              const SceneDescription& scene,
-                                                              bool has_residual) {
-  constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
+                                                              const SceneDescription& scene) {
+  const bool has_residual = scene.settings.basis.residual != ResidualKind::none;
   // Simulated where the scene asks for them elsewhere.
   constexpr std::array<std::string_view, 3> by_key{"higher_harmonics", "roughness",
                                                    "rate_dependence"};
@@ -69,6 +70,12 @@ std::vector<std::pair<std::string, std::string>> read_effects(const SectionReade
     effects.emplace_back(key.name, setting);
   }
   return effects;
+}
+
+Discretisation::Choice read_second_direction(const SectionReader& s) {
+  using enum Discretisation::Choice;
+  const std::string setting = s.word("second_direction", settings);
+  return setting == "on" ? on : setting == "off" ? off : automatic;
 }
 
 }  // namespace microslip::pipelines

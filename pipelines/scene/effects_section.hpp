@@ -12,9 +12,11 @@
 namespace microslip::pipelines {
 
 /// name → auto | on | off, in the order of the keys.
-/// @param has_residual  the scene keeps the residual flexibility of the omitted modes.
+/// @param scene  read but for its effects.
 /// @throws SceneError  a setting that another section contradicts.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> read_effects(
-    const SectionReader& s, const SceneDescription& scene, bool has_residual);
+    const SectionReader& s, const SceneDescription& scene);
+
+[[nodiscard]] Discretisation::Choice read_second_direction(const SectionReader& s);
 
 }  // namespace microslip::pipelines

@@ -99,40 +99,44 @@ std::optional<int> read_attachment_degree(const SectionReader& s) {
 
 }  // namespace
 
-ModesDescription read_modes(const SectionReader& s) {
-  ModesDescription modes;
-  modes.count = s.integer("count");
-  modes.damping = read_damping(s);
-  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
-  const toml::node* given = s.node("damping_ratio");
-  if (given->is_array() && static_cast<int>(ratios->size()) != modes.count) {
-    s.fail(
-        "damping_ratio",
-        fmt::format("{} values for {} modes; give one, or one each", ratios->size(), modes.count),
-        given);
-  }
+BasisSettings read_basis(const SectionReader& s) {
+  BasisSettings basis;
+  basis.n_modes = s.integer("count");
   constexpr std::array<std::string_view, 3> residuals{"attachment", "stiffness", "none"};
   const std::string residual = s.word("residual", residuals);
-  modes.residual = residual == "none"        ? ResidualKind::none
+  basis.residual = residual == "none"        ? ResidualKind::none
                    : residual == "stiffness" ? ResidualKind::stiffness
                                              : ResidualKind::attachment;
-  modes.residual_given = s.given("residual");
-  modes.attachment_degree = read_attachment_degree(s);
-  if (modes.attachment_degree && modes.residual != ResidualKind::attachment) {
+  basis.attachment_degree = read_attachment_degree(s);
+  if (basis.attachment_degree && basis.residual != ResidualKind::attachment) {
     s.fail("attachment_degree",
            fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
            s.node("attachment_degree"));
   }
+  return basis;
+}
+
+ModesDescription read_modes(const SectionReader& s, int n_modes) {
+  ModesDescription modes;
+  modes.damping = read_damping(s);
+  const auto* ratios = std::get_if<std::vector<double>>(&modes.damping);
+  const toml::node* given = s.node("damping_ratio");
+  if (given->is_array() && static_cast<int>(ratios->size()) != n_modes) {
+    s.fail("damping_ratio",
+           fmt::format("{} values for {} modes; give one, or one each", ratios->size(), n_modes),
+           given);
+  }
   return modes;
 }
 
-void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDescription& contact) {
+std::string settle_residual(SectionReader& s, BasisSettings& basis,
+                            const ContactDescription& contact) {
   const char* rigid = !contact.normal_stiffness       ? "normal_stiffness"
                       : !contact.tangential_stiffness ? "tangential_stiffness"
                                                       : nullptr;
-  if (rigid == nullptr || modes.residual != ResidualKind::attachment) return;
-  if (modes.residual_given || modes.attachment_degree) {
-    const char* key = modes.residual_given ? "residual" : "attachment_degree";
+  if (rigid == nullptr || basis.residual != ResidualKind::attachment) return {};
+  if (s.given("residual") || basis.attachment_degree) {
+    const char* key = s.given("residual") ? "residual" : "attachment_degree";
     s.fail(key,
            fmt::format("attachment shapes leave the contact its local stiffness alone, and "
                        "contact.{} = \"rigid\" "
@@ -140,13 +144,13 @@ void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDes
                        rigid),
            s.node(key));
   }
-  modes.residual = ResidualKind::stiffness;
-  modes.residual_note = fmt::format(
+  basis.residual = ResidualKind::stiffness;
+  s.complete("residual", "stiffness");
+  return fmt::format(
       "contact.{} = \"rigid\": modes.residual = \"stiffness\" is used, the omitted modes are all "
       "the stiffness "
       "there is",
       rigid);
-  s.complete("residual", "stiffness");
 }
 
 std::vector<ForceDescription> read_forces(SectionReader& s) {

@@ -18,11 +18,13 @@ namespace microslip::pipelines {
 [[nodiscard]] MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder);
 [[nodiscard]] fem::Material read_material(const SectionReader& s);
 [[nodiscard]] std::vector<std::string> read_names(const SectionReader& s, std::string_view key);
-[[nodiscard]] ModesDescription read_modes(const SectionReader& s);
+[[nodiscard]] BasisSettings read_basis(const SectionReader& s);
+[[nodiscard]] ModesDescription read_modes(const SectionReader& s, int n_modes);
 /// Attachment shapes need a local stiffness to stand behind: a rigid contact takes the residual stiffness instead
-/// where the scene does not say. @param s  [modes].
+/// where the scene does not say. @param s  [modes].   @return  that it did so, or nothing.
 /// @throws SceneError  it says attachment.
-void settle_residual(SectionReader& s, ModesDescription& modes, const ContactDescription& contact);
+[[nodiscard]] std::string settle_residual(SectionReader& s, BasisSettings& basis,
+                                          const ContactDescription& contact);
 [[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s);
 
 }  // namespace microslip::pipelines

@@ -79,25 +79,28 @@ std::vector<int> read_orders(const SectionReader& s, const toml::array& list) {
   return orders;
 }
 
-void read_harmonics(const SectionReader& s, ResponseDescription& response) {
+HarmonicSettings harmonics_in(const SectionReader& s) {
+  HarmonicSettings harmonics;
   const toml::node& node = *s.node("harmonics");
   const double tolerance = s.number("harmonic_tolerance");
   if (const toml::array* list = node.as_array()) {
-    response.harmonic_orders = read_orders(s, *list);
-    response.harmonics = *std::ranges::max_element(response.harmonic_orders);
+    harmonics.orders = read_orders(s, *list);
+    harmonics.highest = *std::ranges::max_element(harmonics.orders);
   } else if (node.value<std::string>() == "auto") {
-    response.harmonics = most_automatic_harmonics;
-    response.harmonic_tolerance = tolerance;
+    harmonics.highest = most_automatic_harmonics;
+    harmonics.tolerance = tolerance;
   } else if (node.is_integer()) {
-    response.harmonics = s.integer("harmonics");
+    harmonics.highest = s.integer("harmonics");
   } else {
     s.fail("harmonics", "expected a whole number, a list of them, or \"auto\"", &node);
   }
+  return harmonics;
 }
 
 /// What time integration has no equations for would be dropped in silence.
-void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response) {
-  if (response.harmonic_tolerance > 0.0) {
+void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response,
+                               const HarmonicSettings& harmonics) {
+  if (harmonics.chosen()) {
     s.fail(
         "harmonics",
         "\"auto\" chooses the equations of harmonic balance; a motion integrated in time has all "
@@ -125,8 +128,6 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
     s.fail("steps_per_period", "is for method = \"time\"", s.node("steps_per_period"));
   }
   response.search_starts = s.integer("search_starts");
-  read_harmonics(s, response);
-  if (response.method == ResponseDescription::Method::time) refuse_choices_of_balance(s, response);
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
@@ -145,6 +146,14 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
 }
 
 }  // namespace
+
+HarmonicSettings read_harmonics(const SectionReader& s, const ResponseDescription& response) {
+  HarmonicSettings harmonics = harmonics_in(s);
+  if (response.method == ResponseDescription::Method::time) {
+    refuse_choices_of_balance(s, response, harmonics);
+  }
+  return harmonics;
+}
 
 /// Range, method, preloads and maps: what scenes with a preload in newtons share.
 ResponseDescription read_loads(const SectionReader& s, std::string_view kind) {

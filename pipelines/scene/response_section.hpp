@@ -9,6 +9,10 @@
 
 namespace microslip::pipelines {
 
+/// @param response  of the same section.
+/// @throws SceneError  no such harmonics, or none to choose.
+[[nodiscard]] HarmonicSettings read_harmonics(const SectionReader& s,
+                                              const ResponseDescription& response);
 /// Of kinds with a mesh: preloads in newtons, and an output by name and direction.
 /// @throws SceneError  a value out of its range, a search without bounds.
 [[nodiscard]] ResponseDescription read_response(const SectionReader& s, std::string_view kind);

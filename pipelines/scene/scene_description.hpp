@@ -16,6 +16,7 @@
 #include "contact/patch.hpp"
 #include "fem/material.hpp"
 #include "mesh/blade_geometry.hpp"
+#include "pipelines/scene/discretisation.hpp"
 #include "pipelines/scene/field_description.hpp"
 
 namespace microslip::pipelines {
@@ -29,8 +30,6 @@ struct MeshFileModel {
   std::filesystem::path file;  ///< absolute
   double length_unit = 1.0;    ///< metres per unit of the file
 };
-
-enum class ResidualKind { none, stiffness, attachment };
 
 using contact::LoadMeasure;
 using contact::TiltedArea;
@@ -61,13 +60,10 @@ struct RayleighDamping {
 };
 
 struct ModesDescription {
-  int count = 10;
   std::variant<std::vector<double>, RayleighDamping>
       damping;  ///< ratios: one for all, or one per mode
-  ResidualKind residual = ResidualKind::attachment;
-  std::optional<int> attachment_degree;  ///< of the tractions; without value: chosen
-  bool residual_given = false;  ///< the scene says which; else a rigid contact takes `stiffness`
-  std::string residual_note;    ///< that it did so, for the log; else empty
+  /// That a rigid contact made the residual `stiffness`, which the scene did not say; else empty.
+  std::string residual_note;
 };
 
 /// One patch of a meshed scene.
@@ -82,10 +78,7 @@ struct ContactDescription {
   std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
   std::optional<double> normal_stiffness;          ///< [N/m³]; without value: "rigid"
   std::optional<double> tangential_stiffness;      ///< [N/m³]; without value: "rigid"
-  enum class Fit { automatic, degree, none } fit = Fit::automatic;
-  int fit_degree = 0;
-  double wear_coefficient = 0.0;  ///< Archard [m²/N]
-  int n_points = 300;             ///< at least so many contact points
+  double wear_coefficient = 0.0;                   ///< Archard [m²/N]
   std::optional<double>
       preload_share;            ///< of the load of a curve, relative to the others; none: by area
   contact::SurfaceRules rules;  ///< friction law and roughness; their local stiffness is that above
@@ -119,9 +112,6 @@ using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 /// A motion integrated in time has all harmonics; at least so many are kept of it.
 inline constexpr int least_harmonics_of_time = 15;
 
-/// Highest harmonic that "auto" may add.
-inline constexpr int most_automatic_harmonics = 31;
-
 /// The one number of a scene whose best value is searched.
 struct OptimumRequest {
   std::string key;  ///< "preload", or the key of another number: "contact.friction_coefficient"
@@ -135,10 +125,6 @@ struct ResponseDescription {
   OutputDescription output;  ///< kinds with a mesh
   double frequency_begin_hz = 0.0;
   double frequency_end_hz = 0.0;  ///< equal to begin: the solution at one frequency
-  int harmonics = 1;  ///< highest; with harmonic_tolerance the highest that may be added
-  std::vector<int> harmonic_orders;  ///< the only ones; empty: 1 … harmonics
-  double harmonic_tolerance =
-      0.0;  ///< above 0: chosen point by point, see solver::ContinuationOptions
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
   int search_starts = 0;     ///< of a search for detached branches; 0: none
   int n_time_points = 40;    ///< frequencies of method = "time"
@@ -169,6 +155,7 @@ struct SceneDescription {
   std::string without_contact;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
+  Discretisation settings;
 };
 
 /// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.

@@ -160,10 +160,14 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   scene.clamped = read_names(supports, "clamped");
   scene.clamped_place = supports.place("clamped");
   SectionReader modes = reading.section("modes", "modes");
-  scene.modes = read_modes(modes);
+  BasisSettings& basis = scene.settings.basis;
+  basis = read_basis(modes);
+  scene.modes = read_modes(modes, basis.n_modes);
   for (const SectionReader& section : reading.contacts()) {
     scene.contacts.push_back(read_contact(section, reading.folder));
-    settle_residual(modes, scene.modes, scene.contacts.back());
+    scene.settings.patches.push_back(read_patch_settings(section));
+    const std::string note = settle_residual(modes, basis, scene.contacts.back());
+    if (!note.empty()) scene.modes.residual_note = note;
   }
   require_distinct(scene.contacts);
   SectionReader excitation = reading.section("excitation", "excitation");
@@ -171,6 +175,7 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
     scene.response = read_response(response, kind);
+    scene.settings.harmonics = read_harmonics(response, *scene.response);
     if (scene.contacts.empty()) scene.without_contact = contact_keys_without_contact(response);
   }
 }
@@ -178,12 +183,14 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
 void read_modal_scene(Reading& reading, SceneDescription& scene) {
   static_cast<void>(reading.section("model", "model.modal"));
   ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
-  scene.modes.residual = model.residual;
+  scene.settings.basis.residual = model.residual;
   scene.model = std::move(model);
   scene.rules =
       read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
-    scene.response = read_modal_response(reading.section("response", "response.modal"), "modal");
+    const SectionReader response = reading.section("response", "response.modal");
+    scene.response = read_modal_response(response, "modal");
+    scene.settings.harmonics = read_harmonics(response, *scene.response);
   }
 }
 
@@ -200,6 +207,7 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
     SectionReader response = section("response");
     scene.response =
         kind == "bar" ? read_modal_response(response, kind) : read_loads(response, kind);
+    scene.settings.harmonics = read_harmonics(response, *scene.response);
     if (kind == "chain") coordinate = response.text("output");
     if (kind == "block") output = read_block_output(response);
   }
@@ -210,7 +218,7 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   if (model.points.empty() && reading.given.contains("response")) {
     scene.without_contact = contact_keys_without_contact(section("response"));
   }
-  scene.modes.residual = model.residual;
+  scene.settings.basis.residual = model.residual;
   scene.model = model;
 }
 
@@ -236,8 +244,9 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  const bool has_residual = scene.modes.residual != ResidualKind::none;
-  scene.effects = read_effects(reading.section("effects", "effects"), scene, has_residual);
+  const SectionReader effects = reading.section("effects", "effects");
+  scene.effects = read_effects(effects, scene);
+  scene.settings.second_direction = read_second_direction(effects);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

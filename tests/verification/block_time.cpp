@@ -51,7 +51,7 @@ struct Pair {
 Pair solve(const Block& block, double load, double frequency_hz,
            const solver::TimeOptions& time_options = {}) {
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
-  solver::ContinuationOptions options = continuation_options(*block.scene.response, block.model);
+  solver::ContinuationOptions options = continuation_options(block.scene, block.model);
   solver::Scene scene = solver_scene(block.model, load);
   scene.transient = contact_of(block.model, load).transient_force();
   const auto curve = solver::solve_at_frequency(scene, omega, options);

@@ -211,5 +211,31 @@ TEST(AttachedModel, ForcesAndOutputsOnASurfaceFollowItsArea) {
   EXPECT_EQ((point.array() != 0.0).count(), 2);
 }
 
+// Modes solved anew on the same mesh, cells and harmonics: as a scene file that says so.
+TEST(AttachedModel, WithOtherSettingsIsThatOfASceneThatHasThem) {
+  const mesh::Mesh mesh = cantilever();
+  const SceneDescription lean = scene_with({"modes.count=4"});
+  const SolvedStructure structure{mesh, solve_structure(mesh, lean)};
+  Discretisation settings = lean.settings;
+  settings.basis.n_modes = 6;
+  settings.basis.attachment_degree = 1;
+  settings.patches.front().n_points = 9;
+  settings.harmonics = {.highest = 3, .orders = {1, 3}};
+  std::vector<std::string> warnings;
+  const ReducedModel richer =
+      microslip::pipelines::model_with(settings, lean, &structure, warnings);
+  const ReducedModel said =
+      model_with(mesh, scene_with({"modes.count=6", "modes.attachment_degree=1", "contact.points=9",
+                                   "response.harmonics=[1, 3]"}));
+  EXPECT_EQ(richer.effects.n_harmonics, 3);
+  ASSERT_EQ(richer.frequency.size(), said.frequency.size());
+  EXPECT_LT((richer.frequency - said.frequency).norm(), 1e-9 * said.frequency.norm());
+  EXPECT_EQ(richer.patches.front().cells.points, said.patches.front().cells.points);
+  EXPECT_GT(richer.patches.front().cells.size(), lean.settings.patches.front().n_points);
+  EXPECT_THROW(static_cast<void>(
+                   microslip::pipelines::model_with(Discretisation{}, lean, &structure, warnings)),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace microslip::pipelines

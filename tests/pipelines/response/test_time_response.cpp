@@ -48,7 +48,7 @@ solver::ResponseCurve curve_of(const Overrides& overrides) {
   model.effects = contact_effects(model, scene);
   solver::Scene problem = solver_scene(model, 1.0);
   problem.transient = contact_of(model, 1.0).transient_force();
-  return integrate_curve(problem, *scene.response, {});
+  return integrate_curve(problem, scene, {});
 }
 
 TEST(TimeResponse, AMotionOfTwicePeriodIsTold) {

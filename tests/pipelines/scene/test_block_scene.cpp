@@ -80,7 +80,7 @@ void expect_complaint(const Overrides& overrides, const std::string& part) {
 
 solver::ResponsePoint point_of(const ReducedModel& model, const SceneDescription& scene,
                                double load) {
-  const auto options = continuation_options(*scene.response, model);
+  const auto options = continuation_options(scene, model);
   const auto curve =
       solver::solve_at_frequency(solver_scene(model, load), options.frequency_begin, options);
   EXPECT_TRUE(curve.complete) << curve.message;

@@ -273,7 +273,7 @@ TEST(Overrides, AMissingSectionIsMade) {
 }
 
 TEST(Overrides, TheLastOneHolds) {
-  EXPECT_EQ(parse(blade_text, {"modes.count=4", "modes.count=5"}).modes.count, 5);
+  EXPECT_EQ(parse(blade_text, {"modes.count=4", "modes.count=5"}).settings.basis.n_modes, 5);
 }
 
 TEST(Overrides, MessagesNameTheOverride) {
@@ -397,16 +397,18 @@ TEST(BadScene, WordsAmongNumbersAreToldTheWordsThereAre) {
 TEST(Scene, AttachmentShapesAreTheDefaultWhereTheContactHasAStiffnessOfItsOwn) {
   const Overrides local{"contact.tangential_stiffness=1e12"};
   const SceneDescription usual = parse(blade_text, local);
-  EXPECT_EQ(usual.modes.residual, ResidualKind::attachment);
-  EXPECT_FALSE(usual.modes.attachment_degree.has_value());
+  EXPECT_EQ(usual.settings.basis.residual, ResidualKind::attachment);
+  EXPECT_FALSE(usual.settings.basis.attachment_degree.has_value());
   EXPECT_EQ(usual.modes.residual_note, "");
   const SceneDescription rigid = parse(blade_text, {});
-  EXPECT_EQ(rigid.modes.residual, ResidualKind::stiffness);
+  EXPECT_EQ(rigid.settings.basis.residual, ResidualKind::stiffness);
   EXPECT_NE(rigid.modes.residual_note.find("contact.tangential_stiffness"), std::string::npos);
   const SceneDescription again = parse_scene(rigid.complete_toml, "again.toml", ".", {});
-  EXPECT_EQ(again.modes.residual, ResidualKind::stiffness);
+  EXPECT_EQ(again.settings.basis.residual, ResidualKind::stiffness);
   EXPECT_EQ(again.modes.residual_note, "") << "the completed scene says it";
-  EXPECT_EQ(parse(blade_text, {local[0], "modes.attachment_degree=2"}).modes.attachment_degree, 2);
+  EXPECT_EQ(
+      parse(blade_text, {local[0], "modes.attachment_degree=2"}).settings.basis.attachment_degree,
+      2);
   expect_complaint(complaint(blade_text, {"modes.residual=attachment"}),
                    {"modes.residual", "contact.tangential_stiffness"});
   expect_complaint(
@@ -493,24 +495,25 @@ TEST(SceneFile, LawsOfContactAreRead) {
       parse(modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
                          "response.harmonics=5", "response.method=time", "response.points=7"});
   EXPECT_NEAR(modal.rules.friction->at(1.0).value, 0.1, 1e-15);
-  EXPECT_EQ(modal.response->harmonics, 5);
+  EXPECT_EQ(modal.settings.harmonics.highest, 5);
   EXPECT_EQ(modal.response->method, ResponseDescription::Method::time);
   EXPECT_EQ(modal.response->n_time_points, 7);
 }
 
 TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
-  const auto list = *parse(modal_text, {"response.harmonics=[5, 0, 1, 3]"}).response;
-  EXPECT_EQ(list.harmonic_orders, (std::vector<int>{5, 1, 3}));
-  EXPECT_EQ(list.harmonics, 5);
-  EXPECT_EQ(list.harmonic_tolerance, 0.0);
-  const auto chosen = *parse(modal_text, {"response.harmonics=auto"}).response;
-  EXPECT_EQ(chosen.harmonic_tolerance, 1e-2);
-  EXPECT_EQ(chosen.harmonics, most_automatic_harmonics);
+  const HarmonicSettings list =
+      parse(modal_text, {"response.harmonics=[5, 0, 1, 3]"}).settings.harmonics;
+  EXPECT_EQ(list.orders, (std::vector<int>{5, 1, 3}));
+  EXPECT_EQ(list.highest, 5);
+  EXPECT_EQ(list.tolerance, 0.0);
+  const HarmonicSettings chosen = parse(modal_text, {"response.harmonics=auto"}).settings.harmonics;
+  EXPECT_EQ(chosen.tolerance, 1e-2);
+  EXPECT_EQ(chosen.highest, most_automatic_harmonics);
   const auto finer =
       parse(modal_text, {"response.harmonics=auto", "response.harmonic_tolerance=0.01 %"});
-  EXPECT_DOUBLE_EQ(finer.response->harmonic_tolerance, 1e-4);
+  EXPECT_DOUBLE_EQ(finer.settings.harmonics.tolerance, 1e-4);
   EXPECT_EQ(complaint(finer.complete_toml), "");
-  EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).response->harmonic_tolerance, 0.0);
+  EXPECT_EQ(parse(modal_text, {"response.harmonics=3"}).settings.harmonics.tolerance, 0.0);
 }
 
 TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
@@ -522,14 +525,14 @@ TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
 }
 
 TEST(SceneFile, HarmonicsAreChosenWhereTheSceneDoesNotSay) {
-  const auto silent = *parse(modal_text).response;
-  EXPECT_EQ(silent.harmonic_tolerance, 1e-2);
-  EXPECT_EQ(silent.harmonics, most_automatic_harmonics);
+  const HarmonicSettings silent = parse(modal_text).settings.harmonics;
+  EXPECT_EQ(silent.tolerance, 1e-2);
+  EXPECT_EQ(silent.highest, most_automatic_harmonics);
   // What knows one harmonic alone, or has all of them, asks for none to be chosen.
   for (const char* setting : {"response.method=time", "effects.higher_harmonics=off"}) {
     const SceneDescription scene = parse(modal_text, {setting});
-    EXPECT_EQ(scene.response->harmonics, 1) << setting;
-    EXPECT_EQ(scene.response->harmonic_tolerance, 0.0) << setting;
+    EXPECT_EQ(scene.settings.harmonics.highest, 1) << setting;
+    EXPECT_EQ(scene.settings.harmonics.tolerance, 0.0) << setting;
     EXPECT_NE(scene.complete_toml.find("harmonics = 1"), std::string::npos) << setting;
   }
 }

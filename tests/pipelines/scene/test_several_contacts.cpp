@@ -45,8 +45,8 @@ TEST(SeveralContacts, EachHasItsOwnKeys) {
   EXPECT_EQ(scene.contacts[0].name, "a");
   EXPECT_EQ(scene.contacts[1].name, "upper");
   EXPECT_EQ(scene.contacts[1].surface, "b");
-  EXPECT_EQ(scene.contacts[0].n_points, 300);
-  EXPECT_EQ(scene.contacts[1].n_points, 50);
+  EXPECT_EQ(scene.settings.patches[0].n_points, 300);
+  EXPECT_EQ(scene.settings.patches[1].n_points, 50);
   EXPECT_EQ(scene.contacts[1].key, "contact[1]");
 }
 
@@ -68,7 +68,7 @@ TEST(SeveralContacts, TheCompletedSceneIsTheSameScene) {
   const SceneDescription again = parse(scene.complete_toml);
   EXPECT_EQ(again.complete_toml, scene.complete_toml);
   EXPECT_EQ(again.contacts[1].name, "upper");
-  EXPECT_EQ(again.contacts[1].n_points, 50);
+  EXPECT_EQ(again.settings.patches[1].n_points, 50);
 }
 
 TEST(SeveralContacts, MistakesAreToldWithTheContactTheyAreIn) {
