@@ -15,7 +15,7 @@ import subprocess
 import sys
 import unittest
 
-from program_run import run_scene
+from program_run import run_scene, whole_campaigns
 
 PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 SCENE = os.path.join(SOURCE, "share", "scenes", "chain_3dof_normal.toml")
@@ -40,7 +40,7 @@ def compare(balance, *times):
 class Methods(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        sweep = ("response.method=time", "response.points=21")
+        sweep = ("response.method=time", f"response.points={21 if whole_campaigns() else 11}")
         cls.up = run("up", *sweep, f"response.frequency={UP}")
         cls.down = run("down", *sweep, f"response.frequency={DOWN}")
 
