@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs what is missing, builds everything and runs all tests (the benchmarks apart).
+# Installs what is missing, builds everything and runs all tests: the benchmarks apart, and a tenth of each
+# campaign (share/scripts/campaigns.sh runs them whole).
 #
 #   share/scripts/test.sh [ctest arguments …]
 set -eu

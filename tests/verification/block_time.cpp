@@ -24,6 +24,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "solver/time_integration.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -43,13 +44,21 @@ Block block(std::vector<std::string> settings) {
   return result;
 }
 
+/// Far below the named tolerance.
+solver::TimeOptions close_enough() {
+  solver::TimeOptions options;
+  options.step_tolerance = 1e-8;
+  options.periodicity_tolerance = 1e-6;
+  return options;
+}
+
 struct Pair {
   solver::ResponsePoint balance;
   solver::TimePoint time;
 };
 
 Pair solve(const Block& block, double load, double frequency_hz,
-           const solver::TimeOptions& time_options = {}) {
+           const solver::TimeOptions& time_options = close_enough()) {
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
   solver::ContinuationOptions options = continuation_options(block.scene, block.model);
   solver::Scene scene = solver_scene(block.model, load);
@@ -96,7 +105,8 @@ TEST(BlockInTime, AgreesWithHarmonicBalanceOnRoughCells) {
   solver::Scene scene = solver_scene(rough.model, 20.0);
   scene.transient = contact_of(rough.model, 20.0).transient_force();
   Pair same = pairs[0];
-  same.time = solver::steady_state_from(scene, same.balance.frequency, same.balance.q, {});
+  same.time =
+      solver::steady_state_from(scene, same.balance.frequency, same.balance.q, close_enough());
   print("its history", 20.0, 22.0, same);
   EXPECT_LT(difference(same), 0.5 * difference(pairs[0]));
 }
@@ -110,8 +120,8 @@ TEST(BlockInTime, AgreesWhereCellsPart) {
 
 TEST(BlockInTime, AgreesOnSmoothCells) {
   const Block smooth = block({"contact.roughness={ law = \"cubic\", height = 0 }"});
-  for (const double load : {6.0, 20.0}) {
-    const Pair pair = solve(smooth, load, load < 10.0 ? 22.0 : 27.7);
+  for (const double load : tests::campaign_values({6.0, 20.0}, {6.0})) {
+    const Pair pair = solve(smooth, load, load < 10.0 ? 22.0 : 27.7, {});
     print("smooth", load, load < 10.0 ? 22.0 : 27.7, pair);
     EXPECT_LT(difference(pair), named_tolerance);
     EXPECT_LT(pair.time.response.energy_imbalance, 1e-7);  // periodicity 1e-7

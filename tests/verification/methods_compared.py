@@ -15,6 +15,8 @@ import subprocess
 import sys
 import unittest
 
+from program_run import run_scene, whole_campaigns
+
 PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 SCENE = os.path.join(SOURCE, "share", "scenes", "chain_3dof_normal.toml")
 UP, DOWN = '["18 Hz", "28 Hz"]', '["28 Hz", "18 Hz"]'
@@ -22,14 +24,7 @@ LIMIT = 0.2  # % of the peak
 
 
 def run(name, *settings):
-    folder = os.path.join(FOLDER, name)
-    command = [PROGRAM, "run", SCENE, "-q", "-o", folder, "--set", "response.preload=[30]"]
-    for setting in settings:
-        command += ["--set", setting]
-    finished = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    if finished.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)} ended with {finished.returncode}: {finished.stderr}")
-    return folder
+    return run_scene(PROGRAM, SCENE, os.path.join(FOLDER, name), "response.preload=[30]", *settings)
 
 
 def compare(balance, *times):
@@ -45,7 +40,7 @@ def compare(balance, *times):
 class Methods(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        sweep = ("response.method=time", "response.points=21")
+        sweep = ("response.method=time", f"response.points={21 if whole_campaigns() else 11}")
         cls.up = run("up", *sweep, f"response.frequency={UP}")
         cls.down = run("down", *sweep, f"response.frequency={DOWN}")
 

@@ -9,14 +9,15 @@ usage: quadrature_converges.py MICROSLIP SOURCE_FOLDER RUN_FOLDER
 """
 import json
 import os
-import subprocess
 import sys
 import unittest
+
+from program_run import run_scene, whole_campaigns
 
 PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 SCENE = os.path.join(FOLDER, "blade_to_ground.toml")
 PRELOADS = (100, 300)                 # N: with folds, and the best preload's neighbourhood
-CELLS = (300, 1200, 4800, 19200)
+CELLS = (300, 1200, 4800, 19200) if whole_campaigns() else (300, 1200, 4800)
 
 
 def write_scene():
@@ -30,14 +31,9 @@ def write_scene():
 
 def run(name, *settings):
     folder = os.path.join(FOLDER, name)
-    command = [PROGRAM, "run", SCENE, "-q", "-j", "1", "-o", folder]
     fixed = ("model.element_size=0.008", "response.harmonics=1", "response.maps=[]",
              "effects.second_direction=off", f"response.preload={list(PRELOADS)}")
-    for setting in (*fixed, *settings):
-        command += ["--set", setting]
-    finished = subprocess.run(command, capture_output=True, text=True, timeout=600)
-    if finished.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)} ended with {finished.returncode}: {finished.stderr}")
+    run_scene(PROGRAM, SCENE, folder, *fixed, *settings, options=("-j", "1"))
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
         return json.load(file)["curves"]
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -75,18 +76,33 @@ void judge(const solver::Scene& scene, const std::vector<ResponsePoint>& points,
   }
 }
 
+struct Branch {
+  solver::Scene scene;
+  solver::ContinuationOptions options;
+  solver::ResponseCurve curve;
+};
+
+/// The curve of a preload, traced once for all tests.
+const Branch& branch(double preload) {
+  static std::map<double, Branch> known;
+  const auto [place, is_new] = known.try_emplace(preload);
+  Branch& b = place->second;
+  if (!is_new) return b;
+  b.scene = tests::three_dof_scene(preload);
+  tests::add_transient(b.scene);
+  tests::use_event_cycles(b.scene);
+  b.options.frequency_begin = two_pi * 18.0;
+  b.options.frequency_end = two_pi * 28.0;
+  b.options.n_harmonics = n_harmonics;
+  b.curve = solver::trace_response(b.scene, b.options);
+  return b;
+}
+
 TEST(StabilityAgainstTime, StableSolutionsAreFoundAndTheMiddleOneIsLeft) {
   int n_stable = 0;
   int n_open = 0;
   for (const double preload : {25.0, 30.0, 50.0}) {
-    solver::Scene scene = tests::three_dof_scene(preload);
-    tests::add_transient(scene);
-    tests::use_event_cycles(scene);
-    solver::ContinuationOptions options;
-    options.frequency_begin = two_pi * 18.0;
-    options.frequency_end = two_pi * 28.0;
-    options.n_harmonics = n_harmonics;
-    const auto curve = solver::trace_response(scene, options);
+    const auto& [scene, options, curve] = branch(preload);
     ASSERT_TRUE(curve.complete);
     std::vector<double> folds;
     for (const auto& point : curve.points) {
@@ -114,14 +130,7 @@ TEST(StabilityAgainstTime, FewPointsOfTheCurvesAreLeftOpen) {
   int n_points = 0;
   int n_open = 0;
   for (const double preload : {0.0, 10.0, 25.0, 30.0, 50.0, 100.0, 200.0}) {
-    solver::Scene scene = tests::three_dof_scene(preload);
-    tests::add_transient(scene);
-    tests::use_event_cycles(scene);
-    solver::ContinuationOptions options;
-    options.frequency_begin = two_pi * 18.0;
-    options.frequency_end = two_pi * 28.0;
-    options.n_harmonics = n_harmonics;
-    for (const auto& point : solver::trace_response(scene, options).points) {
+    for (const auto& point : branch(preload).curve.points) {
       if (point.mark == solver::PointMark::fold) continue;  // neutral
       ++n_points;
       if (point.stability == Stability::not_assessed) ++n_open;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/time_integration.hpp"
+#include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -72,10 +73,11 @@ solver::TimeOptions quick() {
 
 TEST(Chain, ThirtyNewtonsGiveTheLowestPeakFreeAndStuckTheHighest) {
   std::map<double, double> peak;
-  for (const double preload : {0.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 600.0}) {
+  for (const double preload : tests::campaign_values(
+           {0.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 600.0}, {0.0, 20.0, 30.0, 50.0, 600.0})) {
     solver::Scene scene = tests::chain_scene(preload);
     tests::add_transient(scene);
-    const auto curve = solver::sweep(scene, frequencies(18.0, 28.0, 0.25), quick());
+    const auto curve = solver::sweep(scene, frequencies(19.0, 26.0, 0.25), quick());
     ASSERT_TRUE(curve.complete) << curve.message;
     for (const auto& point : curve.points) {
       EXPECT_TRUE(point.periodic) << preload;
@@ -126,7 +128,7 @@ TEST(ThreeDegreesOfFreedom, JumpBetweenTwoSteadyStatesAt25And30And50Newtons) {
 }
 
 TEST(ThreeDegreesOfFreedom, DoNotJumpAt0And100And200Newtons) {
-  for (const double preload : {0.0, 100.0, 200.0}) {
+  for (const double preload : tests::campaign_values({0.0, 100.0, 200.0}, {100.0})) {
     EXPECT_TRUE(coexisting(preload).empty()) << preload;
   }
 }

@@ -17,6 +17,8 @@ import shutil
 import subprocess
 import sys
 
+from program_run import without_plots
+
 CELLS = (12, 2, 2)
 SIZE = (0.1, 0.02, 0.02)
 TOLERANCE = 1e-9
@@ -119,7 +121,7 @@ class Runs:
         output = os.path.join(self.folder, name)
         options = [word for override in overrides for word in ("--set", override)]
         done = subprocess.run([self.program, command, scene, "-o", output, "-q", "-j1", *options],
-                              capture_output=True, text=True)
+                              capture_output=True, text=True, env=without_plots())
         assert done.returncode == 0, (name, done.stderr)
         return output
 

@@ -15,6 +15,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "support/cycle_cases.hpp"
 #include "support/cycle_reference.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::contact {
 
@@ -65,7 +66,7 @@ class CycleAgainstReference : public testing::TestWithParam<Stratum> {};
 
 TEST_P(CycleAgainstReference, ForceCoefficientsAndEnergyAgree) {
   Random random(20260101);
-  const int n_cases = GetParam().name == "generic" ? 20000 : 4000;
+  const int n_cases = tests::campaign_size(GetParam().name == "generic" ? 20000 : 4000);
   for (int i = 0; i < n_cases; ++i) {
     const CycleCase c = GetParam().draw(random);
     const FrictionCycle ours = friction_cycle(c.point, c.motion);

@@ -12,6 +12,7 @@
 #include "contact/line/event_law.hpp"
 #include "support/motion_cases.hpp"
 #include "support/motion_reference.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::test {
 namespace {
@@ -54,7 +55,7 @@ class EventLawAgainstReference : public testing::TestWithParam<MotionStratum> {}
 
 TEST_P(EventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
   Random random(20260201);
-  const int n_cases = number_of_cases(GetParam().name);
+  const int n_cases = tests::campaign_size(number_of_cases(GetParam().name));
   for (int i = 0; i < n_cases; ++i) {
     const MotionCase c = GetParam().draw(random);
     const int n_harmonics = c.motion.n_harmonics() + i % 3;

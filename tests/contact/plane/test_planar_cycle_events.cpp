@@ -10,6 +10,7 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "support/planar_cases.hpp"
 #include "support/planar_events.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -49,7 +50,7 @@ double error_of(const EventCase& c, const EventReference& reference, double tole
 
 TEST(PlanarLawEvents, ForcesAreThoseOfLocatedEvents) {
   std::mt19937_64 random(81);
-  constexpr int n_cases = 60;
+  const int n_cases = tests::campaign_size(60, 12);
   int sure = 0;
   int slips = 0;
   for (int i = 0; i < n_cases; ++i) {
@@ -69,7 +70,8 @@ TEST(PlanarLawEvents, ForcesAreThoseOfLocatedEvents) {
 // What a tolerance promises, slow points included.
 TEST(PlanarLawEvents, TolerancesAreMet) {
   std::mt19937_64 random(82);
-  for (int i = 0; i < 16; ++i) {
+  const int n_cases = tests::campaign_size(16, 4);
+  for (int i = 0; i < n_cases; ++i) {
     const EventCase c = draw(random, i);
     const EventReference reference = test::planar_events(c, 20);
     if (!reference.settled) continue;

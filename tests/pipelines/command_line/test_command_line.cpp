@@ -43,6 +43,8 @@ const std::string table_header =
     "tangential_stiffness,normal_stiffness,friction_coefficient,preload,u_sin,u_cos,v_mean,v_sin,"
     "v_cos\n";
 
+constexpr const char* with_plots = "PYTHONPATH=";
+
 constexpr const char* scene_text = R"([model]
 kind = "modal"
 [modal]
@@ -55,9 +57,11 @@ points = [ { weight = 1, tangential_stiffness = 1e4, normal_stiffness = 1e4, fri
 frequency = [10, 30]
 )";
 
-/// A folder to work in, and the program run inside it.
+/// A folder to work in, and the program run inside it, without plots.
 class Program : public testing::Test {
  protected:
+  Program() { ::setenv("PYTHONPATH", MICROSLIP_NO_PLOTS, 1); }
+
   /// @param arguments  as typed in a shell.
   [[nodiscard]] Outcome run(const std::string& arguments,
                             const std::string& environment = "") const {
@@ -281,7 +285,8 @@ TEST_F(Program, WritesNothingWhenARowIsBad) {
 TEST_F(Program, PlotsCyclesIntoAFolder) {
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,1,0.5,1,1,0,0,2,0\n");
   const std::string plain = run("cycle t.csv").out;
-  const Outcome drawn = run("cycle t.csv --plot below/loops", "DISPLAY=");
+  const Outcome drawn =
+      run("cycle t.csv --plot below/loops", std::string("DISPLAY= ") + with_plots);
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   EXPECT_EQ(drawn.out, plain);
   for (const char* file : {"1.csv", "1.svg", "1.png", "2.csv", "2.svg", "2.png"}) {
@@ -371,10 +376,12 @@ TEST_F(Program, ATableWithoutRowsIsAnEmptyListAndANotice) {
 
 TEST_F(Program, RunsAModalSceneIntoAFolderOfWholeFiles) {
   write(path("scene.toml"), scene_text);
-  const Outcome outcome = run("run scene.toml -o out --set response.preload_scale=[0.5,2]");
+  const Outcome outcome =
+      run("run scene.toml -o out --set response.preload_scale=[0.5,2]", with_plots);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* name : {"scene.toml", "summary.json", "modes.csv", "model.h5", "log.txt",
-                           "curves/scale_0.5.csv", "curves/scale_2.states.csv"}) {
+  for (const char* name :
+       {"scene.toml", "summary.json", "modes.csv", "model.h5", "log.txt", "curves/scale_0.5.csv",
+        "curves/scale_2.states.csv", "plots/curves.png"}) {
     EXPECT_TRUE(exists(std::string("out/") + name)) << name;
   }
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {

@@ -18,11 +18,10 @@
 
 #include "pipelines/cycle/cycle_table.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-constexpr int n_tables = 40'000;
 
 const std::array<std::string, 2> good_tables{
     "id,tangential_stiffness,normal_stiffness,friction_coefficient,preload,u_sin,u_cos,v_mean,v_"
@@ -108,8 +107,9 @@ bool all_numbers(const nlohmann::json& value) {
 TEST(CycleFuzz, DamagedTablesAreReadOrRefusedWithTheirPlace) {
   int n_read = 0;
   int n_refused = 0;
-  for (std::uint32_t seed = 0; seed < n_tables; ++seed) {
-    Damage damage(seed);
+  const int n_tables = tests::campaign_size(40'000);
+  for (int seed = 0; seed < n_tables; ++seed) {
+    Damage damage(static_cast<std::uint32_t>(seed));
     std::string text = good_tables.at(damage.below(good_tables.size()));
     for (std::size_t i = 0; i <= damage.below(4); ++i) {
       seed % 2 == 0 ? damage.once(text) : damage.number(text);

@@ -12,6 +12,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "tests/support/campaign.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -146,7 +147,7 @@ bool is_raw(std::string_view message) {
 
 TEST(SceneFuzz, ADamagedSceneIsReadOrRefusedWithItsPlace) {
   Random random(11);
-  constexpr int n = 3000;
+  const int n = tests::campaign_size(10000);
   int refused = 0;
   for (int i = 0; i < n; ++i) {
     const std::string whole = scene_template(one_of(kinds, random));

@@ -1,0 +1,38 @@
+/// @file
+/// Campaigns: tests over many random states or scenes. Every run of the tests takes a tenth of each, always
+/// the same one; all are taken where the environment says MICROSLIP_CAMPAIGNS=whole, as
+/// share/scripts/campaigns.sh does.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace microslip::tests {
+
+[[nodiscard]] inline bool whole_campaigns() {
+  const char* asked = std::getenv("MICROSLIP_CAMPAIGNS");
+  if (asked == nullptr) return false;
+  if (std::string(asked) == "whole") return true;
+  throw std::invalid_argument(std::string("MICROSLIP_CAMPAIGNS is ") + asked + ", not whole");
+}
+
+/// How many to take of the cases of a campaign, from the first on.
+/// @param least  as many as it takes to meet every kind of case.
+[[nodiscard]] inline int campaign_size(int whole, int least = 1) {
+  const int n = whole_campaigns() ? whole : std::clamp(whole / 10, least, whole);
+  std::printf("campaign: cases 0 to %d of %d\n", n - 1, whole);
+  return n;
+}
+
+/// The parameters a study runs over: some of them in every run.
+[[nodiscard]] inline std::vector<double> campaign_values(std::vector<double> whole,
+                                                         std::vector<double> some) {
+  return whole_campaigns() ? std::move(whole) : std::move(some);
+}
+
+}  // namespace microslip::tests
