@@ -5,7 +5,7 @@
 ///
 ///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
 ///   48 points or more, anything else               the period sampled, all points in lanes (contact/sampled)
-///   else                                           a law per point, event by event (contact/line, contact/plane)
+///   else                                           each point event by event (contact/line, contact/plane)
 ///
 /// Several patches are one force whose points are those of all patches in order.
 #pragma once

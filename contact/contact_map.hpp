@@ -11,7 +11,7 @@
 
 #include "contact/harmonics.hpp"
 #include "contact/patch.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact {
@@ -36,7 +36,7 @@ struct ContactMap {
   Eigen::MatrixXd state_starts;
   Eigen::MatrixXd state_share;  ///< of the period in each ContactState [-], n × 5
   /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another kind are their zero
-  /// lines. Empty where laws alone were given, until add_guards().
+  /// lines. Empty where methods alone were given, until add_guards().
   Eigen::VectorXd slip_guard, smallest_load, largest_load;
   Eigen::VectorXd
       friction_coefficient;       ///< of the points at rest [-], n; empty where it was not told
@@ -56,15 +56,15 @@ struct ContactMap {
                                      const ModalShapes& shapes, const Harmonics& q, int n_phases,
                                      double wear_coefficient);
 
-/// The same for points of any law and motion of any number of harmonics.
-/// @param laws       one per point, n.
+/// The same for points by any method and motion of any number of harmonics.
+/// @param methods    one per point, n.
 /// @param shapes     at the points, n × n_modes; fields along r are filled where w is not empty.
 /// @param frequency  ω [rad/s].
-[[nodiscard]] ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
+[[nodiscard]] ContactMap contact_map(const std::vector<std::shared_ptr<const PointMethod>>& methods,
                                      const ModalShapes& shapes, const Harmonics& q,
                                      double frequency, int n_phases, double wear_coefficient);
 
-/// Guards of the period for points of any law.
+/// Guards of the period for points of any surface law.
 /// @param surfaces   one per point, n.   @param shapes  as for contact_map(): w is empty without friction along r.
 /// @param frequency  ω [rad/s].
 void add_guards(ContactMap& map, const std::vector<SurfaceLaw>& surfaces, const ModalShapes& shapes,

@@ -23,7 +23,7 @@ struct ForceAndJacobian {
   Harmonics force;                       ///< G [N/√kg]
   Eigen::MatrixXd jacobian;              ///< ∂G/∂q [1/s²], n × n
   Eigen::VectorXd frequency_derivative;  ///< ∂G/∂ω at fixed q, n; zero unless rate-dependent
-  /// Largest ‖δG‖ by which G may be off because a law did not meet its own tolerance [N/√kg]. Whoever
+  /// Largest ‖δG‖ by which G may be off because a method did not meet its own tolerance [N/√kg]. Whoever
   /// judges a residual adds it.
   double defect = 0.0;
 };

@@ -1,7 +1,7 @@
 /// @file
 /// The steady friction cycle of a single contact point, by whichever method its motion calls for:
 ///
-///   motion along r as well      planar law, to 1e-12 of its force scale (contact/plane)
+///   motion along r as well      located events in the plane, to 1e-12 of its force scale (contact/plane)
 ///   several harmonics           event by event (contact/line)
 ///   one harmonic                closed form with its Jacobian (contact/closed_form), instants by the events
 #pragma once
@@ -12,7 +12,7 @@
 
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/harmonics.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

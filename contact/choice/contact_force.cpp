@@ -4,10 +4,10 @@
 #include <span>
 #include <utility>
 
-#include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/patch/patch_load.hpp"
 #include "contact/patch/patch_surfaces.hpp"
 #include "contact/patch/preload_field.hpp"
@@ -25,11 +25,11 @@ constexpr double planar_tolerance = 1e-11;
 constexpr Eigen::Index least_points_in_lanes = 48;
 constexpr int instants_per_period = 512;
 
-using PointLaws = std::vector<std::shared_ptr<const PointLaw>>;
+using PointMethods = std::vector<std::shared_ptr<const PointMethod>>;
 
 /// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition in
 /// method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
-enum class Method { closed_form, lanes, point_laws };
+enum class Method { closed_form, lanes, point_methods };
 
 /// One direction, constant friction, smooth surfaces.
 bool is_plain(const Patch& patch, const ContactEffects& effects) {
@@ -50,7 +50,7 @@ Eigen::Index n_points(std::span<const Patch> patches) {
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
   if (effects.n_harmonics == 1 && are_plain(patches, effects)) return Method::closed_form;
   if (n_points(patches) >= least_points_in_lanes) return Method::lanes;
-  return Method::point_laws;
+  return Method::point_methods;
 }
 
 SurfaceLaw surface_of(const Patch& patch, const PatchSamples& samples,
@@ -70,23 +70,23 @@ std::vector<SurfaceLaw> surfaces_of(const Patch& patch, const PatchSamples& samp
   return surfaces;
 }
 
-PointLaws laws_of(const Patch& patch, const PatchSamples& samples, const ContactEffects& effects,
-                  const std::vector<PointParameters>& points) {
-  PointLaws laws;
-  laws.reserve(points.size());
+PointMethods methods_of(const Patch& patch, const PatchSamples& samples,
+                        const ContactEffects& effects, const std::vector<PointParameters>& points) {
+  PointMethods methods;
+  methods.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_plain(patch, effects)) {
-      laws.push_back(std::make_shared<EventLaw>(points[i]));
+      methods.push_back(std::make_shared<LineEvents>(points[i]));
       continue;
     }
     const SurfaceLaw surface = surface_of(patch, samples, effects, i, points[i]);
     if (effects.second_direction) {
-      laws.push_back(std::make_shared<PlanarLaw>(surface, planar_tolerance));
+      methods.push_back(std::make_shared<PlaneEvents>(surface, planar_tolerance));
     } else {
-      laws.push_back(std::make_shared<SurfaceEventLaw>(surface));
+      methods.push_back(std::make_shared<SurfaceLineEvents>(surface));
     }
   }
-  return laws;
+  return methods;
 }
 
 /// Mode shapes as the simulated effects need them: without motion along r where it is left out.
@@ -165,16 +165,16 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       return std::make_unique<sampled::PatchForce>(
           std::move(stack.weights), surfaces(begin, end), std::move(stack.shapes),
           sampled::Options{.instants = instants_per_period});
-    case Method::point_laws:
+    case Method::point_methods:
       break;
   }
-  PointLaws laws;
+  PointMethods methods;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    PointLaws own = laws_of(patches[i], patches[i].cells, effects_, points[i]);
-    laws.insert(laws.end(), own.begin(), own.end());
+    PointMethods own = methods_of(patches[i], patches[i].cells, effects_, points[i]);
+    methods.insert(methods.end(), own.begin(), own.end());
   }
-  return std::make_unique<LawPatchForce>(std::move(stack.weights), std::move(laws),
-                                         std::move(stack.shapes));
+  return std::make_unique<PointMethodForce>(std::move(stack.weights), std::move(methods),
+                                            std::move(stack.shapes));
 }
 
 std::vector<SurfaceLaw> ContactForce::surfaces(std::size_t begin, std::size_t end) const {
@@ -210,7 +210,7 @@ ContactMap ContactForce::map(std::size_t index, Places places, const Harmonics& 
   if (method_for({&patch, 1}, effects_) == Method::closed_form) {
     map = contact_map(points, shapes, q, n_phases, patch.wear_coefficient);
   } else {
-    map = contact_map(laws_of(patch, samples, effects_, points), shapes, q, frequency, n_phases,
+    map = contact_map(methods_of(patch, samples, effects_, points), shapes, q, frequency, n_phases,
                       patch.wear_coefficient);
     add_guards(map, surfaces_of(patch, samples, effects_, points), shapes, q, frequency);
   }

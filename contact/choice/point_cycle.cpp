@@ -1,6 +1,6 @@
 #include "contact/point_cycle.hpp"
 
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace microslip::contact {
@@ -40,10 +40,10 @@ void use_closed_form(const PointParameters& point, const Harmonics& motion, Poin
 PointCycle point_cycle(const PointParameters& point, double second_stiffness,
                        const Harmonics& motion, int n_harmonics, const Eigen::VectorXd& phases) {
   if (has_second_direction(motion)) {
-    const PlanarLaw law(SurfaceLaw(point, second_stiffness), planar_tolerance);
-    return {law.history(motion, 0.0, phases, n_harmonics), std::nullopt};
+    const PlaneEvents method(SurfaceLaw(point, second_stiffness), planar_tolerance);
+    return {method.history(motion, 0.0, phases, n_harmonics), std::nullopt};
   }
-  PointCycle result{EventLaw(point).history(motion, 0.0, phases, n_harmonics), std::nullopt};
+  PointCycle result{LineEvents(point).history(motion, 0.0, phases, n_harmonics), std::nullopt};
   if (!has_higher_harmonics(motion)) use_closed_form(point, motion, result);
   return result;
 }

@@ -14,7 +14,7 @@
 
 namespace microslip::contact {
 
-/// Adds up points, whatever law they follow.
+/// Adds up points, by whatever method.
 class ReportSum {
  public:
   ReportSum();

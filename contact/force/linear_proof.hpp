@@ -15,7 +15,7 @@
 
 namespace microslip::contact {
 
-/// For the closed-form law of one tangential direction.
+/// For the closed form of one tangential direction.
 /// @param centre  one harmonic [m√kg].
 /// @param radius  the set: ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
 /// @throws std::invalid_argument  another number of harmonics or modes.

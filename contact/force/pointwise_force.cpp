@@ -41,7 +41,7 @@ void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harm
 PointwiseForce::PointwiseForce(RestingPoints points, ModalShapes&& shapes)
     : ModalForce(shapes.u.cols()), points_(std::move(points)), shapes_(std::move(shapes)) {
   check(points_, shapes_);
-  sleep_ = SleepingLaws(points_.weights, points_.load_at_rest, points_.ranges, shapes_);
+  sleep_ = SleepingSet(points_.weights, points_.load_at_rest, points_.ranges, shapes_);
   cycles_.resize(points_.ranges.size());
 }
 
@@ -54,7 +54,7 @@ ForceAndJacobian PointwiseForce::evaluated(const Harmonics& q, double frequency,
                                            const Asked& asked) {
   look_at(q, frequency);
   const bool wider = asked.n_harmonics > q.n_harmonics();
-  kept_q_ = wider ? Harmonics() : q;  // laws asked for more harmonics do not tell their cycles
+  kept_q_ = wider ? Harmonics() : q;  // methods asked for more harmonics do not tell their cycles
   kept_frequency_ = frequency;
   keep_sleeping();
   ForceAndJacobian result = awake_force(frequency, asked);

@@ -11,7 +11,7 @@
 
 #include "contact/contact_patch.hpp"
 #include "contact/force/cycle_report.hpp"
-#include "contact/force/sleeping_laws.hpp"
+#include "contact/force/sleeping_set.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/surface/linear_range.hpp"
 
@@ -63,7 +63,7 @@ class PointwiseForce : public ModalForce {
 
   RestingPoints points_;
   ModalShapes shapes_;
-  SleepingLaws sleep_;
+  SleepingSet sleep_;
   PatchMotion motion_;
   // Of the motion evaluated last.
   std::vector<CycleStates> cycles_;

@@ -1,5 +1,5 @@
 /// @file
-/// Inner loops of ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i for points with any number of harmonics (law_projection.hpp):
+/// Inner loops of ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i for points with any number of harmonics (point_projection.hpp):
 ///
 ///   spread   y_ksl = Σ_t a_kslt φ_t         J_i Φ_i of one point, harmonic k of signal s by harmonic l
 ///   add      C += Φᵀ Y                      of a block of points, for one k

@@ -22,7 +22,7 @@
 
 #include "contact/line/band_walk.hpp"
 #include "contact/numerics/trigonometric_moments.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/line/event_phases.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

@@ -19,7 +19,7 @@
 
 #include "contact/line/event_phases.hpp"
 #include "contact/numerics/trigonometric_moments.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

@@ -144,13 +144,13 @@ ContactMap contact_map(const std::vector<PointParameters>& points, const ModalSh
   return map;
 }
 
-ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
+ContactMap contact_map(const std::vector<std::shared_ptr<const PointMethod>>& methods,
                        const ModalShapes& shapes, const Harmonics& q, double frequency,
                        int n_phases, double wear_coefficient) {
-  const auto n = static_cast<Eigen::Index>(laws.size());
+  const auto n = static_cast<Eigen::Index>(methods.size());
   require(shapes.u.rows() == n && shapes.v.rows() == n &&
               (shapes.w.size() == 0 || shapes.w.rows() == n),
-          std::to_string(n) + " laws, but mode shapes at " + std::to_string(shapes.u.rows()) +
+          std::to_string(n) + " methods, but mode shapes at " + std::to_string(shapes.u.rows()) +
               " points");
   check_request(n_phases, wear_coefficient);
   const std::vector<Harmonics> motions = general_motions(shapes, q);
@@ -163,7 +163,7 @@ ContactMap contact_map(const std::vector<std::shared_ptr<const PointLaw>>& laws,
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto point = static_cast<std::size_t>(i);
-    const PointHistory history = laws[point]->history(motions[point], frequency, map.phase, 0);
+    const PointHistory history = methods[point]->history(motions[point], frequency, map.phase, 0);
     for (Eigen::Index j = 0; j < n_phases; ++j) {
       set_instant(map, i, j, history.instants[static_cast<std::size_t>(j)]);
     }

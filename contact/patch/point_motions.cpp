@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

@@ -77,7 +77,7 @@ double defect_of(const PlanarMotion& motion, const SteadyOrbit& steady, double t
 
 void check_motion(const Harmonics& motion) {
   if (motion.n_signals() == n_point_signals && motion.n_harmonics() >= 1) return;
-  throw std::invalid_argument("PlanarLaw: a motion of " + std::to_string(motion.n_signals()) +
+  throw std::invalid_argument("PlaneEvents: a motion of " + std::to_string(motion.n_signals()) +
                               " signals and " + std::to_string(motion.n_harmonics()) +
                               " harmonics; expected 3 signals and at least 1 harmonic");
 }
@@ -101,14 +101,14 @@ void add_free_slip(const PlanarMotion& motion, const Intervals& intervals, Point
 
 }  // namespace
 
-PlanarLaw::PlanarLaw(SurfaceLaw law, double tolerance) : law_(law), tolerance_(tolerance) {
+PlaneEvents::PlaneEvents(SurfaceLaw law, double tolerance) : law_(law), tolerance_(tolerance) {
   if (!(tolerance >= 1e-13 && tolerance <= 1e-2)) {
-    throw std::invalid_argument("PlanarLaw: tolerance " + std::to_string(tolerance) +
+    throw std::invalid_argument("PlaneEvents: tolerance " + std::to_string(tolerance) +
                                 "; expected 1e-13 to 1e-2");
   }
 }
 
-void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
+void PlaneEvents::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
   check_motion(motion);
   const PlanarMotion planar(law_, motion, frequency);
   const Intervals intervals = planar_intervals(planar);
@@ -140,8 +140,8 @@ void PlanarLaw::traction(const Harmonics& motion, double frequency, PointTractio
   }
 }
 
-PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
-                                const Eigen::VectorXd& phases, int n_harmonics) const {
+PointHistory PlaneEvents::history(const Harmonics& motion, double frequency,
+                                  const Eigen::VectorXd& phases, int n_harmonics) const {
   check_motion(motion);
   const PlanarMotion planar(law_, motion, frequency);
   const Intervals intervals = planar_intervals(planar);
@@ -168,7 +168,7 @@ PointHistory PlanarLaw::history(const Harmonics& motion, double frequency,
   return result;
 }
 
-Eigen::Vector3d PlanarLaw::stuck_stiffness() const {
+Eigen::Vector3d PlaneEvents::stuck_stiffness() const {
   const SurfaceState rest = law_.at(0.0, 0.0);
   if (law_.is_smooth()) {
     const bool rubs = rest.friction_coefficient > 0.0;

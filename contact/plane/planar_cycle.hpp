@@ -1,5 +1,5 @@
 /// @file
-/// The planar law: elastic Coulomb friction in two tangential directions under varying load, with
+/// Located events in a plane: elastic Coulomb friction in two tangential directions under varying load, with
 /// separation, any number of harmonics, different stiffness along p and r, and a round cone.
 ///
 ///   n = N(v),   f = diag(k_u g_p, k_w g_r) (x − s),   |f| ≤ μ n,   s' = λ f, λ ≥ 0,   x = (u, w)      (1)
@@ -19,12 +19,12 @@
 /// Source: theory sections 3, 4.2, 6, 7, 8, 9, 10, 11.
 #pragma once
 
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact {
 
-class PlanarLaw final : public PointLaw {
+class PlaneEvents final : public PointMethod {
  public:
   /// Small enough that Newton's method on a structure converges to the accuracy of its own tolerances.
   static constexpr double default_tolerance = 1e-9;
@@ -33,7 +33,7 @@ class PlanarLaw final : public PointLaw {
   ///                   over directions and harmonics; 1e-13 to 1e-2. Rounding leaves 1e-14 of the larger.
   ///                   Cost doubles at most from 1e-6 to 1e-10.
   /// @throws std::invalid_argument  tolerance out of its range.
-  explicit PlanarLaw(SurfaceLaw law, double tolerance = default_tolerance);
+  explicit PlaneEvents(SurfaceLaw law, double tolerance = default_tolerance);
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,

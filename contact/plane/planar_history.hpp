@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/plane/planar_orbit.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 

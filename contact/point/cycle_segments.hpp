@@ -1,5 +1,5 @@
 /// @file
-/// The list of segments that every law of a point reports, from the phases it found.
+/// The list of segments that every method reports, from the phases it found.
 #pragma once
 
 #include <vector>

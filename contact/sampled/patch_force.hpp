@@ -7,7 +7,7 @@
 /// The error falls with n²; derivatives are those of the sums, so that Newton's method converges on them.
 /// In two directions the slider is marched until it repeats (plane_block.hpp); what has not settled is the defect.
 ///
-/// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (event_law.hpp) are exact and slower.
+/// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (line_events.hpp) are exact and slower.
 #pragma once
 
 #include <map>

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/force/sleeping_laws.hpp"
+#include "contact/force/sleeping_set.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/plane_kernels.hpp"
 #include "contact/sampled/plane_point.hpp"

@@ -38,16 +38,16 @@ constexpr double chosen_cost =
 constexpr double iterations_per_curve = 350.0;
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 
-/// Seconds a curve takes, by the law of its points.
+/// Seconds a curve takes, by the method of its points.
 double curve_seconds(const SceneDescription& scene, bool second_direction) {
   const auto* modal = std::get_if<ModalModel>(&scene.model);
   double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
   for (const PatchSettings& patch : scene.settings.patches) n_points += patch.n_points;
   const bool simple =
       scene.settings.harmonics.highest == 1 && !is_rate_dependent(scene) && !is_rough(scene);
-  const double of_law = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
+  const double of_method = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
   const bool chosen = scene.settings.harmonics.chosen();
-  const double cost = chosen ? std::max(chosen_cost, of_law) : of_law;
+  const double cost = chosen ? std::max(chosen_cost, of_method) : of_method;
   return iterations_per_curve * n_points * cost;
 }
 

@@ -22,7 +22,7 @@ struct LinearCertificate {
 };
 
 /// @param low, high  of the frequency [rad/s], 0 < low ≤ high.
-/// @return unknown: not proved. Forces beyond the first harmonic, and contact laws that offer no
+/// @return unknown: not proved. Forces beyond the first harmonic, and forces that offer no
 ///         bounds, never are.
 [[nodiscard]] LinearCertificate certify_linear(const HarmonicBalance& balance, double low,
                                                double high);

@@ -13,8 +13,8 @@
 
 #include "contact/force/block_kernels.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/patch/point_motions.hpp"
 
 #include "contact/patch/preload_equilibrium.hpp"
@@ -171,22 +171,22 @@ LawSetup law_setup(int n_harmonics) {
   return s;
 }
 
-void event_law(benchmark::State& state) {
+void line_events(benchmark::State& state) {
   const LawSetup s = law_setup(static_cast<int>(state.range(0)));
   PointTraction result;
   for (auto _ : state) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
-      EventLaw(s.points[i]).traction(s.motions[i], 1000.0, result);
+      LineEvents(s.points[i]).traction(s.motions[i], 1000.0, result);
       benchmark::DoNotOptimize(result.jacobian.data());
     }
   }
   count_points(state, s.points.size());
 }
-BENCHMARK(event_law)->Arg(1)->Arg(3)->Arg(5);
+BENCHMARK(line_events)->Arg(1)->Arg(3)->Arg(5);
 
 // Surfaces without a closed form, events located exactly. Harmonics.
-void surface_event_law(benchmark::State& state, const FrictionLaw& friction,
-                       const std::optional<RoughSurface>& roughness) {
+void surface_line_events(benchmark::State& state, const FrictionLaw& friction,
+                         const std::optional<RoughSurface>& roughness) {
   const LawSetup s = law_setup(static_cast<int>(state.range(0)));
   PointTraction result;
   std::vector<SurfaceLaw> surfaces;
@@ -195,21 +195,22 @@ void surface_event_law(benchmark::State& state, const FrictionLaw& friction,
   }
   for (auto _ : state) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
-      SurfaceEventLaw(surfaces[i]).traction(s.motions[i], 1000.0, result);
+      SurfaceLineEvents(surfaces[i]).traction(s.motions[i], 1000.0, result);
       benchmark::DoNotOptimize(result.jacobian.data());
     }
   }
   count_points(state, s.points.size());
 }
-BENCHMARK_CAPTURE(surface_event_law, rate, FrictionLaw::exponential(0.4, 0.3, 500.0), std::nullopt)
+BENCHMARK_CAPTURE(surface_line_events, rate, FrictionLaw::exponential(0.4, 0.3, 500.0),
+                  std::nullopt)
     ->Arg(1)
     ->Arg(3)
     ->Arg(5);
-BENCHMARK_CAPTURE(surface_event_law, cubic, FrictionLaw::constant(0.4), RoughSurface::cubic(2e-6))
+BENCHMARK_CAPTURE(surface_line_events, cubic, FrictionLaw::constant(0.4), RoughSurface::cubic(2e-6))
     ->Arg(1)
     ->Arg(3)
     ->Arg(5);
-BENCHMARK_CAPTURE(surface_event_law, gaussian, FrictionLaw::constant(0.4),
+BENCHMARK_CAPTURE(surface_line_events, gaussian, FrictionLaw::constant(0.4),
                   RoughSurface::matching_gaussian(2e-6))
     ->Arg(1)
     ->Arg(3)

@@ -23,10 +23,10 @@
 #include <utility>
 #include <vector>
 
-#include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
 
@@ -121,12 +121,12 @@ struct Row {
   double microseconds = 0.0;
 };
 
-using LawMaker = std::function<std::shared_ptr<const PointLaw>(const SurfaceLaw&)>;
+using LawMaker = std::function<std::shared_ptr<const PointMethod>(const SurfaceLaw&)>;
 
-Force by_laws(const Samples& samples, const Kind& kind, const LawMaker& make) {
-  std::vector<std::shared_ptr<const PointLaw>> laws;
-  for (const PointParameters& point : samples.points) laws.push_back(make(kind.surface(point)));
-  return std::make_shared<LawPatchForce>(samples.weights, std::move(laws), samples.shapes);
+Force by_methods(const Samples& samples, const Kind& kind, const LawMaker& make) {
+  std::vector<std::shared_ptr<const PointMethod>> methods;
+  for (const PointParameters& point : samples.points) methods.push_back(make(kind.surface(point)));
+  return std::make_shared<PointMethodForce>(samples.weights, std::move(methods), samples.shapes);
 }
 
 Force in_lanes(const Samples& samples, const Kind& kind, int instants) {
@@ -137,13 +137,13 @@ Force in_lanes(const Samples& samples, const Kind& kind, int instants) {
 }
 
 LawMaker located() {
-  return [](const SurfaceLaw& s) { return std::make_shared<EventLaw>(s.point()); };
+  return [](const SurfaceLaw& s) { return std::make_shared<LineEvents>(s.point()); };
 }
 LawMaker band() {
-  return [](const SurfaceLaw& s) { return std::make_shared<SurfaceEventLaw>(s); };
+  return [](const SurfaceLaw& s) { return std::make_shared<SurfaceLineEvents>(s); };
 }
 LawMaker planar(double tolerance) {
-  return [=](const SurfaceLaw& s) { return std::make_shared<PlanarLaw>(s, tolerance); };
+  return [=](const SurfaceLaw& s) { return std::make_shared<PlaneEvents>(s, tolerance); };
 }
 
 /// The first is the reference of the others, the second that of the first.
@@ -156,14 +156,14 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
                      !kind.surface(samples.points[0]).is_rate_dependent();
   if (kind.second_direction) {
     for (const double tolerance : {1e-13, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2}) {
-      add("planar law", tolerance, by_laws(samples, kind, planar(tolerance)));
+      add("planar law", tolerance, by_methods(samples, kind, planar(tolerance)));
     }
     return methods;
   }
-  if (plain) add("located events", 0.0, by_laws(samples, kind, located()));
-  add("slider band", 0.0, by_laws(samples, kind, band()));
+  if (plain) add("located events", 0.0, by_methods(samples, kind, located()));
+  add("slider band", 0.0, by_methods(samples, kind, band()));
   const double tolerance = plain ? 1e-6 : 1e-12;
-  add("planar law", tolerance, by_laws(samples, kind, planar(tolerance)));
+  add("planar law", tolerance, by_methods(samples, kind, planar(tolerance)));
   if (plain && kind.n_harmonics == 1) {
     add("closed form", 0.0,
         std::make_shared<PatchForce>(ContactPatch(samples.weights, samples.points),

@@ -1,9 +1,9 @@
 /// @file
-/// A patch in lanes (contact/sampled) beside laws that find their cycles point by point: error of the modal force
+/// A patch in lanes (contact/sampled) beside methods that find their cycles point by point: error of the modal force
 /// and of the Jacobian, relative to the larger of the norm and that of the stuck patch, against µs per awake
 /// point, ten modes, on one core:
 ///
-///   line   one direction, against located events    (event_law.hpp)
+///   line   one direction, against located events    (line_events.hpp)
 ///   plane  two directions, against the planar law    (planar_cycle.hpp)
 ///
 /// for 1, 3, 9 harmonics and n = 32 … 2048 instants. Prints a table; no argument.
@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/force/law_patch_force.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
 
@@ -110,15 +110,15 @@ void compare(int H, bool second_direction, Eigen::Index n) {
   const std::vector<SurfaceLaw> surfaces = surfaces_of(n);
   const Harmonics q = motion_of(H);
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
-  std::vector<std::shared_ptr<const PointLaw>> laws;
+  std::vector<std::shared_ptr<const PointMethod>> methods;
   for (const SurfaceLaw& surface : surfaces) {
     if (second_direction) {
-      laws.push_back(std::make_shared<PlanarLaw>(surface));
+      methods.push_back(std::make_shared<PlaneEvents>(surface));
     } else {
-      laws.push_back(std::make_shared<EventLaw>(surface.point()));
+      methods.push_back(std::make_shared<LineEvents>(surface.point()));
     }
   }
-  LawPatchForce reference(weights, laws, shapes);
+  PointMethodForce reference(weights, methods, shapes);
   const Timed exact = timed(reference, q, n);
   const std::string name = second_direction ? "plane" : "line";
   PatchForce first(weights, surfaces, shapes, {32});

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/force/law_patch_force.hpp"
+#include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "solver/continuation.hpp"
 #include "support/planar_cases.hpp"
@@ -32,10 +32,10 @@ double seconds_spent() {
 }
 
 double microseconds(const test::PlanarCase& c) {
-  const contact::PlanarLaw law(contact::SurfaceLaw(c.point, c.second_stiffness), tolerance);
+  const contact::PlaneEvents method(contact::SurfaceLaw(c.point, c.second_stiffness), tolerance);
   contact::PointTraction result;
   const double begin = seconds_spent();
-  law.traction(c.motion, 1.0, result);
+  method.traction(c.motion, 1.0, result);
   benchmark::DoNotOptimize(result.jacobian.data());
   return 1e6 * (seconds_spent() - begin);
 }
@@ -65,14 +65,15 @@ solver::Scene two_points(double preload, int n_harmonics) {
   scene.excitation.rows().row(1) << 0.03, 0.0;
   scene.excitation.rows().row(2) << 0.0, 0.02;
   const contact::PointParameters point{0.5, 0.4, 0.4, preload};
-  const auto law = std::make_shared<contact::PlanarLaw>(contact::SurfaceLaw(point, 0.3), tolerance);
+  const auto method =
+      std::make_shared<contact::PlaneEvents>(contact::SurfaceLaw(point, 0.3), tolerance);
   contact::ModalShapes shapes;
   shapes.u = (Eigen::Matrix2d() << 1.0, 0.3, 0.8, -0.4).finished();
   shapes.v = (Eigen::Matrix2d() << 0.2, 0.1, -0.3, 0.2).finished();
   shapes.w = (Eigen::Matrix2d() << 0.4, 0.9, -0.2, 0.7).finished();
-  scene.contact = std::make_unique<contact::LawPatchForce>(
-      Eigen::Vector2d(0.5, 0.5), std::vector<std::shared_ptr<const contact::PointLaw>>{law, law},
-      shapes);
+  scene.contact = std::make_unique<contact::PointMethodForce>(
+      Eigen::Vector2d(0.5, 0.5),
+      std::vector<std::shared_ptr<const contact::PointMethod>>{method, method}, shapes);
   return scene;
 }
 

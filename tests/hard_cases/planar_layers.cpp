@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/planar_events.hpp"
@@ -22,15 +22,15 @@ using contact::ContactState;
 using contact::CycleSegment;
 using contact::FrictionLaw;
 using contact::Harmonics;
-using contact::PlanarLaw;
+using contact::PlaneEvents;
 using contact::PointHistory;
 using contact::PointTraction;
 using contact::SurfaceLaw;
 
 constexpr double omega = 2.0 * std::numbers::pi * 22.0;
 
-PointHistory history_of(const PlanarLaw& law, const Harmonics& motion) {
-  return law.history(motion, omega, Eigen::VectorXd(), motion.n_harmonics());
+PointHistory history_of(const PlaneEvents& method, const Harmonics& motion) {
+  return method.history(motion, omega, Eigen::VectorXd(), motion.n_harmonics());
 }
 
 // Where the motion is slowest μ rises to its value at rest and the point sticks; before and after,
@@ -41,9 +41,9 @@ TEST(PlanarLayers, SlipOnEitherSideOfTheSlowestPhaseIsThere) {
       -0.004122253914124401, 0.00018716850230972857, 3.153639968678628e-05, -0.0011171170710556724,
       4.9701360214217237e-05, 3.9760212371149026e-05;
   const double k = 40527.21635712456;
-  const PlanarLaw law(
+  const PlaneEvents method(
       SurfaceLaw({k, 3e4, 0.6, 10.0}, k, FrictionLaw::hyperbolic(0.6, 22.589156413277653)));
-  const std::vector<CycleSegment> segments = history_of(law, motion).segments;
+  const std::vector<CycleSegment> segments = history_of(method, motion).segments;
   const std::vector<double> expected{1.1917, 1.4112, 1.4212, 1.5864,
                                      4.3887, 4.4974, 4.5080, 4.6143};
   ASSERT_EQ(segments.size(), expected.size());
@@ -65,10 +65,10 @@ TEST(PlanarLayers, FrictionOfARigidPointHasTheDigitsOfItsLimit) {
   const SurfaceLaw surface({0.10398449861900015, 1.0, 0.9206879295782183, 0.09346776669679172},
                            103984.49861900015);
   PointTraction exact;
-  PlanarLaw(surface, 1e-13).traction(motion, 1.0, exact);
+  PlaneEvents(surface, 1e-13).traction(motion, 1.0, exact);
   for (const double tolerance : {1e-8, 1e-9}) {
     PointTraction traction;
-    PlanarLaw(surface, tolerance).traction(motion, 1.0, traction);
+    PlaneEvents(surface, tolerance).traction(motion, 1.0, traction);
     const double error = (traction.force.vector() - exact.force.vector()).cwiseAbs().maxCoeff();
     EXPECT_LE(error, (10.0 * tolerance + 1e-8) * 0.1) << tolerance;
   }
@@ -82,9 +82,9 @@ TEST(PlanarLayers, ContactLostForAMomentIsLost) {
       0.0, 0.2914837927854719, -0.10539320784222622,     //
       0.0, -0.000405441803525197, -0.07127489093254999,  //
       0.0, 0.25997968828898527, 0.05575020670222891;
-  const PlanarLaw law(SurfaceLaw({1.0, 1.0, 0.8185837886747866, -0.11038665088185172}, 1.0));
+  const PlaneEvents method(SurfaceLaw({1.0, 1.0, 0.8185837886747866, -0.11038665088185172}, 1.0));
   PointTraction traction;
-  law.traction(motion, 1.0, traction);
+  method.traction(motion, 1.0, traction);
   EXPECT_NEAR(traction.force.mean()[1], 0.11503068952, 1e-11);
   EXPECT_NEAR(traction.force.sine(1)[1], -0.0915037544, 1e-10);
   EXPECT_NEAR(traction.force.sine(1)[2], -0.00687214670, 1e-10);
@@ -97,9 +97,9 @@ double error_of_events(const EventCase& c, double tolerance) {
   EXPECT_TRUE(reference.settled);
   const double mu = c.point.point.friction_coefficient;
   PointTraction traction;
-  PlanarLaw(SurfaceLaw(c.point.point, c.point.second_stiffness,
-                       FrictionLaw::exponential(mu, c.kinetic, c.rate)),
-            tolerance)
+  PlaneEvents(SurfaceLaw(c.point.point, c.point.second_stiffness,
+                         FrictionLaw::exponential(mu, c.kinetic, c.rate)),
+              tolerance)
       .traction(c.point.motion, 1.0, traction);
   double error = 0.0;
   for (std::size_t i = 0; i < reference.first.size(); ++i) {
@@ -152,8 +152,8 @@ std::vector<double> slip_starts(const std::vector<CycleSegment>& segments) {
 double turned_difference(const SurfaceLaw& surface, const Harmonics& motion, double frequency) {
   PointTraction planar;
   PointTraction exact;
-  PlanarLaw(surface, 1e-11).traction(turned(motion), frequency, planar);
-  contact::SurfaceEventLaw(surface).traction(motion, frequency, exact);
+  PlaneEvents(surface, 1e-11).traction(turned(motion), frequency, planar);
+  contact::SurfaceLineEvents(surface).traction(motion, frequency, exact);
   const Eigen::VectorXd f = exact.force.rows().col(0);
   return ((planar.force.rows().col(0) - std::cos(angle) * f).cwiseAbs() +
           (planar.force.rows().col(2) - std::sin(angle) * f).cwiseAbs())
@@ -171,8 +171,8 @@ TEST(PlanarLayers, SteepRatesAlongALineHaveThePhasesOfOneDirection) {
                                             : FrictionLaw::hyperbolic(mu, rate);
     const SurfaceLaw surface(c.point, c.point.tangential_stiffness, friction);
     const int H = c.motion.n_harmonics();
-    const auto planar = PlanarLaw(surface, 1e-11).history(turned(c.motion), 1.0, {}, H).segments;
-    const auto exact = contact::SurfaceEventLaw(surface).history(c.motion, 1.0, {}, H).segments;
+    const auto planar = PlaneEvents(surface, 1e-11).history(turned(c.motion), 1.0, {}, H).segments;
+    const auto exact = contact::SurfaceLineEvents(surface).history(c.motion, 1.0, {}, H).segments;
     EXPECT_EQ(slip_starts(planar).size(), slip_starts(exact).size()) << i;
     if (slip_starts(planar).size() != slip_starts(exact).size()) continue;
     for (std::size_t j = 0; j < slip_starts(exact).size(); ++j) {

@@ -1,6 +1,6 @@
 /// What is hard: limits of a point with two tangential directions: no motion along one of them or both,
 /// contact that only just begins or ends, no preload, events that meet, amplitudes of any size.
-/// Where: theory sections 4.2, 4.5, 9. Right: finite forces that agree with the law of one direction where
+/// Where: theory sections 4.2, 4.5, 9. Right: finite forces that agree with the method of one direction where
 /// the motion is straight, works that balance, derivatives that are those of one side.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/planar_cases.hpp"
@@ -20,22 +20,22 @@ namespace microslip::test {
 namespace {
 
 using contact::CycleRegime;
-using contact::EventLaw;
 using contact::Harmonics;
-using contact::PlanarLaw;
+using contact::LineEvents;
+using contact::PlaneEvents;
 using contact::PointHistory;
-using contact::PointLaw;
+using contact::PointMethod;
 using contact::PointParameters;
 using contact::PointTraction;
 using contact::SurfaceLaw;
 
 constexpr double pi = std::numbers::pi;
 constexpr double tight = 1e-11;
-constexpr double smallest = 1e-290;  // what the planar law takes for no force at all
+constexpr double smallest = 1e-290;  // what the planar method takes for no force at all
 
-PointTraction traction(const PointLaw& law, const Harmonics& motion) {
+PointTraction traction(const PointMethod& method, const Harmonics& motion) {
   PointTraction result;
-  law.traction(motion, 1.0, result);
+  method.traction(motion, 1.0, result);
   return result;
 }
 
@@ -55,9 +55,9 @@ TEST_P(StraightMotion, InAnyDirectionIsTheLawOfOneDirection) {
   for (int i = 0; i < 100; ++i) {
     const MotionCase c = GetParam().draw(random);
     const double angle = std::uniform_real_distribution<double>(0.0, 2.0 * pi)(random);
-    const PlanarLaw law(SurfaceLaw(c.point, c.point.tangential_stiffness), tight);
-    const PointTraction now = traction(law, turned(c.motion, angle));
-    const PointTraction exact = traction(EventLaw(c.point), c.motion);
+    const PlaneEvents method(SurfaceLaw(c.point, c.point.tangential_stiffness), tight);
+    const PointTraction now = traction(method, turned(c.motion, angle));
+    const PointTraction exact = traction(LineEvents(c.point), c.motion);
     const double scale = friction_scale(c);
     const Eigen::VectorXd f = exact.force.rows().col(0);
     // Ten times the tolerance, as measured for any motion.
@@ -92,12 +92,12 @@ TEST_P(PlaneMotion, BalancesItsWork) {
     const double size = amplitude(c.motion, 2);
     if (size > 0.0) c.motion.rows().col(2) *= amplitude(c.motion, 0) / size;
     const double second = 2.0 * c.point.tangential_stiffness;
-    const PlanarLaw law(SurfaceLaw(c.point, second), tight);
+    const PlaneEvents method(SurfaceLaw(c.point, second), tight);
     const int H = c.motion.n_harmonics();
-    const PointTraction now = traction(law, c.motion);
+    const PointTraction now = traction(method, c.motion);
     ASSERT_TRUE(now.force.rows().allFinite()) << i;
     ASSERT_TRUE(now.jacobian.allFinite()) << i;
-    const PointHistory history = law.history(c.motion, 1.0, {}, H);
+    const PointHistory history = method.history(c.motion, 1.0, {}, H);
     const double scale = friction_scale(c) + second * amplitude(c.motion, 2);
     const double way =
         c.point.tangential_stiffness > 0.0 ? scale / c.point.tangential_stiffness : 0.0;
@@ -126,8 +126,10 @@ MotionCase ellipse(double size) {
   return c;
 }
 
-double force_change(const PlanarLaw& law, const Harmonics& a, const Harmonics& b) {
-  return (traction(law, a).force.rows() - traction(law, b).force.rows()).cwiseAbs().maxCoeff();
+double force_change(const PlaneEvents& method, const Harmonics& a, const Harmonics& b) {
+  return (traction(method, a).force.rows() - traction(method, b).force.rows())
+      .cwiseAbs()
+      .maxCoeff();
 }
 
 // No motion along one direction is the limit of ever less of it, down to subnormal numbers.
@@ -135,19 +137,19 @@ TEST(PlanarPointHard, VanishingMotionAlongOneDirectionIsTheLimitOfSmallMotion) {
   for (const double size : {0.1, 0.5, 3.0}) {
     for (const Eigen::Index signal : {0, 2}) {
       const MotionCase c = ellipse(size);
-      const PlanarLaw law(SurfaceLaw(c.point, 3.0), tight);
+      const PlaneEvents method(SurfaceLaw(c.point, 3.0), tight);
       Harmonics none = c.motion;
       none.rows().col(signal).setZero();
       for (const double share : {1e-6, 1e-9, 1e-15, 1e-100, 1e-300, 1e-323}) {
         Harmonics little = none;
         little.rows().col(signal) = share * c.motion.rows().col(signal);
         // The stiffness at most, times ten for what turns the slip.
-        ASSERT_LE(force_change(law, little, none), 30.0 * share * size + 10.0 * tight) << share;
+        ASSERT_LE(force_change(method, little, none), 30.0 * share * size + 10.0 * tight) << share;
       }
     }
   }
   const MotionCase c = ellipse(0.0);
-  const PointTraction rest = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+  const PointTraction rest = traction(PlaneEvents(SurfaceLaw(c.point, 3.0), tight), c.motion);
   EXPECT_EQ(rest.regime, CycleRegime::full_stick);
   EXPECT_EQ(rest.force.rows().col(0).norm(), 0.0);
   EXPECT_EQ(rest.force.rows().col(2).norm(), 0.0);
@@ -161,7 +163,7 @@ TEST(PlanarPointHard, GrazingContactIsContinuous) {
     Eigen::MatrixXd before;
     for (const double aside : {-1e-6, -1e-8, -1e-12, -1e-16, 0.0, 1e-16, 1e-12, 1e-8, 1e-6}) {
       c.point.preload = least * (1.0 + aside);
-      const PointTraction now = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+      const PointTraction now = traction(PlaneEvents(SurfaceLaw(c.point, 3.0), tight), c.motion);
       // n₀ − b̄ changes by 1e-6; what the slider forgets is the force left at the least load, its
       // square root times the rate of the motion.
       if (before.size() > 0) {
@@ -179,8 +181,8 @@ TEST(PlanarPointHard, ContactFadesOutWithTheGap) {
   double before = 1e300;
   for (const double share : {0.0, 0.5, 0.9, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-12}) {
     c.point.preload = -share * reach;
-    const PlanarLaw law(SurfaceLaw(c.point, 3.0), tight);
-    const PointTraction now = traction(law, c.motion);
+    const PlaneEvents method(SurfaceLaw(c.point, 3.0), tight);
+    const PointTraction now = traction(method, c.motion);
     EXPECT_EQ(now.regime, CycleRegime::separation) << share;
     const double load = now.force.rows()(0, 1);
     EXPECT_GT(load, 0.0) << share;
@@ -194,17 +196,18 @@ TEST(PlanarPointHard, ContactFadesOutWithTheGap) {
   }
   for (const double share : {1.0, 1.0 + 1e-15, 2.0}) {
     c.point.preload = -share * reach;
-    const PointTraction now = traction(PlanarLaw(SurfaceLaw(c.point, 3.0), tight), c.motion);
+    const PointTraction now = traction(PlaneEvents(SurfaceLaw(c.point, 3.0), tight), c.motion);
     EXPECT_LE(now.force.rows().norm(), share == 1.0 ? 1e-20 : 0.0) << share;
   }
 }
 
 /// Second order, from one side.
-Eigen::VectorXd one_sided(const PlanarLaw& law, const Harmonics& motion, Eigen::Index k, double h) {
+Eigen::VectorXd one_sided(const PlaneEvents& method, const Harmonics& motion, Eigen::Index k,
+                          double h) {
   const auto at = [&](double x) -> Eigen::VectorXd {
     Harmonics moved = motion;
     moved.vector()[k] += x;
-    return traction(law, moved).force.vector();
+    return traction(method, moved).force.vector();
   };
   return (4.0 * at(h) - 3.0 * at(0.0) - at(2.0 * h)) / (2.0 * h);
 }
@@ -215,35 +218,35 @@ TEST(PlanarPointHard, TheJacobianAtTheOnsetOfSlipIsOneSided) {
   Harmonics circle(1, 3);
   circle.rows()(1, 0) = 1.0;
   circle.rows()(2, 2) = 1.0;
-  const PlanarLaw law(SurfaceLaw({1.0, 0.5, 0.5, 2.0}, 1.0), tight);  // k a = μ n
-  const PointTraction now = traction(law, circle);
+  const PlaneEvents method(SurfaceLaw({1.0, 0.5, 0.5, 2.0}, 1.0), tight);  // k a = μ n
+  const PointTraction now = traction(method, circle);
   ASSERT_EQ(now.regime, CycleRegime::full_stick);
   EXPECT_EQ(now.jacobian(3, 3), 1.0);
   EXPECT_EQ(now.jacobian(8, 8), 1.0);
   for (const Eigen::Index k : {3, 8}) {
-    const Eigen::VectorXd inside = one_sided(law, circle, k, -1e-6);
+    const Eigen::VectorXd inside = one_sided(method, circle, k, -1e-6);
     EXPECT_LE((now.jacobian.col(k) - inside).cwiseAbs().maxCoeff(), 1e-9) << k;  // 1e-15/1e-6
   }
   // Beyond, slip takes what the motion adds.
-  const Eigen::VectorXd outside = one_sided(law, circle, 3, 1e-4);
+  const Eigen::VectorXd outside = one_sided(method, circle, 3, 1e-4);
   EXPECT_GT((now.jacobian.col(3) - outside).cwiseAbs().maxCoeff(), 0.1);
 }
 
 // Where the load grazes zero the slider is wiped from one side only; the derivative by the mean
-// load is that of the side the law is on.
+// load is that of the side the method is on.
 TEST(PlanarPointHard, TheJacobianNextToGrazingContactIsThatOfItsSide) {
   const double least = std::hypot(0.3, 1.0);
   for (const double aside : {-1e-3, 1e-3}) {
     MotionCase c = ellipse(1.5);
     c.point.preload = least * (1.0 + aside);
-    const PlanarLaw law(SurfaceLaw(c.point, 3.0), 1e-13);
-    const PointTraction now = traction(law, c.motion);
+    const PlaneEvents method(SurfaceLaw(c.point, 3.0), 1e-13);
+    const PointTraction now = traction(method, c.motion);
     EXPECT_EQ(now.regime, aside < 0.0 ? CycleRegime::separation : CycleRegime::stick_slip);
     for (const Eigen::Index k : {1, 3, 4, 5, 6, 7, 8}) {
       // Away from grazing by up to 2e-6 of 1e-3: the third derivative of a square root over 1e-3 is
       // 1e7, times the square of the step.
       const Eigen::VectorXd away =
-          one_sided(law, c.motion, k, k == 1 ? std::copysign(1e-6, aside) : 1e-6);
+          one_sided(method, c.motion, k, k == 1 ? std::copysign(1e-6, aside) : 1e-6);
       EXPECT_LE((now.jacobian.col(k) - away).cwiseAbs().maxCoeff(), 1e-4) << k << ", " << aside;
     }
   }
@@ -318,8 +321,8 @@ TEST(PlanarPointHard, VanishingFrictionFollowsTheMotionWithoutMemory) {
   }
   for (const LittleFriction& x : cases) {
     const MotionCase c = vanishing(x);
-    const PlanarLaw law(SurfaceLaw(c.point, 2.0), tight);
-    const PointTraction now = traction(law, c.motion);
+    const PlaneEvents method(SurfaceLaw(c.point, 2.0), tight);
+    const PointTraction now = traction(method, c.motion);
     const double scale = x.load_unit * x.friction_unit;
     const Memoryless exact = memoryless(x);
     const std::string name = std::to_string(std::log10(scale)) + ", " + std::to_string(x.stiffness);
@@ -338,7 +341,7 @@ TEST(PlanarPointHard, VanishingFrictionFollowsTheMotionWithoutMemory) {
       EXPECT_LE((J - exact.jacobian.row(row)).cwiseAbs().maxCoeff(), near) << name;
     }
     const Eigen::VectorXd phases = Eigen::VectorXd::LinSpaced(7, 0.1, 5.9);
-    const PointHistory history = law.history(c.motion, 1.0, phases, 3);
+    const PointHistory history = method.history(c.motion, 1.0, phases, 3);
     EXPECT_NEAR(history.dissipated_energy / scale, exact.dissipation, near) << name;
     for (Eigen::Index i = 0; i < phases.size(); ++i) {
       const Eigen::Vector3d& f = history.instants[static_cast<std::size_t>(i)].traction;
@@ -355,20 +358,20 @@ TEST(PlanarPointHard, VanishingFrictionOfAStraightMotionIsItsSign) {
     for (const double n : {1e-6, 1e-30, 1e-155, 1e-200, 1e-310}) {
       MotionCase c = vanishing({1.0, 0.0, n});
       c.motion.rows().col(2) = share * c.motion.rows().col(0);
-      const PlanarLaw law(SurfaceLaw(c.point, 2.0), tight);
-      const PointTraction now = traction(law, c.motion);
+      const PlaneEvents method(SurfaceLaw(c.point, 2.0), tight);
+      const PointTraction now = traction(method, c.motion);
       const Eigen::Vector3d f = now.force.rows().col(0) / n;
       const double along = 1.0 / std::hypot(1.0, share);
       constexpr double near = 2e-3;
       EXPECT_NEAR(f[1], -0.5 * along * 4.0 / pi, near) << n;
       EXPECT_NEAR(f[2], 0.0, near) << n;
       EXPECT_TRUE(now.jacobian.allFinite()) << n;
-      const PointHistory history = law.history(c.motion, 1.0, {}, 1);
+      const PointHistory history = method.history(c.motion, 1.0, {}, 1);
       EXPECT_NEAR(history.dissipated_energy / n, 0.5 * 4.0 / along, near) << n;
     }
   }
   const MotionCase none = vanishing({0.0, 0.0, 1.0});
-  const PointTraction now = traction(PlanarLaw(SurfaceLaw(none.point, 2.0), tight), none.motion);
+  const PointTraction now = traction(PlaneEvents(SurfaceLaw(none.point, 2.0), tight), none.motion);
   EXPECT_EQ(now.force.rows().norm(), 0.0);
 }
 
@@ -380,13 +383,13 @@ TEST(PlanarPointHard, FrictionThatUnderflowsWithTheRateIsNone) {
         MotionCase c = vanishing({preload, 1.0, 1.0});
         c.motion.rows().col(2) *= second;
         const contact::FrictionLaw friction = contact::FrictionLaw::exponential(0.3, 0.0, decay);
-        const PlanarLaw law(SurfaceLaw(c.point, 2.0, friction), tight);
-        const PointTraction now = traction(law, c.motion);
+        const PlaneEvents method(SurfaceLaw(c.point, 2.0, friction), tight);
+        const PointTraction now = traction(method, c.motion);
         ASSERT_TRUE(now.force.rows().allFinite() && now.jacobian.allFinite()) << decay;
         // |f| ≤ μ n: at most the part of the period with λσ < 1, at either turn, and its tail.
         const double most = 2.0 * 0.3 * (preload + 1.0) * 4.0 / decay;
         EXPECT_LE(now.force.rows().col(0).cwiseAbs().maxCoeff(), most) << decay;
-        const PointHistory history = law.history(c.motion, 1.0, {}, 1);
+        const PointHistory history = method.history(c.motion, 1.0, {}, 1);
         const double done = test::cycle_work(c.motion, history.force, 0) +
                             test::cycle_work(c.motion, history.force, 2);
         // Ten times the tolerance for each force, along the way.

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/transient/patch_transient.hpp"
 
 namespace microslip::tests {
@@ -208,12 +208,12 @@ void add_transient(solver::Scene& scene) {
 
 void use_event_cycles(solver::Scene& scene) {
   const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
-  std::vector<std::shared_ptr<const contact::PointLaw>> laws;
+  std::vector<std::shared_ptr<const contact::PointMethod>> laws;
   for (const contact::PointParameters& point : patch.patch().points()) {
-    laws.push_back(std::make_shared<contact::EventLaw>(point));
+    laws.push_back(std::make_shared<contact::LineEvents>(point));
   }
-  scene.contact = std::make_unique<contact::LawPatchForce>(patch.patch().weights(), std::move(laws),
-                                                           patch.shapes());
+  scene.contact = std::make_unique<contact::PointMethodForce>(patch.patch().weights(),
+                                                              std::move(laws), patch.shapes());
 }
 
 }  // namespace microslip::tests

@@ -1,5 +1,5 @@
 /// @file
-/// Reference for cycles of one tangential direction with any surface law (surface_event_law.hpp): theory
+/// Reference for cycles of one tangential direction with any surface law (surface_line_events.hpp): theory
 /// sections 3, 8, 10, 11 in extended precision, with its own laws and no part of the library.
 ///
 /// The period is cut where the motion turns or nearly does, where the load has its kinks, and on both sides

@@ -32,8 +32,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
+#include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/planar_transient.hpp"
 #include "solver/continuation.hpp"
@@ -259,12 +259,12 @@ solver::Scene random_planar_scene(std::uint64_t seed, int kind) {
   const Eigen::Vector2d weights(draw(0.5, 1.5), draw(0.5, 1.5));
   const contact::ModalShapes shapes{shape(), shape(), shape()};
   std::vector<SurfaceLaw> laws;
-  std::vector<std::shared_ptr<const contact::PointLaw>> cycles;
+  std::vector<std::shared_ptr<const contact::PointMethod>> cycles;
   for (int i = 0; i < 2; ++i) {
     laws.push_back(random_law(draw, kind));
-    cycles.push_back(std::make_shared<contact::PlanarLaw>(laws.back(), 1e-11));
+    cycles.push_back(std::make_shared<contact::PlaneEvents>(laws.back(), 1e-11));
   }
-  scene.contact = std::make_unique<contact::LawPatchForce>(weights, std::move(cycles), shapes);
+  scene.contact = std::make_unique<contact::PointMethodForce>(weights, std::move(cycles), shapes);
   scene.transient = std::make_unique<contact::PlanarTransient>(weights, std::move(laws), shapes);
   return scene;
 }

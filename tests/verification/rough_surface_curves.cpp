@@ -18,7 +18,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/surface/rough_surface.hpp"
 
 namespace microslip::contact {
@@ -137,7 +137,7 @@ Loop loop(const SurfaceLaw& law, double a, double b) {
   motion.rows()(2, 1) = b;
   const Eigen::VectorXd phases = Eigen::VectorXd::LinSpaced(n + 1, 0.0, 2.0 * std::numbers::pi);
   Loop result;
-  result.history = SurfaceEventLaw(law).history(motion, 1.0, phases, 1);
+  result.history = SurfaceLineEvents(law).history(motion, 1.0, phases, 1);
   for (const PointInstant& instant : result.history.instants) {
     result.u.push_back(instant.motion[0]);
     result.f.push_back(instant.traction[0]);

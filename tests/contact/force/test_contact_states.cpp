@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "contact/closed_form/cycle_states.hpp"
-#include "contact/force/law_patch_force.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace microslip::contact {
@@ -82,11 +82,11 @@ TEST(CycleStates, AreTheSameByEveryLaw) {
     motion.rows().col(1) << c.motion.v_mean, c.motion.v_sin, c.motion.v_cos;
     const SurfaceLaw surface(c.point, 0.0);
     PointTraction traction;
-    EventLaw(c.point).traction(motion, 1.0, traction);
+    LineEvents(c.point).traction(motion, 1.0, traction);
     EXPECT_DOUBLE_EQ(traction.period.changed(expected.period), 0.0);
-    SurfaceEventLaw(surface).traction(motion, 1.0, traction);
+    SurfaceLineEvents(surface).traction(motion, 1.0, traction);
     EXPECT_DOUBLE_EQ(traction.period.changed(expected.period), 0.0);
-    PlanarLaw(surface).traction(motion, 1.0, traction);  // tells slip, not its direction
+    PlaneEvents(surface).traction(motion, 1.0, traction);  // tells slip, not its direction
     EXPECT_LE(traction.period.without_slip().changed(expected.period.without_slip()), 0.0);
   }
 }
@@ -98,22 +98,22 @@ ModalShapes shapes_of(std::size_t n_points) {
 
 TEST(ContactStates, OfAPatchAreTheSameByClosedFormAndByLaws) {
   std::vector<PointParameters> points;
-  std::vector<std::shared_ptr<const PointLaw>> laws;
+  std::vector<std::shared_ptr<const PointMethod>> methods;
   for (const Case& c : cases()) {
     points.push_back(c.point);
-    laws.push_back(std::make_shared<EventLaw>(c.point));
+    methods.push_back(std::make_shared<LineEvents>(c.point));
   }
   points[7].friction_coefficient = 0.0;
-  laws[7] = std::make_shared<EventLaw>(points[7]);
+  methods[7] = std::make_shared<LineEvents>(points[7]);
   Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(200, 0.0, 2.0);  // the first has no area
   PatchForce closed(ContactPatch(weights, points), shapes_of(200));
-  LawPatchForce by_laws(weights, laws, shapes_of(200));
+  PointMethodForce by_methods(weights, methods, shapes_of(200));
   Harmonics q(1, 1);
   q.rows().col(0) << 0.1, 0.6, 0.7;
   ContactStates a;
   ContactStates b;
   closed.states(q, 1.0, a);
-  by_laws.states(q, 1.0, b);
+  by_methods.states(q, 1.0, b);
   ASSERT_EQ(a.size(), 199U);
   ASSERT_EQ(b.size(), 199U);
   double area = 0.0;
@@ -124,7 +124,7 @@ TEST(ContactStates, OfAPatchAreTheSameByClosedFormAndByLaws) {
   }
   EXPECT_DOUBLE_EQ(state_change(a, b).share, 0.0);
   EXPECT_NEAR(area, 1.0, 1e-14);
-  by_laws.states(q, 1.0, b);  // what it keeps
+  by_methods.states(q, 1.0, b);  // what it keeps
   EXPECT_EQ(state_change(a, b).n_regimes, 0);
   EXPECT_DOUBLE_EQ(state_change(a, b).share, 0.0);
 }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "contact/contact_map.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace microslip::contact {
@@ -89,11 +89,11 @@ TEST(TransitionGuards, SignsAreTheRegimeOfManyHarmonicsAndTwoDirections) {
     const TransitionGuards one = transition_guards(law, motion, 1.0, false);
     const TransitionGuards two = transition_guards(law, motion, 1.0, true);
     if (std::abs(one.slip) > 1e-4) {  // else within the error of the samples
-      expect_regime(one, EventLaw(point).history(motion, 1.0, phase, 1).regime);
+      expect_regime(one, LineEvents(point).history(motion, 1.0, phase, 1).regime);
       if (one.slip > 0.0) ++slipping;
     }
     if (std::abs(two.slip) > 0.05) {
-      expect_regime(two, PlanarLaw(law, 1e-6).history(motion, 1.0, phase, 1).regime);
+      expect_regime(two, PlaneEvents(law, 1e-6).history(motion, 1.0, phase, 1).regime);
     }
     EXPECT_GE(two.slip, one.slip - 0.05);  // motion along r only adds to the force
   }
@@ -103,12 +103,13 @@ TEST(TransitionGuards, SignsAreTheRegimeOfManyHarmonicsAndTwoDirections) {
 
 TEST(ContactMapOfManyHarmonics, KeepsEveryStartAndTheSharesOfThePeriod) {
   const PointParameters point{1.0, 0.0, 0.5, 1.0};
-  const std::vector<std::shared_ptr<const PointLaw>> laws{std::make_shared<EventLaw>(point)};
+  const std::vector<std::shared_ptr<const PointMethod>> methods{
+      std::make_shared<LineEvents>(point)};
   const ModalShapes shapes{Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1), {}};
   Harmonics q(3, 1);
   q.rows()(1, 0) = 0.1;
   q.rows()(5, 0) = 2.0;  // three times as fast: every state comes three times
-  ContactMap map = contact_map(laws, shapes, q, 1.0, 8, 0.0);
+  ContactMap map = contact_map(methods, shapes, q, 1.0, 8, 0.0);
   EXPECT_EQ(map.slip_guard.size(), 0);
   add_guards(map, {SurfaceLaw(point, 0.0)}, shapes, q, 1.0);
   EXPECT_GT(map.slip_guard[0], 0.0);

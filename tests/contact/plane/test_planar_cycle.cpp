@@ -16,11 +16,11 @@ namespace {
 constexpr double tight = 1e-11;
 
 // Theory section 9: u = a (cos θ, sin θ), constant load.
-TEST(PlanarLaw, CircularMotionHasItsClosedForm) {
+TEST(PlaneEvents, CircularMotionHasItsClosedForm) {
   const double k = 2.0e6;
   const double limit = 0.3 * 1e3;
   for (const double a : {1.6e-4, 3.5e-4, 2e-3}) {
-    const PlanarLaw law(SurfaceLaw({k, 1e6, 0.3, 1e3}, k), tight);
+    const PlaneEvents law(SurfaceLaw({k, 1e6, 0.3, 1e3}, k), tight);
     Harmonics motion(1, 3);
     motion.rows()(2, 0) = a;
     motion.rows()(1, 2) = a;
@@ -56,7 +56,7 @@ Harmonics straight(const PointMotion& m, double angle) {
   return motion;
 }
 
-double straight_error(const PlanarLaw& law, const test::CycleCase& c, double angle) {
+double straight_error(const PlaneEvents& law, const test::CycleCase& c, double angle) {
   const FrictionCycle expected = friction_cycle(c.point, c.motion);
   PointTraction traction;
   law.traction(straight(c.motion, angle), 1.0, traction);
@@ -69,26 +69,26 @@ double straight_error(const PlanarLaw& law, const test::CycleCase& c, double ang
   return std::max(friction / test::friction_scale(c), load / test::normal_scale(c));
 }
 
-TEST(PlanarLaw, StraightMotionInAnyDirectionIsTheLawOfOneDirection) {
+TEST(PlaneEvents, StraightMotionInAnyDirectionIsTheLawOfOneDirection) {
   test::Random random(5);
   for (int i = 0; i < 500; ++i) {
     const test::CycleCase c = test::generic_case(random);
-    const PlanarLaw law(SurfaceLaw(c.point, c.point.tangential_stiffness), 1e-10);
+    const PlaneEvents law(SurfaceLaw(c.point, c.point.tangential_stiffness), 1e-10);
     EXPECT_LT(straight_error(law, c, 0.37 + i), 1e-9) << "case " << i;
   }
 }
 
-TEST(PlanarLaw, StraightMotionAlongAnAxisFeelsTheStiffnessOfThatAxisAlone) {
+TEST(PlaneEvents, StraightMotionAlongAnAxisFeelsTheStiffnessOfThatAxisAlone) {
   test::Random random(6);
   for (int i = 0; i < 100; ++i) {
     const test::CycleCase c = test::generic_case(random);
     const double k = c.point.tangential_stiffness;
     for (const double other : {0.0, 0.3 * k, 5.0 * k}) {
-      const PlanarLaw along_p(SurfaceLaw(c.point, other), 1e-10);
+      const PlaneEvents along_p(SurfaceLaw(c.point, other), 1e-10);
       EXPECT_LT(straight_error(along_p, c, 0.0), 1e-9) << "case " << i;
       PointParameters turned = c.point;
       turned.tangential_stiffness = other;
-      const PlanarLaw along_r(SurfaceLaw(turned, k), 1e-10);
+      const PlaneEvents along_r(SurfaceLaw(turned, k), 1e-10);
       EXPECT_LT(straight_error(along_r, c, 0.5 * std::numbers::pi), 1e-9) << "case " << i;
     }
   }
@@ -104,8 +104,8 @@ Harmonics lissajous() {
   return motion;
 }
 
-TEST(PlanarLaw, TurningTheMotionTurnsTheForce) {
-  const PlanarLaw law(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 2.0), tight);
+TEST(PlaneEvents, TurningTheMotionTurnsTheForce) {
+  const PlaneEvents law(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 2.0), tight);
   const Harmonics motion = lissajous();
   PointTraction plain;
   law.traction(motion, 1.0, plain);
@@ -125,8 +125,8 @@ TEST(PlanarLaw, TurningTheMotionTurnsTheForce) {
 
 // Sums over instants meet the coefficients of the same cycle: what maps show is what the solver
 // feels.
-TEST(PlanarLaw, InstantsAddUpToTheCoefficients) {
-  const PlanarLaw law(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), 1e-10);
+TEST(PlaneEvents, InstantsAddUpToTheCoefficients) {
+  const PlaneEvents law(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), 1e-10);
   constexpr int n = 4000;
   const Eigen::VectorXd phases =
       Eigen::VectorXd::LinSpaced(n, 0.0, 2.0 * std::numbers::pi * (n - 1) / n);
@@ -151,10 +151,10 @@ TEST(PlanarLaw, InstantsAddUpToTheCoefficients) {
   EXPECT_NEAR(length, 2.0 * std::numbers::pi, 1e-12);
 }
 
-TEST(PlanarLaw, WithoutFrictionOnlyTheLoadIsLeft) {
+TEST(PlaneEvents, WithoutFrictionOnlyTheLoadIsLeft) {
   PointTraction traction;
   for (const auto& [mu, k] : {std::pair{0.0, 2.0}, std::pair{0.5, 0.0}}) {
-    const PlanarLaw law(SurfaceLaw({k, 1.5, mu, 0.9}, k), tight);
+    const PlaneEvents law(SurfaceLaw({k, 1.5, mu, 0.9}, k), tight);
     law.traction(lissajous(), 1.0, traction);
     EXPECT_EQ(traction.force.rows().col(0).norm(), 0.0);
     EXPECT_EQ(traction.force.rows().col(2).norm(), 0.0);
@@ -164,8 +164,8 @@ TEST(PlanarLaw, WithoutFrictionOnlyTheLoadIsLeft) {
   }
 }
 
-TEST(PlanarLaw, AGapNeverClosedIsAsleep) {
-  const PlanarLaw law(SurfaceLaw({2.0, 1.0, 0.5, -5.0}, 3.0), tight);
+TEST(PlaneEvents, AGapNeverClosedIsAsleep) {
+  const PlaneEvents law(SurfaceLaw({2.0, 1.0, 0.5, -5.0}, 3.0), tight);
   PointTraction traction;
   law.traction(lissajous(), 1.0, traction);
   EXPECT_EQ(traction.regime, CycleRegime::separated);
@@ -173,12 +173,12 @@ TEST(PlanarLaw, AGapNeverClosedIsAsleep) {
   EXPECT_EQ(traction.jacobian.norm(), 0.0);
 }
 
-TEST(PlanarLaw, ALooserToleranceIsMet) {
+TEST(PlaneEvents, ALooserToleranceIsMet) {
   PointTraction exact;
-  PlanarLaw(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), 1e-13).traction(lissajous(), 1.0, exact);
+  PlaneEvents(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), 1e-13).traction(lissajous(), 1.0, exact);
   for (const double tolerance : {1e-10, 1e-8, 1e-6, 1e-4}) {
     PointTraction traction;
-    PlanarLaw(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), tolerance)
+    PlaneEvents(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 0.7), tolerance)
         .traction(lissajous(), 1.0, traction);
     const double error = (traction.force.vector() - exact.force.vector()).cwiseAbs().maxCoeff();
     EXPECT_LT(error, 10.0 * tolerance);
@@ -186,13 +186,13 @@ TEST(PlanarLaw, ALooserToleranceIsMet) {
 }
 
 // Motion and preload times a power of two: forces follow, derivatives stay, to the last bit.
-TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
+TEST(PlaneEvents, ForcesFollowTheUnitToTheLastBit) {
   Eigen::VectorXd phases(2);
   phases << 0.3, 4.0;
   for (const double preload : {0.9, 5.0, 60.0}) {
     const PointParameters point{2.0, 1.5, 0.6, preload};
     PointTraction plain;
-    PlanarLaw(SurfaceLaw(point, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight)
+    PlaneEvents(SurfaceLaw(point, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight)
         .traction(lissajous(), 1.0, plain);
     for (const int exponent : {-330, -200, -1, 3, 200, 330}) {
       const double unit = std::ldexp(1.0, exponent);
@@ -200,7 +200,7 @@ TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
       scaled.preload *= unit;
       Harmonics motion = lissajous();
       motion.rows() *= unit;
-      const PlanarLaw law(SurfaceLaw(scaled, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight);
+      const PlaneEvents law(SurfaceLaw(scaled, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight);
       PointTraction traction;
       law.traction(motion, 1.0 / unit, traction);
       EXPECT_EQ(traction.force.vector() / unit, plain.force.vector()) << exponent;
@@ -214,12 +214,12 @@ TEST(PlanarLaw, ForcesFollowTheUnitToTheLastBit) {
 }
 
 // All sizes that a scene may give, and lengths of kilometres; stiffness as of metals.
-TEST(PlanarLaw, NoAmplitudeIsTooSmallOrTooLarge) {
+TEST(PlaneEvents, NoAmplitudeIsTooSmallOrTooLarge) {
   for (const double size : {1e-100, 1e-50, 1e-15, 1e3}) {
     for (const double preload : {0.0, 1e-100, 1e6}) {
       Harmonics motion = lissajous();
       motion.rows() *= size;
-      const PlanarLaw law(SurfaceLaw({2e12, 1.5e12, 0.6, preload}, 0.7e12), tight);
+      const PlaneEvents law(SurfaceLaw({2e12, 1.5e12, 0.6, preload}, 0.7e12), tight);
       PointTraction traction;
       law.traction(motion, 1.0, traction);
       EXPECT_TRUE(traction.force.vector().allFinite()) << size;
@@ -231,29 +231,30 @@ TEST(PlanarLaw, NoAmplitudeIsTooSmallOrTooLarge) {
 }
 
 // A mean beyond all measure only says from where the slider is dragged.
-TEST(PlanarLaw, AMeanBeyondAllMeasureIsDragged) {
+TEST(PlaneEvents, AMeanBeyondAllMeasureIsDragged) {
   Harmonics motion = lissajous();
   motion.rows().bottomRows(4).col(1).setZero();
   motion.rows().bottomRows(4) *= 0.01;
   motion.rows().row(0) << 3e200, 0.0, -4e200;
   PointTraction traction;
-  PlanarLaw(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 2.0), tight).traction(motion, 1.0, traction);
+  PlaneEvents(SurfaceLaw({2.0, 1.5, 0.6, 0.9}, 2.0), tight).traction(motion, 1.0, traction);
   EXPECT_EQ(traction.regime, CycleRegime::full_stick);
   EXPECT_NEAR(traction.force.mean()[0], 0.6 * 0.54, 0.05);
   EXPECT_NEAR(traction.force.mean()[2], -0.8 * 0.54, 0.05);
 }
 
-TEST(PlanarLaw, RefusesWhatItCannotMeet) {
+TEST(PlaneEvents, RefusesWhatItCannotMeet) {
   const SurfaceLaw surface({2.0, 1.5, 0.6, 0.9}, 0.7);
-  EXPECT_THROW(PlanarLaw(surface, 0.0), std::invalid_argument);
-  EXPECT_THROW(PlanarLaw(surface, 1.0), std::invalid_argument);
+  EXPECT_THROW(PlaneEvents(surface, 0.0), std::invalid_argument);
+  EXPECT_THROW(PlaneEvents(surface, 1.0), std::invalid_argument);
   PointTraction traction;
-  EXPECT_THROW(PlanarLaw(surface).traction(Harmonics(1, 2), 1.0, traction), std::invalid_argument);
+  EXPECT_THROW(PlaneEvents(surface).traction(Harmonics(1, 2), 1.0, traction),
+               std::invalid_argument);
 }
 
 // Sixty deviations apart Gaussian heights carry less than the smallest number. A period was judged
 // by its middle: with that at θ = π all contact was missed, anywhere else it was found.
-TEST(PlanarLaw, GaussianHeightsThatPartFarTouchAgain) {
+TEST(PlaneEvents, GaussianHeightsThatPartFarTouchAgain) {
   const SurfaceLaw law({2.0, 1.0, 0.4, 0.01}, 1.4, FrictionLaw::constant(0.4),
                        RoughSurface::matching_gaussian(0.1));
   PointTraction first;
@@ -271,7 +272,7 @@ TEST(PlanarLaw, GaussianHeightsThatPartFarTouchAgain) {
       motion.rows()(2, column) = d * sine + c * cosine;
     }
     PointTraction traction;
-    PlanarLaw(law).traction(motion, 1.0, traction);
+    PlaneEvents(law).traction(motion, 1.0, traction);
     EXPECT_EQ(traction.regime, CycleRegime::separation) << turn;
     const auto size = [](const PointTraction& of, Eigen::Index column) {
       return of.force.rows().col(column).tail(2).norm();

@@ -38,7 +38,7 @@ SurfaceLaw surface_of(const EventCase& c) {
 /// Of the friction of a law with a tolerance, relative to the force scale.
 double error_of(const EventCase& c, const EventReference& reference, double tolerance) {
   PointTraction traction;
-  PlanarLaw(surface_of(c), tolerance).traction(c.point.motion, 1.0, traction);
+  PlaneEvents(surface_of(c), tolerance).traction(c.point.motion, 1.0, traction);
   double error = 0.0;
   for (std::size_t i = 0; i < reference.first.size(); ++i) {
     const auto& force = traction.force.rows().row(static_cast<Eigen::Index>(i));
@@ -48,7 +48,7 @@ double error_of(const EventCase& c, const EventReference& reference, double tole
   return error / test::planar_scale(c.point);
 }
 
-TEST(PlanarLawEvents, ForcesAreThoseOfLocatedEvents) {
+TEST(PlaneEventsTolerance, ForcesAreThoseOfLocatedEvents) {
   std::mt19937_64 random(81);
   const int n_cases = tests::campaign_size(60, 12);
   int sure = 0;
@@ -68,7 +68,7 @@ TEST(PlanarLawEvents, ForcesAreThoseOfLocatedEvents) {
 }
 
 // What a tolerance promises, slow points included.
-TEST(PlanarLawEvents, TolerancesAreMet) {
+TEST(PlaneEventsTolerance, TolerancesAreMet) {
   std::mt19937_64 random(82);
   const int n_cases = tests::campaign_size(16, 4);
   for (int i = 0; i < n_cases; ++i) {

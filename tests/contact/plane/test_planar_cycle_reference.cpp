@@ -1,4 +1,4 @@
-// The planar law against fixed-step marches in extended precision, on random orbits: several
+// The planar method against fixed-step marches in extended precision, on random orbits: several
 // harmonics, different stiffness along p and r, variable load, gaps, separation.
 #include <algorithm>
 #include <cmath>
@@ -38,16 +38,16 @@ struct Tally {
   double largest_sure = 0.0;
 };
 
-TEST(PlanarLawReference, AgreesWithMarchesOnRandomOrbits) {
+TEST(PlaneEventsReference, AgreesWithMarchesOnRandomOrbits) {
   std::mt19937_64 random(20260102);
   Tally tally;
   const int n_cases = tests::campaign_size(240);
   for (int i = 0; i < n_cases; ++i) {
     const PlanarCase c = random_case(random, i);
     const double scale = test::planar_scale(c);
-    const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), 1e-10);
+    const PlaneEvents method(SurfaceLaw(c.point, c.second_stiffness), 1e-10);
     PointTraction traction;
-    law.traction(c.motion, 1.0, traction);
+    method.traction(c.motion, 1.0, traction);
     const test::PlanarReference reference = test::planar_reference(c, 512);
     double error = 0.0;
     for (std::size_t row = 0; row < reference.first.size(); ++row) {
@@ -74,14 +74,14 @@ TEST(PlanarLawReference, AgreesWithMarchesOnRandomOrbits) {
 }
 
 // ∮ f·dx from the coefficients and ∮ μ n |ds| from the slip phases are found in different ways.
-TEST(PlanarLawReference, WorkOfTheForceIsDissipatedBySlip) {
+TEST(PlaneEventsReference, WorkOfTheForceIsDissipatedBySlip) {
   std::mt19937_64 random(20260103);
   constexpr double tolerance = 1e-10;
   for (int i = 0; i < 200; ++i) {
     const PlanarCase c = random_case(random, i);
-    const PlanarLaw law(SurfaceLaw(c.point, c.second_stiffness), tolerance);
+    const PlaneEvents method(SurfaceLaw(c.point, c.second_stiffness), tolerance);
     const PointHistory history =
-        law.history(c.motion, 1.0, Eigen::VectorXd(), c.motion.n_harmonics());
+        method.history(c.motion, 1.0, Eigen::VectorXd(), c.motion.n_harmonics());
     const double done =
         test::cycle_work(c.motion, history.force, 0) + test::cycle_work(c.motion, history.force, 2);
     const double size = c.motion.rows().bottomRows(c.motion.rows().rows() - 1).norm();
@@ -133,8 +133,8 @@ test::SurfaceMoment moment_of(const PointParameters& point, double second_stiffn
 }
 
 // Bodies that are not equally stiff along p and r make the ratio of the two stiffnesses vary with
-// the load; the law must not take one for both.
-TEST(PlanarLawReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
+// the load; the method must not take one for both.
+TEST(PlaneEventsReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
   std::mt19937_64 random(20260104);
   std::normal_distribution<double> g;
   int sure = 0;
@@ -156,7 +156,7 @@ TEST(PlanarLawReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
     c.point.friction_coefficient = rough.slow;
     const double scale = test::planar_scale(c);
     PointTraction traction;
-    PlanarLaw(surface, 1e-10).traction(c.motion, 1.0, traction);
+    PlaneEvents(surface, 1e-10).traction(c.motion, 1.0, traction);
     const test::PlanarReference reference = test::planar_reference(c, 512);
     double error = 0.0;
     for (std::size_t row = 0; row < reference.first.size(); ++row) {

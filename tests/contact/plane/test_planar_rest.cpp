@@ -65,7 +65,7 @@ TEST(PlanarRest, AMeanWithoutMotionRestsAtTheLimit) {
   Harmonics motion(2, 3);
   motion.rows()(0, 0) = 3.0;
   motion.rows()(0, 2) = -4.0;
-  const PlanarLaw law(SurfaceLaw({1.0, 1.0, 0.5, 2.0}, 1.0));
+  const PlaneEvents law(SurfaceLaw({1.0, 1.0, 0.5, 2.0}, 1.0));
   PointTraction traction;
   law.traction(motion, 1.0, traction);
   EXPECT_EQ(traction.regime, CycleRegime::full_stick);
@@ -83,7 +83,7 @@ TEST(PlanarRest, ACircleIsDecidedByItsRadius) {
     motion.rows()(1, 0) = 1.0 + aside;
     motion.rows()(2, 2) = 1.0 + aside;
     PointTraction traction;
-    PlanarLaw(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), 1e-11).traction(motion, 1.0, traction);
+    PlaneEvents(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), 1e-11).traction(motion, 1.0, traction);
     EXPECT_EQ(traction.regime, aside > 0.0 ? CycleRegime::stick_slip : CycleRegime::full_stick);
     const double mean = std::hypot(traction.force.mean()[0], traction.force.mean()[2]);
     EXPECT_LE(mean, aside > 0.0 ? 1e-10 : -1.01 * aside) << aside;

@@ -29,7 +29,7 @@ Harmonics straight_with_mean(double amplitude, double mean) {
   return motion;
 }
 
-PlanarLaw unit_law() { return PlanarLaw(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
+PlaneEvents unit_law() { return PlaneEvents(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
 
 // Discs of radius 1 around (±a, 0) meet at (0, ±√(1 − a²)): a mean larger than that is let slip
 // until the spring across carries just this much. With a → 1 a march would need 1/(1 − a) periods
@@ -87,7 +87,7 @@ TEST(PlanarSteady, NoMeanIsHeldNextToTheOnsetOfSlip) {
   for (int i = 0; i < 4000; ++i) {
     const test::PlanarCase c = test::onset_planar(random);
     PointTraction traction;
-    PlanarLaw(SurfaceLaw(c.point, c.second_stiffness), tight).traction(c.motion, 1.0, traction);
+    PlaneEvents(SurfaceLaw(c.point, c.second_stiffness), tight).traction(c.motion, 1.0, traction);
     const bool slips = onset_size(c) > 1.0;
     EXPECT_EQ(traction.regime, slips ? CycleRegime::stick_slip : CycleRegime::full_stick) << i;
     if (!slips) continue;
@@ -141,8 +141,8 @@ TEST(PlanarSteady, SearchesNextToAnyOnsetMeetTheirTolerance) {
     PointTraction traction;
     PointTraction loose;
     const SurfaceLaw surface(c.point, c.second_stiffness);
-    PlanarLaw(surface, tight).traction(c.motion, 1.0, traction);
-    PlanarLaw(surface, 1e-9).traction(c.motion, 1.0, loose);
+    PlaneEvents(surface, tight).traction(c.motion, 1.0, traction);
+    PlaneEvents(surface, 1e-9).traction(c.motion, 1.0, loose);
     EXPECT_EQ(traction.regime, aside > 0.0 ? CycleRegime::stick_slip : CycleRegime::full_stick)
         << i;
     EXPECT_EQ(traction.defect, 0.0) << i;
@@ -237,7 +237,7 @@ TEST(PlanarSteady, TheCornerMovesAsItsDerivativeSays) {
   for (int i = 0; i < 400; ++i) {
     test::PlanarCase c = test::creeping_planar(random);
     const SurfaceLaw surface(c.point, c.second_stiffness);
-    const PlanarLaw law(surface, tight);
+    const PlaneEvents law(surface, tight);
     const PlanarMotion motion(surface, c.motion, 1.0);
     const SteadyOrbit steady = steady_orbit(motion, planar_intervals(motion), {tight, 3.0});
     if (!steady.corner.has_value()) continue;
@@ -276,7 +276,7 @@ struct Line {
     Harmonics motion = from.motion;
     motion.rows() += share * way.rows();
     PointTraction traction;
-    PlanarLaw(SurfaceLaw(from.point, from.second_stiffness)).traction(motion, 1.0, traction);
+    PlaneEvents(SurfaceLaw(from.point, from.second_stiffness)).traction(motion, 1.0, traction);
     const double scale = test::planar_scale(from);
     return {traction.force.vector() / scale, traction.jacobian * way.vector() / scale};
   }
@@ -353,7 +353,7 @@ TEST(PlanarSteady, HardlyAnySearchEndsBeforeItsTolerance) {
     for (const test::PlanarStratum& stratum : test::planar_strata()) {
       const test::PlanarCase c = stratum.draw(random);
       PointTraction traction;
-      PlanarLaw(SurfaceLaw(c.point, c.second_stiffness), tight).traction(c.motion, 1.0, traction);
+      PlaneEvents(SurfaceLaw(c.point, c.second_stiffness), tight).traction(c.motion, 1.0, traction);
       EXPECT_TRUE(traction.force.vector().allFinite() && traction.jacobian.allFinite());
       EXPECT_TRUE(traction.defect == 0.0 || traction.defect > 0.01 * tight) << stratum.name;
       unmet += traction.defect > 0.0;

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/sampled/patch_force.hpp"
 #include "one_point.hpp"
 #include "support/motion_cases.hpp"
@@ -36,10 +36,10 @@ std::vector<MotionCase> motions(int n) {
   return cases;
 }
 
-PointTraction traction(const PointLaw& law, const Harmonics& motion) {
+PointTraction traction(const PointMethod& method, const Harmonics& motion) {
   PointTraction result;
-  law.traction(motion, frequency, result);
-  result.force.rows()(0, 1) -= law.load_at_rest();
+  method.traction(motion, frequency, result);
+  result.force.rows()(0, 1) -= method.load_at_rest();
   return result;
 }
 
@@ -67,7 +67,7 @@ TEST_P(LineSurfaces, ConvergeToLocatedEventsInSecondOrder) {
   const auto cases = motions(40);
   std::vector<Harmonics> exact;
   for (const MotionCase& c : cases) {
-    exact.push_back(traction(SurfaceEventLaw(GetParam().make(c)), c.motion).force);
+    exact.push_back(traction(SurfaceLineEvents(GetParam().make(c)), c.motion).force);
   }
   const double coarse = rms(cases, GetParam(), exact, 128);
   const double middle = rms(cases, GetParam(), exact, 512);
@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, LineSurfaces, testing::ValuesIn(test::surface
 
 // Section 4.2: a virgin slider, clipped into its band. Points that are pushed are not asleep; where
 // the band is met between instants its end errs by O(n⁻²).
-TEST(SampledLine, FullStickKeepsTheConventionOfTheEventLaw) {
+TEST(SampledLine, FullStickKeepsTheConventionOfTheLineEvents) {
   Random random(5);
   int n_free = 0;
   int n_pushed = 0;
@@ -146,7 +146,7 @@ TEST(SampledLine, FullStickKeepsTheConventionOfTheEventLaw) {
     MotionCase c = test::motion_strata()[5].draw(random);
     c.point.preload *= i % 2 == 0 ? 4.0 : 2.0;
     c.motion.rows()(0, 0) *= i % 2 == 0 ? 1.0 : 8.0;
-    const PointTraction exact = traction(EventLaw(c.point), c.motion);
+    const PointTraction exact = traction(LineEvents(c.point), c.motion);
     if (exact.regime != CycleRegime::full_stick) continue;
     const Harmonics q = modal(c.motion, 2);
     const ForceAndJacobian now = one_point(test::smooth_surface(c), 2, 256).evaluate(q, 1.0);
@@ -171,7 +171,7 @@ TEST(SampledLine, EveryStratumIsFiniteAndNearLocatedEvents) {
       const ForceAndJacobian now = one_point(test::smooth_surface(c), 2, 512).evaluate(q, 1.0);
       ASSERT_TRUE(now.force.rows().allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.jacobian.allFinite()) << stratum.name << ' ' << i;
-      worst = std::max(worst, error(now.force, traction(EventLaw(c.point), c.motion).force, c));
+      worst = std::max(worst, error(now.force, traction(LineEvents(c.point), c.motion).force, c));
     }
     std::printf("%-22s %.1e\n", std::string(stratum.name).c_str(), worst);
     EXPECT_LT(worst, 1e-3) << stratum.name;

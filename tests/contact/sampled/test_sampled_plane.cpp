@@ -91,7 +91,7 @@ std::vector<PlanarCase> cases_of(int n) {
 
 Harmonics exact_force(const SurfaceLaw& surface, const PlanarCase& c) {
   PointTraction result;
-  PlanarLaw(surface).traction(c.motion, frequency, result);
+  PlaneEvents(surface).traction(c.motion, frequency, result);
   result.force.rows()(0, 1) -= surface.load_at_rest();
   return result.force;
 }
@@ -104,7 +104,7 @@ class PlaneSurfaces : public testing::TestWithParam<PlaneSurface> {};
 
 // Four times as many instants, a sixteenth of the error; from 128 to 2048 a factor of 256 in second
 // order, 16 in first, 64 between them.
-TEST_P(PlaneSurfaces, ConvergeToThePlanarLawInSecondOrder) {
+TEST_P(PlaneSurfaces, ConvergeToThePlaneEventsInSecondOrder) {
   const auto cases = cases_of(48);
   std::vector<Harmonics> exact;
   for (const PlanarCase& c : cases) exact.push_back(exact_force(GetParam().make(c), c));
@@ -209,7 +209,7 @@ TEST(SampledPlane, CircularMotionUnderConstantLoad) {
 
 // Next to the onset of slip the mean force is history, or ill determined: both marches end before
 // they have arrived. What has not settled says so.
-TEST(SampledPlane, EveryStratumIsFiniteAndNearThePlanarLaw) {
+TEST(SampledPlane, EveryStratumIsFiniteAndNearThePlaneEvents) {
   for (const test::PlanarStratum& stratum : test::planar_strata()) {
     Random random(6);
     std::array<double, 2> worst{};

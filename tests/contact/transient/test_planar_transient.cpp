@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/law_patch_force.hpp"
+#include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/patch_transient.hpp"
 
@@ -196,7 +196,7 @@ TEST(PlanarTransient, RatesAreThoseOfTheSteadyCycle) {
     Harmonics motion(1, 3);
     motion.rows() << 0.1, 0.05, -0.05, 0.8, 0.2, -0.1, 0.2, -0.1, 0.7;
     constexpr double h = 1e-4;
-    const PlanarLaw cycle(law, 1e-12);
+    const PlaneEvents cycle(law, 1e-12);
     int n_slipping = 0;
     for (int i = 0; i < 40; ++i) {
       const double phase = 0.1 + 2.0 * pi * i / 40;
@@ -348,10 +348,10 @@ TEST(PlanarTransient, SharesTheStuckLimitWithHarmonicBalance) {
   const std::vector<SurfaceLaw> laws{smooth_law(2.0), SurfaceLaw({2.0, 3.0, 0.0, 1.0}, 2.0)};
   const ModalShapes shapes{Eigen::MatrixXd::Random(2, 4), Eigen::MatrixXd::Random(2, 4),
                            Eigen::MatrixXd::Random(2, 4)};
-  std::vector<std::shared_ptr<const PointLaw>> cycles;
-  for (const SurfaceLaw& law : laws) cycles.push_back(std::make_shared<PlanarLaw>(law, 1e-10));
+  std::vector<std::shared_ptr<const PointMethod>> cycles;
+  for (const SurfaceLaw& law : laws) cycles.push_back(std::make_shared<PlaneEvents>(law, 1e-10));
   EXPECT_LT((PlanarTransient(weights, laws, shapes).stuck_stiffness() -
-             LawPatchForce(weights, cycles, shapes).stuck_stiffness())
+             PointMethodForce(weights, cycles, shapes).stuck_stiffness())
                 .norm(),
             1e-14);
 }

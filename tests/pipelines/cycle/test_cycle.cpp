@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contact/closed_form/friction_cycle.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -272,12 +272,12 @@ std::string with_columns(const std::string& columns, const std::string& values) 
          values + "\n";
 }
 
-TEST(CycleOfManyHarmonics, IsThatOfTheEventLaw) {
+TEST(CycleOfManyHarmonics, IsThatOfTheLineEvents) {
   const Json row = cycles(with_columns("u_sin2,v_cos3,u_cos3,u_mean", "0.7,-0.4,1.1,0.3"))[0];
   contact::Harmonics motion(3, 3);
   motion.rows().col(0) << 0.3, 3.0, 0.3, 0.7, 0.0, 0.0, 1.1;
   motion.rows().col(1) << 0.0, 0.2, 0.1, 0.0, 0.0, 0.0, -0.4;
-  const auto history = contact::EventLaw({1.0, 1.0, 0.5, 1.0}).history(motion, 0.0, {}, 3);
+  const auto history = contact::LineEvents({1.0, 1.0, 0.5, 1.0}).history(motion, 0.0, {}, 3);
   EXPECT_EQ(row["dissipated_energy"].get<double>(), history.dissipated_energy);
   EXPECT_EQ(row["slip_distance"].get<double>(), history.slip_distance);
   EXPECT_EQ(row["segments"].size(), history.segments.size());

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-#include "contact/force/law_patch_force.hpp"
+#include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
@@ -111,12 +111,12 @@ TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
   // Loads of rough cells, summed by quadrature, leave 1e-15 of themselves at rest: no motion to be
   // walked along.
   constexpr Eigen::Index n = 7;
-  std::vector<std::shared_ptr<const contact::PointLaw>> cells;
+  std::vector<std::shared_ptr<const contact::PointMethod>> cells;
   contact::ModalShapes shapes{Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 3)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const double x = static_cast<double>(i) / n;
     const contact::PointParameters point{3e4, 4e4, 0.5, 17.3 + 5.1 * x};
-    cells.push_back(std::make_shared<contact::PlanarLaw>(contact::SurfaceLaw(
+    cells.push_back(std::make_shared<contact::PlaneEvents>(contact::SurfaceLaw(
         point, 3e4, contact::FrictionLaw::constant(0.5), contact::RoughSurface::cubic(5e-4))));
     shapes.u.row(i) << 1.0, 0.3 - x, 0.7 * x;
     shapes.v.row(i) << 0.2 * x, 1.0, x - 0.6;
@@ -127,8 +127,8 @@ TEST(Continuation, WithoutForceAPreloadIsInBalanceToRoundingAndNothingMoves) {
   scene.damping_ratio = Eigen::Vector3d::Constant(0.02);
   scene.output = Eigen::Vector3d(1.0, 0.4, 0.2);
   scene.excitation = Harmonics(1, 3);
-  scene.contact = std::make_unique<contact::LawPatchForce>(Eigen::VectorXd::Constant(n, 0.13),
-                                                           std::move(cells), std::move(shapes));
+  scene.contact = std::make_unique<contact::PointMethodForce>(Eigen::VectorXd::Constant(n, 0.13),
+                                                              std::move(cells), std::move(shapes));
   const ResponseCurve curve = trace_response(scene, frequency_range(100.0, 400.0));
   EXPECT_TRUE(curve.complete) << curve.diagnosis << ' ' << curve.message;
   EXPECT_GE(curve.points.size(), 10U);

@@ -17,7 +17,7 @@
 #include <Eigen/LU>
 
 #include "tests/verification/truth/face_model.hpp"
-#include "tests/verification/truth/sampled_law.hpp"
+#include "tests/verification/truth/sampled_return.hpp"
 
 namespace microslip::truth {
 

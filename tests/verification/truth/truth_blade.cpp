@@ -7,10 +7,10 @@
 //
 // Model: the coarse default blade (10 mm), every node of the contact face kept (face_model.hpp);
 // contact 1e11 N/m³ and mu 0.4 at the points of a three-point rule on the subdivided faces, a
-// uniform pressure N/A, a gap -N/(k_v A) (sampled_law.hpp); harmonic balance on the freedoms of the
-// face, condensed exactly (balance.hpp); whole curves by arclength (curve.hpp). 0.5 N at B and at
-// B' along x or y, half peak-to-peak at A along x. Damping ratio 0.2 % of every shape, attachment
-// shapes included. Directions: p has friction along p alone, pr along both.
+// uniform pressure N/A, a gap -N/(k_v A) (sampled_return.hpp); harmonic balance on the freedoms of
+// the face, condensed exactly (balance.hpp); whole curves by arclength (curve.hpp). 0.5 N at B and
+// at B' along x or y, half peak-to-peak at A along x. Damping ratio 0.2 % of every shape,
+// attachment shapes included. Directions: p has friction along p alone, pr along both.
 //
 // Columns: force, preload_N, directions, harmonics, peak_um, first_harmonic_um, peak_Hz, complete
 // (the curve reached its end), curve_points, instants, contact_points, modes, seconds.

@@ -1,4 +1,4 @@
-#include "contact/force/sleeping_laws.hpp"
+#include "contact/force/sleeping_set.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "contact/patch/point_motions.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -41,9 +41,8 @@ void PatchMotion::copy(Eigen::Index point, Harmonics& result) const {
   if (w.size() > 0) result.rows().col(2) = w.row(point).transpose();
 }
 
-SleepingLaws::SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
-                           std::vector<std::optional<LinearRange>> ranges,
-                           const ModalShapes& shapes)
+SleepingSet::SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
+                         std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes)
     : weights_(std::move(weights)),
       load_at_rest_(std::move(load_at_rest)),
       range_(std::move(ranges)) {
@@ -56,7 +55,7 @@ SleepingLaws::SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest
   rows_.resize(n_point_signals * group_, shapes.u.cols());
 }
 
-void SleepingLaws::decide(const PatchMotion& motion, double frequency) {
+void SleepingSet::decide(const PatchMotion& motion, double frequency) {
   if (table_.n_harmonics != motion.n_harmonics()) table_ = PhaseTable(motion.n_harmonics());
   next_.resize(range_.size());
   for (std::size_t i = 0; i < range_.size(); ++i) {
@@ -67,7 +66,7 @@ void SleepingLaws::decide(const PatchMotion& motion, double frequency) {
   }
 }
 
-void SleepingLaws::look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes) {
+void SleepingSet::look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes) {
   decide(motion, frequency);
   if (next_ == state_) return;
   const auto n = static_cast<Eigen::Index>(next_.size());
@@ -90,7 +89,7 @@ void SleepingLaws::look_at(const PatchMotion& motion, double frequency, const Mo
   }
 }
 
-void SleepingLaws::add_up(Eigen::Index group, const ModalShapes& shapes) {
+void SleepingSet::add_up(Eigen::Index group, const ModalShapes& shapes) {
   const Eigen::Index begin = group * group_;
   const Eigen::Index end = std::min(static_cast<Eigen::Index>(state_.size()), begin + group_);
   SleepingPart& part = part_[static_cast<std::size_t>(group)];
@@ -103,7 +102,7 @@ void SleepingLaws::add_up(Eigen::Index group, const ModalShapes& shapes) {
   part.stiffness.triangularView<Eigen::StrictlyUpper>() = part.stiffness.transpose();
 }
 
-void SleepingLaws::add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part) {
+void SleepingSet::add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part) {
   const auto i = static_cast<std::size_t>(point);
   const double weight = weights_[point];
   if (state_[i] == SleepState::awake || weight == 0.0) return;
@@ -120,12 +119,12 @@ void SleepingLaws::add_point(Eigen::Index point, const ModalShapes& shapes, Slee
   add(k[2], shapes.w);
 }
 
-const SleepingPart* SleepingLaws::part() const {
+const SleepingPart* SleepingSet::part() const {
   return awake_.size() < state_.size() ? &sum_ : nullptr;
 }
 
-LinearState SleepingLaws::linear_state(const ModalShapes& shapes, const Harmonics& centre,
-                                       double radius) const {
+LinearState SleepingSet::linear_state(const ModalShapes& shapes, const Harmonics& centre,
+                                      double radius) const {
   PatchMotion motion;
   motion.set(shapes, centre);
   const PhaseTable table(centre.n_harmonics());

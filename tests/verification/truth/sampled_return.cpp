@@ -1,4 +1,4 @@
-#include "tests/verification/truth/sampled_law.hpp"
+#include "tests/verification/truth/sampled_return.hpp"
 
 #include <algorithm>
 #include <cmath>

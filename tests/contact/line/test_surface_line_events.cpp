@@ -1,6 +1,6 @@
-/// The event-located law of any surface against the exact law of smooth ones, the planar law along a line,
+/// The event-located method of any surface against the exact method of smooth ones, the planar method along a line,
 /// and differences.
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/surface_line_events.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
@@ -32,9 +32,10 @@ constexpr double pi = std::numbers::pi;
 constexpr double frequency = test::surface_frequency;
 constexpr double smallest = 1e-300;
 
-PointTraction traction(const PointLaw& law, const Harmonics& motion, double omega = frequency) {
+PointTraction traction(const PointMethod& method, const Harmonics& motion,
+                       double omega = frequency) {
   PointTraction result;
-  law.traction(motion, omega, result);
+  method.traction(motion, omega, result);
   return result;
 }
 
@@ -60,14 +61,14 @@ std::vector<MotionCase> motions(int n, unsigned seed) {
 
 class SmoothLimit : public testing::TestWithParam<MotionStratum> {};
 
-// Smooth surfaces with a constant coefficient have an exact law. Sums over a hundred
+// Smooth surfaces with a constant coefficient have an exact method. Sums over a hundred
 // nodes of a few panels.
-TEST_P(SmoothLimit, IsTheEventLaw) {
+TEST_P(SmoothLimit, IsTheLineEvents) {
   Random random(31);
   for (int i = 0; i < 300; ++i) {
     const MotionCase c = GetParam().draw(random);
-    const PointTraction exact = traction(EventLaw(c.point), c.motion);
-    const PointTraction now = traction(SurfaceEventLaw(test::smooth_surface(c)), c.motion);
+    const PointTraction exact = traction(LineEvents(c.point), c.motion);
+    const PointTraction now = traction(SurfaceLineEvents(test::smooth_surface(c)), c.motion);
     constexpr double rounding = 5e-15;
     ASSERT_LE(difference(now.force, exact.force, 0), rounding * friction_scale(c) + smallest) << i;
     ASSERT_LE(difference(now.force, exact.force, 1), rounding * normal_scale(c) + smallest) << i;
@@ -83,17 +84,18 @@ double stiffness_scale(const MotionCase& c) {
          (1.0 + c.point.friction_coefficient) * c.point.normal_stiffness;
 }
 
-class SurfaceEventLaws : public testing::TestWithParam<SurfaceCase> {};
+class SurfaceLineEventss : public testing::TestWithParam<SurfaceCase> {};
 
-// The planar law along a line is integrated to its tolerance; an independent way to the same cycle.
-TEST_P(SurfaceEventLaws, AgreeWithThePlanarLawAlongALine) {
+// The planar method along a line is integrated to its tolerance; an independent way to the same
+// cycle.
+TEST_P(SurfaceLineEventss, AgreeWithThePlaneEventsAlongALine) {
   for (const MotionCase& drawn : motions(60, 32)) {
     MotionCase c = drawn;
     c.motion.rows().col(2).setZero();
     const SurfaceLaw surface = GetParam().make(c);
-    const PointTraction planar = traction(PlanarLaw(surface, 1e-13), c.motion);
-    const PointTraction now = traction(SurfaceEventLaw(surface), c.motion);
-    // Ten times what the quadrature of the planar law was measured to leave, and its derivative.
+    const PointTraction planar = traction(PlaneEvents(surface, 1e-13), c.motion);
+    const PointTraction now = traction(SurfaceLineEvents(surface), c.motion);
+    // Ten times what the quadrature of the planar method was measured to leave, and its derivative.
     ASSERT_LE(error(now.force, planar.force, c), 2e-11);
     for (Eigen::Index row = 0; row < now.jacobian.rows(); ++row) {
       for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
@@ -105,15 +107,15 @@ TEST_P(SurfaceEventLaws, AgreeWithThePlanarLawAlongALine) {
   }
 }
 
-TEST_P(SurfaceEventLaws, AreFiniteInEveryStratum) {
+TEST_P(SurfaceLineEventss, AreFiniteInEveryStratum) {
   for (const MotionStratum& stratum : test::motion_strata()) {
     Random random(34);
     for (int i = 0; i < 60; ++i) {
       MotionCase c = stratum.draw(random);
       if (c.point.normal_stiffness == 0.0) c.point.normal_stiffness = 1.0;  // heights need one
       if (!(normal_scale(c) / c.point.normal_stiffness > 0.0)) continue;
-      const SurfaceEventLaw law(GetParam().make(c));
-      const PointTraction now = traction(law, c.motion);
+      const SurfaceLineEvents method(GetParam().make(c));
+      const PointTraction now = traction(method, c.motion);
       ASSERT_TRUE(now.force.rows().allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.jacobian.allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.frequency_derivative.allFinite()) << stratum.name << ' ' << i;
@@ -122,24 +124,24 @@ TEST_P(SurfaceEventLaws, AreFiniteInEveryStratum) {
 }
 
 /// Fourth order.
-Eigen::VectorXd central(const SurfaceEventLaw& law, const Harmonics& motion, Eigen::Index k,
+Eigen::VectorXd central(const SurfaceLineEvents& method, const Harmonics& motion, Eigen::Index k,
                         double h) {
   const auto at = [&](double x) -> Eigen::VectorXd {
     Harmonics moved = motion;
     moved.vector()[k] += x;
-    return traction(law, moved).force.vector();
+    return traction(method, moved).force.vector();
   };
   return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
 }
 
 // Forces round at 1e-13, so differences at 1e-13/1e-4; where differences at h and h/2 differ by
 // more than 1e-8 the motion is near a kink.
-TEST_P(SurfaceEventLaws, HaveTheJacobianOfDifferences) {
+TEST_P(SurfaceLineEventss, HaveTheJacobianOfDifferences) {
   int n_checked = 0;
   int n_drawn = 0;
   for (const MotionCase& c : motions(40, 35)) {
-    const SurfaceEventLaw law(GetParam().make(c));
-    const PointTraction now = traction(law, c.motion);
+    const SurfaceLineEvents method(GetParam().make(c));
+    const PointTraction now = traction(method, c.motion);
     const double scale = stiffness_scale(c);
     for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
       if (k % 3 == 2) {
@@ -149,8 +151,8 @@ TEST_P(SurfaceEventLaws, HaveTheJacobianOfDifferences) {
       ++n_drawn;
       const double h = 1e-4 * (k % 3 == 0 ? friction_scale(c) / c.point.tangential_stiffness
                                           : normal_scale(c) / c.point.normal_stiffness);
-      const Eigen::VectorXd fine = central(law, c.motion, k, 0.5 * h);
-      const Eigen::VectorXd coarse = central(law, c.motion, k, h);
+      const Eigen::VectorXd fine = central(method, c.motion, k, 0.5 * h);
+      const Eigen::VectorXd coarse = central(method, c.motion, k, h);
       if ((coarse - fine).cwiseAbs().maxCoeff() > 1e-8 * scale) continue;
       ++n_checked;
       ASSERT_LE((now.jacobian.col(k) - fine).cwiseAbs().maxCoeff(), 2e-8 * scale) << k;
@@ -159,14 +161,14 @@ TEST_P(SurfaceEventLaws, HaveTheJacobianOfDifferences) {
   EXPECT_GT(n_checked, n_drawn / 2);
 }
 
-TEST_P(SurfaceEventLaws, HaveTheFrequencyDerivativeOfDifferences) {
+TEST_P(SurfaceLineEventss, HaveTheFrequencyDerivativeOfDifferences) {
   int n_checked = 0;
   for (const MotionCase& c : motions(40, 36)) {
-    const SurfaceEventLaw law(GetParam().make(c));
-    const PointTraction now = traction(law, c.motion);
+    const SurfaceLineEvents method(GetParam().make(c));
+    const PointTraction now = traction(method, c.motion);
     const auto central_of = [&](double h) -> Eigen::VectorXd {
-      return (traction(law, c.motion, frequency + h).force.vector() -
-              traction(law, c.motion, frequency - h).force.vector()) /
+      return (traction(method, c.motion, frequency + h).force.vector() -
+              traction(method, c.motion, frequency - h).force.vector()) /
              (2.0 * h);
     };
     const double scale = (friction_scale(c) + normal_scale(c)) / frequency;
@@ -178,13 +180,13 @@ TEST_P(SurfaceEventLaws, HaveTheFrequencyDerivativeOfDifferences) {
   EXPECT_GT(n_checked, 25);
 }
 
-// Theory sections 7, 11: the normal law is elastic; the work of friction is that of slip where the
-// tangential stiffness does not depend on the load.
-TEST_P(SurfaceEventLaws, BalanceTheirWork) {
+// Theory sections 7, 11: the normal method is elastic; the work of friction is that of slip where
+// the tangential stiffness does not depend on the load.
+TEST_P(SurfaceLineEventss, BalanceTheirWork) {
   for (const MotionCase& c : motions(100, 37)) {
     const SurfaceLaw surface = GetParam().make(c);
     const int H = c.motion.n_harmonics();
-    const PointHistory history = SurfaceEventLaw(surface).history(c.motion, frequency, {}, H);
+    const PointHistory history = SurfaceLineEvents(surface).history(c.motion, frequency, {}, H);
     const double u = friction_scale(c) / c.point.tangential_stiffness;
     const double v = c.motion.rows().col(1).tail(2 * H).cwiseAbs().sum();
     // 1e-13 for the forces, times the highest harmonic.
@@ -197,17 +199,17 @@ TEST_P(SurfaceEventLaws, BalanceTheirWork) {
 }
 
 // What is told of the cycle is the cycle: forces at instants add up to the coefficients, the slider
-// keeps to the law, slip by slip to what is dissipated.
-TEST_P(SurfaceEventLaws, TellTheCycleThatTheyIntegrate) {
+// keeps to the method, slip by slip to what is dissipated.
+TEST_P(SurfaceLineEventss, TellTheCycleThatTheyIntegrate) {
   constexpr int n = 4096;
   Eigen::VectorXd phases(n);
   for (int i = 0; i < n; ++i) phases[i] = 2.0 * pi * i / n - 1.0;
   for (const MotionCase& c : motions(16, 38)) {
     const SurfaceLaw surface = GetParam().make(c);
-    const PointHistory history = SurfaceEventLaw(surface).history(c.motion, frequency, phases, 2);
-    ASSERT_LE(
-        error(history.force, SurfaceEventLaw(surface).history(c.motion, frequency, {}, 2).force, c),
-        0.0);
+    const PointHistory history = SurfaceLineEvents(surface).history(c.motion, frequency, phases, 2);
+    ASSERT_LE(error(history.force,
+                    SurfaceLineEvents(surface).history(c.motion, frequency, {}, 2).force, c),
+              0.0);
     const double k_u = surface.first_stiffness();
     double friction = 0.0;
     double dissipated = 0.0;
@@ -236,17 +238,17 @@ TEST_P(SurfaceEventLaws, TellTheCycleThatTheyIntegrate) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SurfaceEventLaws, testing::ValuesIn(test::surface_cases()),
+INSTANTIATE_TEST_SUITE_P(Laws, SurfaceLineEventss, testing::ValuesIn(test::surface_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
-// Heights that vanish leave the smooth law; what they change is of their own size.
-TEST(SurfaceEventLaw, VanishingHeightsAreSmooth) {
+// Heights that vanish leave the smooth method; what they change is of their own size.
+TEST(SurfaceLineEvents, VanishingHeightsAreSmooth) {
   for (const MotionCase& c : motions(60, 39)) {
     const double height = 1e-9 * normal_scale(c) / c.point.normal_stiffness;
     const SurfaceLaw rough(c.point, 0.0, FrictionLaw::constant(c.point.friction_coefficient),
                            RoughSurface::cubic(height));
-    const PointTraction exact = traction(EventLaw(c.point), c.motion);
-    const PointTraction now = traction(SurfaceEventLaw(rough), c.motion);
+    const PointTraction exact = traction(LineEvents(c.point), c.motion);
+    const PointTraction now = traction(SurfaceLineEvents(rough), c.motion);
     // Half the height along q; near grazing the square root of it in time, of which the force has a
     // part.
     ASSERT_LE(error(now.force, exact.force, c), 1e-7);
@@ -255,16 +257,16 @@ TEST(SurfaceEventLaw, VanishingHeightsAreSmooth) {
 
 // A coefficient that rises with the rate is smallest where the motion turns back: the slider is
 // left there, at the kink of |u'|, and the kink moves with the motion.
-TEST(SurfaceEventLaw, FollowsTheKinkWhereTheMotionTurns) {
+TEST(SurfaceLineEvents, FollowsTheKinkWhereTheMotionTurns) {
   Harmonics motion(2, 3);
   motion.rows().col(0) << 0.0, 1.0, 0.2, 0.1, -0.1;
   motion.rows().col(1) << 0.0, 0.2, 0.3, 0.05, 0.1;
   const PointParameters point{1.0, 0.5, 0.3, 1.0};
-  const SurfaceEventLaw law(SurfaceLaw(point, 0.0, FrictionLaw::exponential(0.3, 0.9, 0.05)));
-  const PointTraction now = traction(law, motion);
+  const SurfaceLineEvents method(SurfaceLaw(point, 0.0, FrictionLaw::exponential(0.3, 0.9, 0.05)));
+  const PointTraction now = traction(method, motion);
   ASSERT_EQ(now.regime, CycleRegime::stick_slip);
   // The slider rests from where the motion turns back.
-  const PointHistory history = law.history(motion, frequency, {}, 1);
+  const PointHistory history = method.history(motion, frequency, {}, 1);
   int n_turning = 0;
   for (const CycleSegment& segment : history.segments) {
     if (segment.state != ContactState::stick) continue;
@@ -275,13 +277,13 @@ TEST(SurfaceEventLaw, FollowsTheKinkWhereTheMotionTurns) {
   ASSERT_EQ(n_turning, 2);
   for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
     // The step 1e-3 to its fourth power, or 1e-15 over it.
-    const Eigen::VectorXd expected = central(law, motion, k, 1e-3);
+    const Eigen::VectorXd expected = central(method, motion, k, 1e-3);
     EXPECT_LE((now.jacobian.col(k) - expected).cwiseAbs().maxCoeff(), 1e-9) << k;
   }
 }
 
 // Full stick: the virgin slider, and pushed to either end of its band.
-TEST(SurfaceEventLaw, FollowsTheActiveEndOfTheBandInFullStick) {
+TEST(SurfaceLineEvents, FollowsTheActiveEndOfTheBandInFullStick) {
   Harmonics motion(2, 3);
   motion.rows().col(0) << 0.0, 1.0, 0.2, 0.3, -0.1;
   motion.rows().col(1) << 0.0, 0.1, 0.4, 0.2, 0.0;
@@ -289,41 +291,42 @@ TEST(SurfaceEventLaw, FollowsTheActiveEndOfTheBandInFullStick) {
   for (const SurfaceCase& surface : test::surface_cases()) {
     for (const double mean : {0.3, 50.0, -50.0}) {
       motion.rows()(0, 0) = mean;
-      const SurfaceEventLaw law(surface.make({point, motion}));
-      const PointTraction now = traction(law, motion);
+      const SurfaceLineEvents method(surface.make({point, motion}));
+      const PointTraction now = traction(method, motion);
       ASSERT_EQ(now.regime, CycleRegime::full_stick) << surface.name;
       EXPECT_EQ(now.jacobian(0, 0) > 0.0, mean == 0.3) << surface.name;
       for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
         // The step to its fourth power.
-        EXPECT_LE((now.jacobian.col(k) - central(law, motion, k, 1e-3)).cwiseAbs().maxCoeff(), 1e-8)
+        EXPECT_LE((now.jacobian.col(k) - central(method, motion, k, 1e-3)).cwiseAbs().maxCoeff(),
+                  1e-8)
             << surface.name << ' ' << k;
       }
     }
   }
 }
 
-TEST(SurfaceEventLaw, ForcesFollowTheUnitToTheLastBit) {
+TEST(SurfaceLineEvents, ForcesFollowTheUnitToTheLastBit) {
   for (const MotionCase& c : motions(60, 40)) {
-    const PointTraction plain = traction(SurfaceEventLaw(test::smooth_surface(c)), c.motion);
+    const PointTraction plain = traction(SurfaceLineEvents(test::smooth_surface(c)), c.motion);
     for (const double factor : {0x1p-970, 0x1p-70, 0x1p63, 0x1p900}) {
       MotionCase scaled = c;
       scaled.motion.rows() *= factor;
       scaled.point.preload *= factor;
       const PointTraction other =
-          traction(SurfaceEventLaw(test::smooth_surface(scaled)), scaled.motion);
+          traction(SurfaceLineEvents(test::smooth_surface(scaled)), scaled.motion);
       ASSERT_EQ(other.force.rows(), (factor * plain.force.rows()).eval());
       ASSERT_EQ(other.jacobian, plain.jacobian);
     }
   }
 }
 
-TEST(SurfaceEventLaw, DoesNotSeeTheSecondDirection) {
+TEST(SurfaceLineEvents, DoesNotSeeTheSecondDirection) {
   for (const SurfaceCase& surface : test::surface_cases()) {
     for (MotionCase c : motions(10, 41)) {
-      const SurfaceEventLaw law(surface.make(c));
-      const PointTraction plain = traction(law, c.motion);
+      const SurfaceLineEvents method(surface.make(c));
+      const PointTraction plain = traction(method, c.motion);
       c.motion.rows().col(2).setConstant(std::numeric_limits<double>::quiet_NaN());
-      const PointTraction other = traction(law, c.motion);
+      const PointTraction other = traction(method, c.motion);
       ASSERT_EQ(other.force.rows(), plain.force.rows());
       ASSERT_EQ(other.jacobian, plain.jacobian);
     }
@@ -333,16 +336,16 @@ TEST(SurfaceEventLaw, DoesNotSeeTheSecondDirection) {
 // A layer around u' = 0 in which the coefficient falls to what it is elsewhere, thinner than any
 // cell or panel: a force of the layer's own area. Where contact sticks throughout the layer has its
 // say.
-TEST(SurfaceEventLaw, AThinLayerOfTheRateIsTheLawWithoutIt) {
+TEST(SurfaceLineEvents, AThinLayerOfTheRateIsTheLawWithoutIt) {
   for (const double thinness : {1e2, 1e4, 1e6, 1e9, 1e13, 1e100}) {
     for (const MotionCase& c : motions(40, 42)) {
       const double mu = c.point.friction_coefficient;
       const double decay =
           thinness * c.point.tangential_stiffness / (frequency * friction_scale(c));
       const SurfaceLaw layered(c.point, 0.0, FrictionLaw::exponential(2.0 * mu, mu, decay));
-      const PointTraction exact = traction(EventLaw(c.point), c.motion);
+      const PointTraction exact = traction(LineEvents(c.point), c.motion);
       if (exact.regime == CycleRegime::full_stick) continue;
-      const PointTraction now = traction(SurfaceEventLaw(layered), c.motion);
+      const PointTraction now = traction(SurfaceLineEvents(layered), c.motion);
       ASSERT_TRUE(now.jacobian.allFinite());
       // |u''| is of the size of u; the layer lasts as long as λ|u'| is of order one, up to 1e-9 of
       // a panel, which is where panels end.
@@ -351,8 +354,8 @@ TEST(SurfaceEventLaw, AThinLayerOfTheRateIsTheLawWithoutIt) {
   }
 }
 
-// In layers of any thickness the planar law along a line agrees.
-TEST(SurfaceEventLaw, LayersOfTheRateAreThoseOfThePlanarLaw) {
+// In layers of any thickness the planar method along a line agrees.
+TEST(SurfaceLineEvents, LayersOfTheRateAreThoseOfThePlaneEvents) {
   for (const double thinness : {10.0, 100.0, 1000.0}) {
     for (MotionCase c : motions(20, 43)) {
       c.motion.rows().col(2).setZero();
@@ -360,42 +363,43 @@ TEST(SurfaceEventLaw, LayersOfTheRateAreThoseOfThePlanarLaw) {
       const double decay =
           thinness * c.point.tangential_stiffness / (frequency * friction_scale(c));
       const SurfaceLaw layered(c.point, 0.0, FrictionLaw::exponential(mu, 1.5 * mu, decay));
-      const PointTraction planar = traction(PlanarLaw(layered, 1e-13), c.motion);
-      const PointTraction now = traction(SurfaceEventLaw(layered), c.motion);
+      const PointTraction planar = traction(PlaneEvents(layered, 1e-13), c.motion);
+      const PointTraction now = traction(SurfaceLineEvents(layered), c.motion);
       ASSERT_LE(error(now.force, planar.force, c), 1e-9) << thinness;
     }
   }
 }
 
-TEST(SurfaceEventLaw, NoSpringIsNoFriction) {
-  const SurfaceEventLaw law(SurfaceLaw({0.0, 1.0, 0.5, 0.3}, 0.0));
+TEST(SurfaceLineEvents, NoSpringIsNoFriction) {
+  const SurfaceLineEvents method(SurfaceLaw({0.0, 1.0, 0.5, 0.3}, 0.0));
   Harmonics motion(2, 3);
   motion.rows().col(0) << 0.1, 1.0, 0.2, 0.3, 0.4;
   motion.rows().col(1) << 0.0, 0.5, 0.2, 0.3, 0.4;
-  const PointHistory history = law.history(motion, 1.0, Eigen::VectorXd::Zero(1), 2);
+  const PointHistory history = method.history(motion, 1.0, Eigen::VectorXd::Zero(1), 2);
   EXPECT_TRUE(history.force.rows().col(0).isZero(0.0));
   EXPECT_EQ(history.dissipated_energy, 0.0);
   EXPECT_EQ(history.segments.size(), 2U);
-  EXPECT_EQ(law.stuck_stiffness(), Eigen::Vector3d(0.0, 1.0, 0.0));
-  EXPECT_TRUE(traction(law, motion).jacobian.topLeftCorner(1, 15).isZero(0.0));
+  EXPECT_EQ(method.stuck_stiffness(), Eigen::Vector3d(0.0, 1.0, 0.0));
+  EXPECT_TRUE(traction(method, motion).jacobian.topLeftCorner(1, 15).isZero(0.0));
 }
 
-TEST(SurfaceEventLaw, StiffnessAndLoadAtRest) {
+TEST(SurfaceLineEvents, StiffnessAndLoadAtRest) {
   const PointParameters point{3.0, 2.0, 0.5, 7.0};
-  EXPECT_EQ(SurfaceEventLaw(SurfaceLaw(point, 1.0)).stuck_stiffness(),
+  EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(point, 1.0)).stuck_stiffness(),
             Eigen::Vector3d(3.0, 2.0, 0.0));
-  EXPECT_EQ(SurfaceEventLaw(SurfaceLaw(point, 1.0)).load_at_rest(), 7.0);
+  EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(point, 1.0)).load_at_rest(), 7.0);
   const PointParameters gap{3.0, 2.0, 0.0, -7.0};
-  EXPECT_EQ(SurfaceEventLaw(SurfaceLaw(gap, 1.0)).stuck_stiffness(),
+  EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(gap, 1.0)).stuck_stiffness(),
             Eigen::Vector3d(0.0, 2.0, 0.0));
 }
 
-TEST(SurfaceEventLaw, RefusesWhatIsNoMotion) {
-  const SurfaceEventLaw law(SurfaceLaw({1.0, 1.0, 0.5, 1.0}, 0.0));
+TEST(SurfaceLineEvents, RefusesWhatIsNoMotion) {
+  const SurfaceLineEvents method(SurfaceLaw({1.0, 1.0, 0.5, 1.0}, 0.0));
   PointTraction result;
-  EXPECT_THROW(law.traction(Harmonics(0, 3), 1.0, result), std::invalid_argument);
-  EXPECT_THROW(law.traction(Harmonics(2, 2), 1.0, result), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(law.history(Harmonics(0, 3), 1.0, {}, 1)), std::invalid_argument);
+  EXPECT_THROW(method.traction(Harmonics(0, 3), 1.0, result), std::invalid_argument);
+  EXPECT_THROW(method.traction(Harmonics(2, 2), 1.0, result), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(method.history(Harmonics(0, 3), 1.0, {}, 1)),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "support/motion_cases.hpp"
 #include "support/motion_reference.hpp"
 #include "tests/support/campaign.hpp"
@@ -17,7 +17,7 @@
 namespace microslip::test {
 namespace {
 
-using contact::EventLaw;
+using contact::LineEvents;
 using contact::PointHistory;
 using Random = std::mt19937_64;
 
@@ -51,15 +51,15 @@ int number_of_cases(std::string_view stratum) {
   return 1200;
 }
 
-class EventLawAgainstReference : public testing::TestWithParam<MotionStratum> {};
+class LineEventsAgainstReference : public testing::TestWithParam<MotionStratum> {};
 
-TEST_P(EventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
+TEST_P(LineEventsAgainstReference, ForceCoefficientsAndWorkAgree) {
   Random random(20260201);
   const int n_cases = tests::campaign_size(number_of_cases(GetParam().name));
   for (int i = 0; i < n_cases; ++i) {
     const MotionCase c = GetParam().draw(random);
     const int n_harmonics = c.motion.n_harmonics() + i % 3;
-    const PointHistory ours = EventLaw(c.point).history(c.motion, 1.0, {}, n_harmonics);
+    const PointHistory ours = LineEvents(c.point).history(c.motion, 1.0, {}, n_harmonics);
     const MotionReference reference = motion_reference(c.point, c.motion, n_harmonics);
     const double f = friction_scale(c);
     ASSERT_LE(error(ours.force, 0, reference.friction), coefficient_tolerance * f + smallest)
@@ -80,7 +80,7 @@ TEST_P(EventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Strata, EventLawAgainstReference, testing::ValuesIn(motion_strata()),
+INSTANTIATE_TEST_SUITE_P(Strata, LineEventsAgainstReference, testing::ValuesIn(motion_strata()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

@@ -11,7 +11,7 @@
 /// w is ignored and f_r = 0. A point that never slips nor separates has a virgin slider, pushed into its
 /// admissible band (theory section 4.2). A point without tangential stiffness carries no friction and counts
 /// as stuck; μ = 0 slips without force. With smooth surfaces and a constant coefficient this is the law of
-/// event_law.hpp, which is faster.
+/// line_events.hpp, which is faster.
 ///
 /// Accuracy: force coefficients within about 1e-14 of k_u |u| + μ n, where |·| sums the amplitudes of the
 /// harmonics and n is the largest load, however thin the layers are in which the coefficient changes;
@@ -23,14 +23,14 @@
 
 #include <optional>
 
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::contact {
 
-class SurfaceEventLaw final : public PointLaw {
+class SurfaceLineEvents final : public PointMethod {
  public:
-  explicit SurfaceEventLaw(const SurfaceLaw& law) : law_(law) {}
+  explicit SurfaceLineEvents(const SurfaceLaw& law) : law_(law) {}
 
   /// @throws std::invalid_argument  a motion of other than 3 signals, or without harmonics.
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;

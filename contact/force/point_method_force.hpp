@@ -1,5 +1,5 @@
 /// @file
-/// Modal force of a friction patch whose points follow any law (point_law.hpp), for any number of
+/// Modal force of a friction patch whose points are evaluated by any method (point_method.hpp), for any number of
 /// harmonics and both tangential directions (theory section 13):
 ///
 ///   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,      J_i the Jacobian of the point
@@ -13,20 +13,20 @@
 #include <vector>
 
 #include "contact/contact_patch.hpp"
-#include "contact/force/law_projection.hpp"
+#include "contact/force/point_projection.hpp"
 #include "contact/force/pointwise_force.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 
-class LawPatchForce final : public PointwiseForce {
+class PointMethodForce final : public PointwiseForce {
  public:
   /// @param weights  area of each point [m²], n ≥ 1, ≥ 0.
-  /// @param laws     one per point, n; shared by patches of one scene.
+  /// @param methods     one per point, n; shared by patches of one scene.
   /// @param shapes   relative mode shapes at the points, n × n_modes; w may be empty (no motion along r).
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
-  LawPatchForce(Eigen::VectorXd weights, std::vector<std::shared_ptr<const PointLaw>> laws,
-                ModalShapes shapes);
+  PointMethodForce(Eigen::VectorXd weights, std::vector<std::shared_ptr<const PointMethod>> methods,
+                   ModalShapes shapes);
 
  private:
   /// Points cost what all harmonics of the motion do, their sum over the patch what the rows do.
@@ -34,11 +34,11 @@ class LawPatchForce final : public PointwiseForce {
   [[nodiscard]] ForceAndJacobian wider_force(double frequency, int n_harmonics);
   void add_cycles(std::span<const Eigen::Index> points, double frequency, ReportSum& sum) override;
 
-  std::vector<std::shared_ptr<const PointLaw>> laws_;
+  std::vector<std::shared_ptr<const PointMethod>> methods_;
   std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w
   Harmonics point_motion_;
   PointTraction traction_;
-  LawProjection sum_;
+  PointProjection sum_;
 };
 
 }  // namespace microslip::contact

@@ -15,15 +15,15 @@
 /// Cost: a few µs per point for three harmonics with Jacobian, growing with H² and the number of phases.
 #pragma once
 
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 #include "contact/surface/point_parameters.hpp"
 
 namespace microslip::contact {
 
-class EventLaw final : public PointLaw {
+class LineEvents final : public PointMethod {
  public:
   /// @param point  constants, in the ranges of ContactPatch.
-  explicit EventLaw(const PointParameters& point) : point_(point) {}
+  explicit LineEvents(const PointParameters& point) : point_(point) {}
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
   /// Events are those of the motion: its harmonics are paid for, not those of the force.

@@ -1,4 +1,4 @@
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 
 #include <algorithm>
 
@@ -24,22 +24,22 @@ Workshop& workshop() {
 
 }  // namespace
 
-void EventLaw::traction(const Harmonics& motion, double /*frequency*/,
-                        PointTraction& result) const {
+void LineEvents::traction(const Harmonics& motion, double /*frequency*/,
+                          PointTraction& result) const {
   Workshop& shop = workshop();
   set_event_guards(point_, motion, shop.guards);
   shop.force.traction(point_, shop.guards, shop.search.find(shop.guards), result);
 }
 
-Harmonics EventLaw::force_up_to(const Harmonics& motion, double /*frequency*/,
-                                int n_harmonics) const {
+Harmonics LineEvents::force_up_to(const Harmonics& motion, double /*frequency*/,
+                                  int n_harmonics) const {
   Workshop& shop = workshop();
   set_event_guards(point_, motion, shop.guards);
   return shop.force.force(point_, shop.guards, shop.search.find(shop.guards), n_harmonics);
 }
 
-PointHistory EventLaw::history(const Harmonics& motion, double /*frequency*/,
-                               const Eigen::VectorXd& phases, int n_harmonics) const {
+PointHistory LineEvents::history(const Harmonics& motion, double /*frequency*/,
+                                 const Eigen::VectorXd& phases, int n_harmonics) const {
   Workshop& shop = workshop();
   set_event_guards(point_, motion, shop.guards);
   const EventPhases& found = shop.search.find(shop.guards);
@@ -59,16 +59,16 @@ PointHistory EventLaw::history(const Harmonics& motion, double /*frequency*/,
   return history;
 }
 
-Eigen::Vector3d EventLaw::stuck_stiffness() const {
+Eigen::Vector3d LineEvents::stuck_stiffness() const {
   const bool has_friction = point_.friction_coefficient > 0.0;
   return {has_friction ? point_.tangential_stiffness : 0.0, point_.normal_stiffness, 0.0};
 }
 
-std::optional<LinearRange> EventLaw::linear_range() const {
+std::optional<LinearRange> LineEvents::linear_range() const {
   return LinearRange{stuck_stiffness(), point_.preload,
                      FrictionLaw::constant(point_.friction_coefficient)};
 }
 
-double EventLaw::load_at_rest() const { return std::max(point_.preload, 0.0); }
+double LineEvents::load_at_rest() const { return std::max(point_.preload, 0.0); }
 
 }  // namespace microslip::contact

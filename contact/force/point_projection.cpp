@@ -1,4 +1,4 @@
-#include "contact/force/law_projection.hpp"
+#include "contact/force/point_projection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ Block block_of(const std::vector<double>& values, std::size_t n_rows, std::size_
 
 }  // namespace
 
-void LawProjection::start(const std::vector<const Eigen::MatrixXd*>& shapes, int n_harmonics,
-                          const std::vector<Eigen::Index>& rows) {
+void PointProjection::start(const std::vector<const Eigen::MatrixXd*>& shapes, int n_harmonics,
+                            const std::vector<Eigen::Index>& rows) {
   shapes_ = &shapes;
   rows_ = rows;
   const Eigen::Index N = shapes.front()->cols();
@@ -53,8 +53,8 @@ void LawProjection::start(const std::vector<const Eigen::MatrixXd*>& shapes, int
   by_frequency_sum_ = Harmonics(n_harmonics, N);
 }
 
-void LawProjection::add(Eigen::Index point, double weight, double load_at_rest,
-                        const PointTraction& traction) {
+void PointProjection::add(Eigen::Index point, double weight, double load_at_rest,
+                          const PointTraction& traction) {
   double shape = 0.0;
   for (std::size_t s = 0; s < size_.n_signals; ++s) {
     double* row = phi(n_waiting_ + s);
@@ -79,7 +79,8 @@ void LawProjection::add(Eigen::Index point, double weight, double load_at_rest,
   if (n_waiting_ == block_points * size_.n_signals) flush();
 }
 
-void LawProjection::add_forces(double weight, double load_at_rest, const PointTraction& traction) {
+void PointProjection::add_forces(double weight, double load_at_rest,
+                                 const PointTraction& traction) {
   const bool depends = !traction.frequency_derivative.isZero(0.0);
   if (depends && !depends_on_frequency_) std::fill(by_frequency_.begin(), by_frequency_.end(), 0.0);
   depends_on_frequency_ = depends_on_frequency_ || depends;
@@ -96,7 +97,7 @@ void LawProjection::add_forces(double weight, double load_at_rest, const PointTr
   }
 }
 
-void LawProjection::gather(double weight, const Eigen::MatrixXd& jacobian) {
+void PointProjection::gather(double weight, const Eigen::MatrixXd& jacobian) {
   const auto column_step = static_cast<std::size_t>(jacobian.rows());
   double* to = coefficients_.data();
   for (const Eigen::Index k : rows_) {
@@ -110,7 +111,7 @@ void LawProjection::gather(double weight, const Eigen::MatrixXd& jacobian) {
   }
 }
 
-void LawProjection::flush() {
+void PointProjection::flush() {
   const std::size_t n = std::exchange(n_waiting_, 0);
   if (n == 0) return;
   const Block shapes = block_of(phi_, n, size_.n_modes, size_.phi_stride);
@@ -126,7 +127,7 @@ void LawProjection::flush() {
   }
 }
 
-ForceAndJacobian LawProjection::take() {
+ForceAndJacobian PointProjection::take() {
   flush();
   const auto N = static_cast<Eigen::Index>(size_.n_modes);
   const std::size_t n = size_.n_rows * size_.n_modes;

@@ -1,6 +1,6 @@
 /// @file
 /// The door between a contact point and the patch it belongs to: harmonics of the motion of one point
-/// go in, harmonics of its tractions and their derivatives come out; how a law finds them, in closed
+/// go in, harmonics of its tractions and their derivatives come out; how a method finds them, in closed
 /// form, event by event or sampled in time, is not seen from outside.
 ///
 /// A `Harmonics` of a point has three signals, in this order:
@@ -36,7 +36,7 @@ struct PointTraction {
   CycleRegime regime = CycleRegime::separated;
   PeriodStates period{ContactState::separated};
   /// What the force may be off by because the search for the steady cycle ended before its tolerance, in
-  /// any coefficient [Pa]; 0 where the law met it.
+  /// any coefficient [Pa]; 0 where the method met it.
   double defect = 0.0;
 };
 
@@ -61,17 +61,17 @@ struct PointHistory {
   double defect = 0.0;                 ///< as of PointTraction [Pa]
 };
 
-class PointLaw {
+class PointMethod {
  public:
-  PointLaw() = default;
-  PointLaw(const PointLaw&) = delete;
-  PointLaw& operator=(const PointLaw&) = delete;
-  PointLaw(PointLaw&&) = delete;
-  PointLaw& operator=(PointLaw&&) = delete;
-  virtual ~PointLaw() = default;
+  PointMethod() = default;
+  PointMethod(const PointMethod&) = delete;
+  PointMethod& operator=(const PointMethod&) = delete;
+  PointMethod(PointMethod&&) = delete;
+  PointMethod& operator=(PointMethod&&) = delete;
+  virtual ~PointMethod() = default;
 
   /// @param motion     three signals, H ≥ 1 harmonics, finite.
-  /// @param frequency  ω [rad/s]; matters to laws that depend on the slip rate.
+  /// @param frequency  ω [rad/s]; matters where friction depends on the slip rate.
   /// @param result     written whole; storage of the right size is used again.
   virtual void traction(const Harmonics& motion, double frequency, PointTraction& result) const = 0;
   /// Forces alone, with harmonics that the motion does not have.

@@ -1,5 +1,5 @@
 /// Relations every exact cycle of one tangential direction obeys, over random motions of all strata.
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ constexpr double smallest = 1e-318;  // spacing of subnormal numbers, with room
 
 PointTraction traction(const MotionCase& c) {
   PointTraction result;
-  EventLaw(c.point).traction(c.motion, 1.0, result);
+  LineEvents(c.point).traction(c.motion, 1.0, result);
   return result;
 }
 
@@ -51,7 +51,7 @@ Harmonics shifted(const Harmonics& y, double angle) {
   return result;
 }
 
-class EventLawProperties : public testing::TestWithParam<MotionStratum> {
+class LineEventsProperties : public testing::TestWithParam<MotionStratum> {
  protected:
   template <typename Check>
   static void for_all(int n_cases, const Check& check) {
@@ -63,7 +63,7 @@ class EventLawProperties : public testing::TestWithParam<MotionStratum> {
   }
 };
 
-TEST_P(EventLawProperties, EverythingIsFinite) {
+TEST_P(LineEventsProperties, EverythingIsFinite) {
   for_all(600, [](const MotionCase& c) {
     const PointTraction now = traction(c);
     ASSERT_TRUE(now.force.rows().allFinite());
@@ -74,21 +74,21 @@ TEST_P(EventLawProperties, EverythingIsFinite) {
   });
 }
 
-TEST_P(EventLawProperties, TractionAndHistoryGiveTheSameForce) {
+TEST_P(LineEventsProperties, TractionAndHistoryGiveTheSameForce) {
   for_all(300, [](const MotionCase& c) {
     const PointTraction now = traction(c);
     const PointHistory history =
-        EventLaw(c.point).history(c.motion, 1.0, {}, c.motion.n_harmonics());
+        LineEvents(c.point).history(c.motion, 1.0, {}, c.motion.n_harmonics());
     ASSERT_EQ(now.force.rows(), history.force.rows());
     ASSERT_EQ(now.regime, history.regime);
   });
 }
 
 // Theory section 7: both are exact for each point.
-TEST_P(EventLawProperties, FrictionWorkIsSlipWorkAndNormalWorkIsNone) {
+TEST_P(LineEventsProperties, FrictionWorkIsSlipWorkAndNormalWorkIsNone) {
   for_all(1000, [](const MotionCase& c) {
     const int H = c.motion.n_harmonics();
-    const PointHistory history = EventLaw(c.point).history(c.motion, 1.0, {}, H);
+    const PointHistory history = LineEvents(c.point).history(c.motion, 1.0, {}, H);
     // What slips is of the size of u, or of the deflection of the spring.
     const double k_u = c.point.tangential_stiffness;
     const double u = k_u > 0.0 ? friction_scale(c) / k_u : 0.0;
@@ -102,7 +102,7 @@ TEST_P(EventLawProperties, FrictionWorkIsSlipWorkAndNormalWorkIsNone) {
   });
 }
 
-TEST_P(EventLawProperties, AShiftInPhaseShiftsTheForces) {
+TEST_P(LineEventsProperties, AShiftInPhaseShiftsTheForces) {
   for_all(500, [](const MotionCase& c) {
     MotionCase moved = c;
     moved.motion = shifted(c.motion, 1.234);
@@ -114,7 +114,7 @@ TEST_P(EventLawProperties, AShiftInPhaseShiftsTheForces) {
   });
 }
 
-TEST_P(EventLawProperties, ReversalOfUReversesFriction) {
+TEST_P(LineEventsProperties, ReversalOfUReversesFriction) {
   for_all(500, [](const MotionCase& c) {
     MotionCase reversed = c;
     reversed.motion.rows().col(0) *= -1.0;
@@ -127,7 +127,7 @@ TEST_P(EventLawProperties, ReversalOfUReversesFriction) {
 }
 
 // Where nothing underflows, a power of two changes no bit.
-TEST_P(EventLawProperties, PowersOfTwoScaleForcesBitByBit) {
+TEST_P(LineEventsProperties, PowersOfTwoScaleForcesBitByBit) {
   if (GetParam().name == "tiny_and_large") return;
   for_all(500, [](const MotionCase& c) {
     for (const double factor : {0x1p-70, 0x1p63}) {
@@ -142,9 +142,9 @@ TEST_P(EventLawProperties, PowersOfTwoScaleForcesBitByBit) {
   });
 }
 
-TEST_P(EventLawProperties, SegmentsCoverThePeriodInOrder) {
+TEST_P(LineEventsProperties, SegmentsCoverThePeriodInOrder) {
   for_all(500, [](const MotionCase& c) {
-    const PointHistory history = EventLaw(c.point).history(c.motion, 1.0, {}, 1);
+    const PointHistory history = LineEvents(c.point).history(c.motion, 1.0, {}, 1);
     ASSERT_FALSE(history.segments.empty());
     double total = 0.0;
     double before = -1.0;
@@ -161,10 +161,10 @@ TEST_P(EventLawProperties, SegmentsCoverThePeriodInOrder) {
   });
 }
 
-TEST_P(EventLawProperties, InstantsObeyTheLaw) {
+TEST_P(LineEventsProperties, InstantsObeyTheLaw) {
   const Eigen::VectorXd phases = Eigen::VectorXd::LinSpaced(60, -3.0, 9.0);
   for_all(300, [&](const MotionCase& c) {
-    const PointHistory history = EventLaw(c.point).history(c.motion, 1.0, phases, 1);
+    const PointHistory history = LineEvents(c.point).history(c.motion, 1.0, phases, 1);
     ASSERT_EQ(history.instants.size(), 60U);
     for (const PointInstant& now : history.instants) {
       const double limit = c.point.friction_coefficient * now.traction[1];
@@ -185,10 +185,10 @@ TEST_P(EventLawProperties, InstantsObeyTheLaw) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Strata, EventLawProperties, testing::ValuesIn(test::motion_strata()),
+INSTANTIATE_TEST_SUITE_P(Strata, LineEventsProperties, testing::ValuesIn(test::motion_strata()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(EventLaw, DoesNotSeeTheSecondDirection) {
+TEST(LineEvents, DoesNotSeeTheSecondDirection) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     MotionCase c = test::generic_motion(random);
@@ -200,12 +200,12 @@ TEST(EventLaw, DoesNotSeeTheSecondDirection) {
   }
 }
 
-TEST(EventLaw, AResultIsWrittenWholeWhateverItHeld) {
+TEST(LineEvents, AResultIsWrittenWholeWhateverItHeld) {
   Random random(2);
   PointTraction used;
   for (int i = 0; i < 300; ++i) {
     const MotionCase c = test::generic_motion(random);
-    EventLaw(c.point).traction(c.motion, 1.0, used);
+    LineEvents(c.point).traction(c.motion, 1.0, used);
     const PointTraction fresh = traction(c);
     ASSERT_EQ(used.force.rows(), fresh.force.rows());
     ASSERT_EQ(used.jacobian, fresh.jacobian);
@@ -216,7 +216,7 @@ TEST(EventLaw, AResultIsWrittenWholeWhateverItHeld) {
 }
 
 // Forces up to the largest doubles, as for one of size 1.
-TEST(EventLaw, HugeForcesDoNotOverflowBetween) {
+TEST(LineEvents, HugeForcesDoNotOverflowBetween) {
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     MotionCase c = test::motion_strata()[1].draw(random);
@@ -230,22 +230,22 @@ TEST(EventLaw, HugeForcesDoNotOverflowBetween) {
 }
 
 // A load that only touches zero never separates, as in the closed form.
-TEST(EventLaw, GrazingAtPhaseZeroIsNotSeparation) {
+TEST(LineEvents, GrazingAtPhaseZeroIsNotSeparation) {
   const PointParameters point{1.0, 1.0, 0.5, 1.0};
   Harmonics motion(1, 3);
   motion.rows().col(0) << 0.0, 3.0, 0.4;
   motion.rows().col(1) << 0.0, 0.0, -1.0;
   const FrictionCycle closed = friction_cycle(point, {0.0, 3.0, 0.4, 0.0, 0.0, -1.0});
-  const PointHistory history = EventLaw(point).history(motion, 1.0, {}, 1);
+  const PointHistory history = LineEvents(point).history(motion, 1.0, {}, 1);
   EXPECT_EQ(history.regime, closed.regime);
   EXPECT_NEAR(history.force.rows()(1, 0), closed.friction.sin, rounding);
 }
 
-TEST(EventLaw, StiffnessAndLoadAtRest) {
-  const EventLaw law({3.0, 2.0, 0.5, 7.0});
-  EXPECT_EQ(law.stuck_stiffness(), Eigen::Vector3d(3.0, 2.0, 0.0));
-  EXPECT_EQ(law.load_at_rest(), 7.0);
-  const EventLaw frictionless_gap({3.0, 2.0, 0.0, -7.0});
+TEST(LineEvents, StiffnessAndLoadAtRest) {
+  const LineEvents method({3.0, 2.0, 0.5, 7.0});
+  EXPECT_EQ(method.stuck_stiffness(), Eigen::Vector3d(3.0, 2.0, 0.0));
+  EXPECT_EQ(method.load_at_rest(), 7.0);
+  const LineEvents frictionless_gap({3.0, 2.0, 0.0, -7.0});
   EXPECT_EQ(frictionless_gap.stuck_stiffness(), Eigen::Vector3d(0.0, 2.0, 0.0));
   EXPECT_EQ(frictionless_gap.load_at_rest(), 0.0);
 }
@@ -258,14 +258,14 @@ Harmonics as_harmonics(const PointMotion& m) {
   return motion;
 }
 
-class EventLawWithOneHarmonic : public testing::TestWithParam<test::Stratum> {};
+class LineEventsWithOneHarmonic : public testing::TestWithParam<test::Stratum> {};
 
-TEST_P(EventLawWithOneHarmonic, IsTheClosedForm) {
+TEST_P(LineEventsWithOneHarmonic, IsTheClosedForm) {
   Random random(20260203);
   for (int i = 0; i < 2000; ++i) {
     const test::CycleCase c = GetParam().draw(random);
     const FrictionCycle closed = friction_cycle(c.point, c.motion);
-    const PointHistory history = EventLaw(c.point).history(as_harmonics(c.motion), 1.0, {}, 1);
+    const PointHistory history = LineEvents(c.point).history(as_harmonics(c.motion), 1.0, {}, 1);
     const auto& force = history.force.rows();
     const double f = rounding * test::friction_scale(c) + smallest;
     const double n = rounding * test::normal_scale(c) + smallest;
@@ -282,7 +282,7 @@ TEST_P(EventLawWithOneHarmonic, IsTheClosedForm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Strata, EventLawWithOneHarmonic, testing::ValuesIn(test::strata()),
+INSTANTIATE_TEST_SUITE_P(Strata, LineEventsWithOneHarmonic, testing::ValuesIn(test::strata()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 // Entries of the event Jacobian in the order of CycleJacobian.
@@ -295,7 +295,7 @@ CycleJacobian single(const Eigen::MatrixXd& jacobian) {
   return J;
 }
 
-TEST(EventLawWithOneHarmonicJacobian, IsTheClosedFormAwayFromLimits) {
+TEST(LineEventsWithOneHarmonicJacobian, IsTheClosedFormAwayFromLimits) {
   Random random(20260204);
   int n_checked = 0;
   for (int i = 0; i < 20000; ++i) {

@@ -1,4 +1,4 @@
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/surface_line_events.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,7 +29,7 @@ Workshop& workshop() {
 /// The same without w.
 Harmonics along_p(const Harmonics& motion) {
   if (motion.n_signals() != n_point_signals || motion.n_harmonics() < 1) {
-    throw std::invalid_argument("SurfaceEventLaw: a motion of " +
+    throw std::invalid_argument("SurfaceLineEvents: a motion of " +
                                 std::to_string(motion.n_signals()) + " signals and " +
                                 std::to_string(motion.n_harmonics()) +
                                 " harmonics; expected 3 signals and at least 1 harmonic");
@@ -77,16 +77,16 @@ PointInstant instant_of(SliderBand& band, const BandCycle& cycle, double phase) 
 
 }  // namespace
 
-void SurfaceEventLaw::traction(const Harmonics& motion, double frequency,
-                               PointTraction& result) const {
+void SurfaceLineEvents::traction(const Harmonics& motion, double frequency,
+                                 PointTraction& result) const {
   Workshop& shop = workshop();
   shop.band.set(law_, along_p(motion), frequency, 2 * motion.n_harmonics());
   walk_band(shop.band, shop.cycle);
   shop.traction.set(shop.band, shop.cycle, result);
 }
 
-PointHistory SurfaceEventLaw::history(const Harmonics& motion, double frequency,
-                                      const Eigen::VectorXd& phases, int n_harmonics) const {
+PointHistory SurfaceLineEvents::history(const Harmonics& motion, double frequency,
+                                        const Eigen::VectorXd& phases, int n_harmonics) const {
   Workshop& shop = workshop();
   const int n_basis = std::max(n_harmonics, motion.n_harmonics());
   shop.band.set(law_, along_p(motion), frequency, n_basis);
@@ -111,14 +111,14 @@ PointHistory SurfaceEventLaw::history(const Harmonics& motion, double frequency,
   return result;
 }
 
-Eigen::Vector3d SurfaceEventLaw::stuck_stiffness() const {
+Eigen::Vector3d SurfaceLineEvents::stuck_stiffness() const {
   const SurfaceState rest = law_.at(0.0, 0.0);
   const bool rubs = rest.friction_coefficient > 0.0;
   const double normal = law_.is_smooth() ? law_.point().normal_stiffness : rest.load_by_approach;
   return {rubs ? law_.first_stiffness() * rest.stiffness_ratio : 0.0, normal, 0.0};
 }
 
-std::optional<LinearRange> SurfaceEventLaw::linear_range() const {
+std::optional<LinearRange> SurfaceLineEvents::linear_range() const {
   std::optional<LinearRange> range = law_.linear_range();
   if (range) range->stiffness[2] = 0.0;
   return range;

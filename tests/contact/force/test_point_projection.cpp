@@ -1,4 +1,4 @@
-#include "contact/force/law_projection.hpp"
+#include "contact/force/point_projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ constexpr double rounding = 1e-13;
 
 // Numbers of modes around the widths of the machine's vectors; blocks whole and broken; some rows
 // only.
-TEST(LawProjection, IsTheSumByItsDefinition) {
+TEST(PointProjection, IsTheSumByItsDefinition) {
   for (const Eigen::Index n_modes : {1, 2, 3, 4, 7, 8, 10, 17}) {
     for (const std::size_t n_signals : {2U, 3U}) {
       for (const int H : {1, 3}) {
@@ -40,7 +40,7 @@ TEST(LawProjection, IsTheSumByItsDefinition) {
         Eigen::MatrixXd by_frequency = Eigen::MatrixXd::Zero(R, n_modes);
         Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(n * n_modes, n * n_modes);
         double defect = 0.0;
-        LawProjection sum;
+        PointProjection sum;
         sum.start(shapes, H, rows);
         for (Eigen::Index i = 0; i < n_points; ++i) {
           PointTraction t;
@@ -95,7 +95,7 @@ TEST(LawProjection, IsTheSumByItsDefinition) {
   }
 }
 
-TEST(LawProjection, ForgetsTheSumBefore) {
+TEST(PointProjection, ForgetsTheSumBefore) {
   const Eigen::MatrixXd phi = noise(20, 5);
   const std::vector<const Eigen::MatrixXd*> shapes{&phi, &phi};
   const std::vector<Eigen::Index> rows{0, 1, 2};
@@ -105,7 +105,7 @@ TEST(LawProjection, ForgetsTheSumBefore) {
   t.jacobian = noise(9, 9);
   t.frequency_derivative = noise(9, 1);
   t.regime = CycleRegime::stick_slip;
-  LawProjection sum;
+  PointProjection sum;
   const auto add_up = [&] {
     sum.start(shapes, 1, rows);
     for (Eigen::Index i = 0; i < 20; ++i) sum.add(i, 1.0, 0.0, t);

@@ -1,5 +1,5 @@
 /// @file
-/// Points of a patch of any laws that are proved stuck, or open, for the whole cycle (linear_range.hpp):
+/// Points of a patch, by any method, that are proved stuck, or open, for the whole cycle (linear_range.hpp):
 /// one matrix stands for all of them, only the others are evaluated one by one.
 ///
 ///   G^(k)_sleeping = K q^(k) + δ_k0 g,   K = Σ_stuck w (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ + φ_w k_w φ_wᵀ)
@@ -38,12 +38,12 @@ struct PatchMotion {
   void copy(Eigen::Index point, Harmonics& result) const;
 };
 
-class SleepingLaws {
+class SleepingSet {
  public:
-  SleepingLaws() = default;
+  SleepingSet() = default;
   /// All of the same size n. @param ranges  none: the point is always evaluated.
-  SleepingLaws(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
-               std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
+  SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
+              std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
 
   /// Decides for this motion. @param shapes  those of the constructor, here and below.
   void look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes);

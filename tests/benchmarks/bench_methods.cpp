@@ -1,5 +1,5 @@
 /// @file
-/// Cost of a patch whose points follow a law of their own (law_patch_force.hpp), ten modes, force and
+/// Cost of a patch whose points follow a method of their own (point_method_force.hpp), ten modes, force and
 /// Jacobian:
 ///
 ///   event_patch     488 points that slip, H = 1, 3, 5: ns per point, and of these `ns_of_cycle` for the cycles
@@ -15,8 +15,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/force/law_patch_force.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace {
@@ -33,9 +33,9 @@ double seconds_spent() {
 }
 
 /// Does not say where it is linear: always evaluated.
-class Sleepless final : public PointLaw {
+class Sleepless final : public PointMethod {
  public:
-  explicit Sleepless(std::shared_ptr<const PointLaw> law) : law_(std::move(law)) {}
+  explicit Sleepless(std::shared_ptr<const PointMethod> method) : law_(std::move(method)) {}
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
     law_->traction(motion, frequency, result);
   }
@@ -47,10 +47,10 @@ class Sleepless final : public PointLaw {
   [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
 
  private:
-  std::shared_ptr<const PointLaw> law_;
+  std::shared_ptr<const PointMethod> law_;
 };
 
-using Laws = std::vector<std::shared_ptr<const PointLaw>>;
+using Methods = std::vector<std::shared_ptr<const PointMethod>>;
 
 /// Displacements of size one: a preload of 1 slips, one of 40 sticks.
 PointParameters point_of(Eigen::Index i, int awake) {
@@ -79,33 +79,33 @@ Harmonics motion_of(int n_harmonics) {
   return q;
 }
 
-Laws event_laws(Eigen::Index n, int awake) {
-  Laws laws;
+Methods by_line_events(Eigen::Index n, int awake) {
+  Methods methods;
   for (Eigen::Index i = 0; i < n; ++i)
-    laws.push_back(std::make_shared<EventLaw>(point_of(i, awake)));
-  return laws;
+    methods.push_back(std::make_shared<LineEvents>(point_of(i, awake)));
+  return methods;
 }
 
-Laws planar_laws(Eigen::Index n, int awake) {
-  Laws laws;
+Methods planar_laws(Eigen::Index n, int awake) {
+  Methods methods;
   for (Eigen::Index i = 0; i < n; ++i) {
-    laws.push_back(std::make_shared<PlanarLaw>(SurfaceLaw(point_of(i, awake), 0.8)));
+    methods.push_back(std::make_shared<PlaneEvents>(SurfaceLaw(point_of(i, awake), 0.8)));
   }
-  return laws;
+  return methods;
 }
 
-Laws sleepless(const Laws& laws) {
-  Laws bare;
-  for (const auto& law : laws) bare.push_back(std::make_shared<Sleepless>(law));
+Methods sleepless(const Methods& methods) {
+  Methods bare;
+  for (const auto& method : methods) bare.push_back(std::make_shared<Sleepless>(method));
   return bare;
 }
 
 void event_patch(benchmark::State& state) {
   const int H = static_cast<int>(state.range(0));
   constexpr Eigen::Index n = 488;
-  const Laws laws = event_laws(n, 1);
+  const Methods methods = by_line_events(n, 1);
   const ModalShapes shapes = shapes_of(n, false);
-  LawPatchForce force(Eigen::VectorXd::Ones(n), laws, shapes);
+  PointMethodForce force(Eigen::VectorXd::Ones(n), methods, shapes);
   const Harmonics q = motion_of(H);
   for (auto _ : state) benchmark::DoNotOptimize(force.evaluate(q, 1.0));
   state.counters["ns_per_point"] = benchmark::Counter(
@@ -119,18 +119,18 @@ void event_patch(benchmark::State& state) {
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (Eigen::Index i = 0; i < n; ++i) {
       motion.copy(i, one);
-      laws[static_cast<std::size_t>(i)]->traction(one, 1.0, traction);
+      methods[static_cast<std::size_t>(i)]->traction(one, 1.0, traction);
     }
   }
   state.counters["ns_of_cycle"] = 1e9 * (seconds_spent() - begin) / (repeats * n);
 }
 BENCHMARK(event_patch)->Arg(1)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
 
-void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shapes,
+void compare(benchmark::State& state, const Methods& methods, const ModalShapes& shapes,
              const Harmonics& q) {
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(shapes.u.rows());
-  LawPatchForce force(weights, laws, shapes);
-  LawPatchForce all(weights, sleepless(laws), shapes);
+  PointMethodForce force(weights, methods, shapes);
+  PointMethodForce all(weights, sleepless(methods), shapes);
   benchmark::DoNotOptimize(all.evaluate(q, 1.0));
   const double begin = seconds_spent();
   constexpr int repeats = 3;
@@ -153,7 +153,7 @@ void compare(benchmark::State& state, const Laws& laws, const ModalShapes& shape
 
 void sleeping_event(benchmark::State& state) {
   constexpr Eigen::Index n = 488;
-  compare(state, event_laws(n, static_cast<int>(state.range(0))), shapes_of(n, false),
+  compare(state, by_line_events(n, static_cast<int>(state.range(0))), shapes_of(n, false),
           motion_of(5));
 }
 BENCHMARK(sleeping_event)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);

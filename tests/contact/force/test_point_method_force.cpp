@@ -1,4 +1,4 @@
-#include "contact/force/law_patch_force.hpp"
+#include "contact/force/point_method_force.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/contact_map.hpp"
 #include "contact/force/patch_force.hpp"
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -24,7 +24,7 @@ PointMotion motion_of(const Harmonics& m) {
 }
 
 // The closed form of one harmonic and, while there is contact at all, a linear spring along r.
-class ClosedForm final : public PointLaw {
+class ClosedForm final : public PointMethod {
  public:
   explicit ClosedForm(const PointParameters& point) : point_(point) {}
 
@@ -81,7 +81,7 @@ class ClosedForm final : public PointLaw {
 struct Patch {
   Eigen::VectorXd weights;
   std::vector<PointParameters> points;
-  std::vector<std::shared_ptr<const PointLaw>> laws;
+  std::vector<std::shared_ptr<const PointMethod>> methods;
   ModalShapes shapes;
 };
 
@@ -94,7 +94,7 @@ Patch random_patch(Eigen::Index n, double preload) {
     patch.weights[i] = 0.1 + u(random);
     patch.points.push_back(
         {0.5 + u(random), 0.5 + u(random), 0.3 + u(random), preload * u(random)});
-    patch.laws.push_back(std::make_shared<ClosedForm>(patch.points.back()));
+    patch.methods.push_back(std::make_shared<ClosedForm>(patch.points.back()));
   }
   std::srand(7);
   patch.shapes.u = Eigen::MatrixXd::Random(n, n_modes);
@@ -113,7 +113,7 @@ Harmonics random_motion() {
 double rounding(Eigen::Index n) { return 4e-15 * static_cast<double>(n); }
 
 // The closed form, said to be off by 0.25 Pa.
-class Vague final : public PointLaw {
+class Vague final : public PointMethod {
  public:
   explicit Vague(const PointParameters& point) : exact_(point) {}
 
@@ -135,24 +135,25 @@ class Vague final : public PointLaw {
 };
 
 // ‖w (Φ_uᵀ δf_p + Φ_vᵀ δn)‖ for δf of at most 0.25: only the points that say so count.
-TEST(LawPatchForce, CarriesTheDefectOfItsPoints) {
+TEST(PointMethodForce, CarriesTheDefectOfItsPoints) {
   Patch p = random_patch(5, 1.0);
   const Harmonics q = random_motion();
-  EXPECT_EQ(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, 0.0);
-  p.laws[1] = std::make_shared<Vague>(p.points[1]);
+  EXPECT_EQ(PointMethodForce(p.weights, p.methods, p.shapes).evaluate(q, 2.0).defect, 0.0);
+  p.methods[1] = std::make_shared<Vague>(p.points[1]);
   const double expected =
       0.25 * p.weights[1] *
       std::sqrt(p.shapes.u.row(1).squaredNorm() + p.shapes.v.row(1).squaredNorm());
-  EXPECT_NEAR(LawPatchForce(p.weights, p.laws, p.shapes).evaluate(q, 2.0).defect, expected, 1e-15);
+  EXPECT_NEAR(PointMethodForce(p.weights, p.methods, p.shapes).evaluate(q, 2.0).defect, expected,
+              1e-15);
 }
 
 // 32 points make a block: one block, broken and whole ones.
-TEST(LawPatchForce, GivesWhatTheClosedFormPatchGives) {
+TEST(PointMethodForce, GivesWhatTheClosedFormPatchGives) {
   for (const Eigen::Index n : {1, 32, 77}) {
     for (const double preload : {-2.0, 0.5, 3.0}) {
       const Patch p = random_patch(n, preload);
       PatchForce expected(ContactPatch(p.weights, p.points), p.shapes);
-      LawPatchForce ours(p.weights, p.laws, p.shapes);
+      PointMethodForce ours(p.weights, p.methods, p.shapes);
       const Harmonics q = random_motion();
       const ForceAndJacobian a = ours.evaluate(q, 2.0);
       const ForceAndJacobian b = expected.evaluate(q, 2.0);
@@ -167,12 +168,12 @@ TEST(LawPatchForce, GivesWhatTheClosedFormPatchGives) {
   }
 }
 
-TEST(LawPatchForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
+TEST(PointMethodForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
   Patch patch = random_patch(40, 1.0);
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    patch.laws[i] = std::make_shared<EventLaw>(patch.points[i]);
+    patch.methods[i] = std::make_shared<LineEvents>(patch.points[i]);
   }
-  LawPatchForce force(patch.weights, patch.laws, patch.shapes);
+  PointMethodForce force(patch.weights, patch.methods, patch.shapes);
   for (const int n_harmonics : {1, 3}) {
     std::srand(13);
     Harmonics q(n_harmonics, n_modes);
@@ -186,14 +187,14 @@ TEST(LawPatchForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
   }
 }
 
-TEST(LawPatchForce, ActsAlongTheSecondDirection) {
+TEST(PointMethodForce, ActsAlongTheSecondDirection) {
   const Eigen::Index n = 40;
   Patch p = random_patch(n, 9.0);  // none separated for good
   p.shapes.w = Eigen::MatrixXd::Random(n, n_modes);
-  LawPatchForce with(p.weights, p.laws, p.shapes);
+  PointMethodForce with(p.weights, p.methods, p.shapes);
   ModalShapes flat = p.shapes;
   flat.w.resize(0, 0);
-  LawPatchForce without(p.weights, p.laws, flat);
+  PointMethodForce without(p.weights, p.methods, flat);
   const Harmonics q = random_motion();
   const Eigen::MatrixXd K = spring_r * p.shapes.w.transpose() * p.weights.asDiagonal() * p.shapes.w;
   const Eigen::MatrixXd extra =
@@ -203,10 +204,10 @@ TEST(LawPatchForce, ActsAlongTheSecondDirection) {
             rounding(n));
 }
 
-TEST(LawPatchForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
+TEST(PointMethodForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
   Patch p = random_patch(20, 1.0);
   p.shapes.w = Eigen::MatrixXd::Random(20, n_modes);
-  LawPatchForce force(p.weights, p.laws, p.shapes);
+  PointMethodForce force(p.weights, p.methods, p.shapes);
   const Harmonics q = random_motion();
   const ForceAndJacobian at = force.evaluate(q, 3.0);
   const double h = 1e-6;
@@ -225,16 +226,16 @@ TEST(LawPatchForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
   Harmonics load(1, n_modes);
   for (Eigen::Index i = 0; i < 20; ++i) {
     load.rows().row(0) +=
-        p.weights[i] * p.laws[static_cast<std::size_t>(i)]->load_at_rest() * p.shapes.v.row(i);
+        p.weights[i] * p.methods[static_cast<std::size_t>(i)]->load_at_rest() * p.shapes.v.row(i);
   }
   const Eigen::VectorXd whole = at.force.vector() + load.vector();
   EXPECT_LE((at.frequency_derivative - 3.0 * whole).cwiseAbs().maxCoeff(), rounding(20) * 3.0);
 }
 
-TEST(LawPatchForce, MapIsThatOfTheClosedForm) {
+TEST(PointMethodForce, MapIsThatOfTheClosedForm) {
   const Patch p = random_patch(12, 0.8);
   const Harmonics q = random_motion();
-  const ContactMap ours = contact_map(p.laws, p.shapes, q, 1.0, 36, 1e-3);
+  const ContactMap ours = contact_map(p.methods, p.shapes, q, 1.0, 36, 1e-3);
   const ContactMap expected = contact_map(p.points, p.shapes, q, 36, 1e-3);
   EXPECT_EQ(ours.state, expected.state);
   EXPECT_EQ(ours.friction_traction, expected.friction_traction);
@@ -243,17 +244,17 @@ TEST(LawPatchForce, MapIsThatOfTheClosedForm) {
   EXPECT_EQ(ours.slip_r.cols(), 0);
 }
 
-TEST(LawPatchForce, RefusesWhatDoesNotFit) {
+TEST(PointMethodForce, RefusesWhatDoesNotFit) {
   const Patch p = random_patch(4, 1.0);
   const auto make = [&](const Eigen::VectorXd& weights, const ModalShapes& shapes) {
-    return LawPatchForce(weights, p.laws, shapes);
+    return PointMethodForce(weights, p.methods, shapes);
   };
   EXPECT_THROW((void)make(p.weights.head(3), p.shapes), std::invalid_argument);
   EXPECT_THROW((void)make(-p.weights, p.shapes), std::invalid_argument);
   ModalShapes bad = p.shapes;
   bad.v(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)make(p.weights, bad), std::invalid_argument);
-  LawPatchForce good(p.weights, p.laws, p.shapes);
+  PointMethodForce good(p.weights, p.methods, p.shapes);
   EXPECT_THROW((void)good.evaluate(Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
   EXPECT_THROW((void)good.evaluate(Harmonics(0, n_modes), 1.0), std::invalid_argument);
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Sum over the points of a patch of what their laws give, projected on the modes (theory section 13):
+/// Sum over the points of a patch of what their methods give, projected on the modes (theory section 13):
 ///
 ///   G^(k) = Σ_i w_i Σ_s φ_si (f_si − n_ref,i δ_s1 δ_k0)^(k),   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,   ∂G/∂ω
 ///
@@ -13,11 +13,11 @@
 
 #include "contact/force/projection_kernels.hpp"
 #include "contact/modal_force.hpp"
-#include "contact/point/point_law.hpp"
+#include "contact/point/point_method.hpp"
 
 namespace microslip::contact {
 
-class LawProjection {
+class PointProjection {
  public:
   /// @param shapes  n_points × n_modes of each signal, u and v at least; borrowed until take().
   /// @param rows    harmonic rows of the derivatives, ascending.

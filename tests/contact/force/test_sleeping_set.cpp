@@ -1,4 +1,4 @@
-#include "contact/force/sleeping_laws.hpp"
+#include "contact/force/sleeping_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <memory>
 #include <random>
 
-#include "contact/force/law_patch_force.hpp"
-#include "contact/line/event_law.hpp"
-#include "contact/line/surface_event_law.hpp"
+#include "contact/force/point_method_force.hpp"
+#include "contact/line/line_events.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
 namespace microslip::contact {
@@ -17,10 +17,10 @@ namespace {
 
 constexpr Eigen::Index n_modes = 4;
 
-// A law that does not say where it is linear: always evaluated.
-class Sleepless final : public PointLaw {
+// A method that does not say where it is linear: always evaluated.
+class Sleepless final : public PointMethod {
  public:
-  explicit Sleepless(std::shared_ptr<const PointLaw> law) : law_(std::move(law)) {}
+  explicit Sleepless(std::shared_ptr<const PointMethod> method) : law_(std::move(method)) {}
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
     law_->traction(motion, frequency, result);
@@ -33,46 +33,46 @@ class Sleepless final : public PointLaw {
   [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
 
  private:
-  std::shared_ptr<const PointLaw> law_;
+  std::shared_ptr<const PointMethod> law_;
 };
 
-using Laws = std::vector<std::shared_ptr<const PointLaw>>;
-using MakeLaw =
-    std::function<std::shared_ptr<const PointLaw>(const PointParameters&, double second)>;
+using Methods = std::vector<std::shared_ptr<const PointMethod>>;
+using MakeMethod =
+    std::function<std::shared_ptr<const PointMethod>(const PointParameters&, double second)>;
 
 struct Patch {
-  LawPatchForce sleeping;
-  LawPatchForce sleepless;
+  PointMethodForce sleeping;
+  PointMethodForce sleepless;
 };
 
-Patch patch_of(const Eigen::VectorXd& weights, const Laws& laws, const ModalShapes& shapes) {
-  Laws bare;
-  for (const auto& law : laws) bare.push_back(std::make_shared<Sleepless>(law));
-  return {LawPatchForce(weights, laws, shapes), LawPatchForce(weights, bare, shapes)};
+Patch patch_of(const Eigen::VectorXd& weights, const Methods& methods, const ModalShapes& shapes) {
+  Methods bare;
+  for (const auto& method : methods) bare.push_back(std::make_shared<Sleepless>(method));
+  return {PointMethodForce(weights, methods, shapes), PointMethodForce(weights, bare, shapes)};
 }
 
 enum class Directions : std::uint8_t { one, two };
 
 // Preloads from gaps to loads that hold everything; points without friction, without normal
 // stiffness.
-Patch random_patch(Eigen::Index n, const MakeLaw& make, Directions directions,
+Patch random_patch(Eigen::Index n, const MakeMethod& make, Directions directions,
                    std::mt19937_64& random) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   Eigen::VectorXd weights(n);
-  Laws laws;
+  Methods methods;
   for (Eigen::Index i = 0; i < n; ++i) {
     weights[i] = i % 11 == 3 ? 0.0 : 1.1 + u(random);
     const PointParameters point{i % 13 == 0 ? 0.0 : 1.1 + u(random),
                                 i % 7 == 1 ? 0.0 : 1.1 + u(random),
                                 i % 5 == 0 ? 0.0 : 0.5 + 0.4 * u(random), 6.0 * u(random) + 2.0};
-    laws.push_back(make(point, i % 9 == 0 ? 0.0 : 1.1 + u(random)));
+    methods.push_back(make(point, i % 9 == 0 ? 0.0 : 1.1 + u(random)));
   }
   const auto shape = [&] {
     return Eigen::MatrixXd::NullaryExpr(n, n_modes, [&] { return u(random); });
   };
   ModalShapes shapes{shape(), shape(), {}};
   if (directions == Directions::two) shapes.w = shape();
-  return patch_of(weights, laws, shapes);
+  return patch_of(weights, methods, shapes);
 }
 
 Harmonics random_motion(int n_harmonics, double size, std::mt19937_64& random) {
@@ -91,7 +91,7 @@ struct Seen {
   double most = 0.0;
 };
 
-// Motions of every size up to one that wakes nearly everything. @param accuracy  of the law, in
+// Motions of every size up to one that wakes nearly everything. @param accuracy  of the method, in
 // shares of the forces; sums of n terms of size 10 come on top.
 void expect_same(Patch& p, int n_harmonics, double accuracy, std::mt19937_64& random, Seen& seen) {
   for (const double size : {0.02, 0.1, 0.3, 0.6, 1.2}) {
@@ -119,11 +119,11 @@ void expect_same(Patch& p, int n_harmonics, double accuracy, std::mt19937_64& ra
 // Sums of a few hundred numbers of either sign in another order.
 constexpr double rounding = 2e-14;
 
-std::shared_ptr<const PointLaw> event(const PointParameters& point, double /*second*/) {
-  return std::make_shared<EventLaw>(point);
+std::shared_ptr<const PointMethod> event(const PointParameters& point, double /*second*/) {
+  return std::make_shared<LineEvents>(point);
 }
 
-TEST(SleepingLaws, EventPointsGiveWhatEvaluationGives) {
+TEST(SleepingSet, EventPointsGiveWhatEvaluationGives) {
   std::mt19937_64 random(1);
   Seen seen;
   for (int n_harmonics = 1; n_harmonics <= 5; ++n_harmonics) {
@@ -137,9 +137,9 @@ TEST(SleepingLaws, EventPointsGiveWhatEvaluationGives) {
 }
 
 // k_p ≠ k_r. Stuck cycles are integrated by quadrature: a little more than rounding.
-TEST(SleepingLaws, PlanarPointsGiveWhatEvaluationGives) {
-  const MakeLaw planar = [](const PointParameters& point, double second) {
-    return std::make_shared<PlanarLaw>(SurfaceLaw(point, second), 1e-9);
+TEST(SleepingSet, PlanarPointsGiveWhatEvaluationGives) {
+  const MakeMethod planar = [](const PointParameters& point, double second) {
+    return std::make_shared<PlaneEvents>(SurfaceLaw(point, second), 1e-9);
   };
   std::mt19937_64 random(2);
   Seen seen;
@@ -152,18 +152,18 @@ TEST(SleepingLaws, PlanarPointsGiveWhatEvaluationGives) {
 }
 
 // What the product makes of points along p that are rough or whose friction depends on the speed.
-std::shared_ptr<const PointLaw> surface_event(const PointParameters& point, double second,
-                                              const FrictionLaw& friction,
-                                              const std::optional<RoughSurface>& roughness) {
+std::shared_ptr<const PointMethod> surface_event(const PointParameters& point, double second,
+                                                 const FrictionLaw& friction,
+                                                 const std::optional<RoughSurface>& roughness) {
   PointParameters stiff = point;
   if (roughness) stiff.normal_stiffness = std::max(stiff.normal_stiffness, 0.1);
-  return std::make_shared<SurfaceEventLaw>(SurfaceLaw(stiff, second, friction, roughness));
+  return std::make_shared<SurfaceLineEvents>(SurfaceLaw(stiff, second, friction, roughness));
 }
 
 // Friction falls and rises with the speed: sleep is judged by the smallest coefficient that is
 // reached.
-TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
-  const auto make = [](const FrictionLaw& friction) -> MakeLaw {
+TEST(SleepingSet, FrictionThatDependsOnTheSpeedSleepsAsWell) {
+  const auto make = [](const FrictionLaw& friction) -> MakeMethod {
     return [friction](const PointParameters& point, double second) {
       return surface_event(point, second, friction, {});
     };
@@ -179,8 +179,8 @@ TEST(SleepingLaws, FrictionThatDependsOnTheSpeedSleepsAsWell) {
   EXPECT_LT(seen.least, 0.3);
 }
 
-TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
-  const auto make = [](const RoughSurface& surface) -> MakeLaw {
+TEST(SleepingSet, RoughSurfacesSleepOnlyWhereOpen) {
+  const auto make = [](const RoughSurface& surface) -> MakeMethod {
     return [surface](const PointParameters& point, double second) {
       return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient),
                            surface);
@@ -201,19 +201,19 @@ TEST(SleepingLaws, RoughSurfacesSleepOnlyWhereOpen) {
   EXPECT_GT(gaussian.least, 0.5);
 }
 
-TEST(SleepingLaws, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
-  const MakeLaw plain = [](const PointParameters& point, double second) {
+TEST(SleepingSet, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
+  const MakeMethod plain = [](const PointParameters& point, double second) {
     return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient), {});
   };
-  const MakeLaw by_speed = [](const PointParameters& point, double second) {
+  const MakeMethod by_speed = [](const PointParameters& point, double second) {
     return surface_event(point, second, FrictionLaw::exponential(0.5, 0.2, 0.7), {});
   };
-  const MakeLaw rough = [](const PointParameters& point, double second) {
+  const MakeMethod rough = [](const PointParameters& point, double second) {
     return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient),
                          RoughSurface::cubic(0.5));
   };
   std::mt19937_64 random(8);
-  for (const MakeLaw* make : {&plain, &by_speed, &rough}) {
+  for (const MakeMethod* make : {&plain, &by_speed, &rough}) {
     Seen seen;
     for (const int n_harmonics : {1, 3}) {
       Patch p = random_patch(60, *make, Directions::one, random);
@@ -226,9 +226,9 @@ TEST(SleepingLaws, SurfaceEventPointsGiveWhatEvaluationGivesAndSleep) {
   }
 }
 
-// The law does not resist along r, asleep or awake, whatever moves there.
-TEST(SleepingLaws, SurfaceEventPointsSleepWithoutForceAlongR) {
-  const MakeLaw plain = [](const PointParameters& point, double second) {
+// The method does not resist along r, asleep or awake, whatever moves there.
+TEST(SleepingSet, SurfaceEventPointsSleepWithoutForceAlongR) {
+  const MakeMethod plain = [](const PointParameters& point, double second) {
     return surface_event(point, second, FrictionLaw::constant(point.friction_coefficient), {});
   };
   std::mt19937_64 random(9);
@@ -239,7 +239,7 @@ TEST(SleepingLaws, SurfaceEventPointsSleepWithoutForceAlongR) {
 }
 
 // Whatever was asked before.
-TEST(SleepingLaws, EqualMotionsGiveEqualBits) {
+TEST(SleepingSet, EqualMotionsGiveEqualBits) {
   std::mt19937_64 random(6);
   const auto seed = random();
   std::mt19937_64 one(seed);
@@ -256,7 +256,7 @@ TEST(SleepingLaws, EqualMotionsGiveEqualBits) {
   EXPECT_EQ(a.jacobian, b.jacobian);
 }
 
-TEST(SleepingLaws, SomeRowsAreThoseOfAll) {
+TEST(SleepingSet, SomeRowsAreThoseOfAll) {
   std::mt19937_64 random(7);
   Patch p = random_patch(120, event, Directions::one, random);
   const Harmonics q = random_motion(2, 0.2, random);
@@ -276,13 +276,14 @@ TEST(SleepingLaws, SomeRowsAreThoseOfAll) {
   }
 }
 
-TEST(SleepingLaws, LinearStateIsProvedOfAPlanarBall) {
+TEST(SleepingSet, LinearStateIsProvedOfAPlanarBall) {
   Eigen::MatrixXd phi(1, 1);
   phi << 1.0;
   const auto force = [&](double preload) {
-    return LawPatchForce(Eigen::VectorXd::Ones(1),
-                         {std::make_shared<PlanarLaw>(SurfaceLaw({2.0, 0.0, 0.5, preload}, 1.0))},
-                         {phi, 0.0 * phi, phi});
+    return PointMethodForce(
+        Eigen::VectorXd::Ones(1),
+        {std::make_shared<PlaneEvents>(SurfaceLaw({2.0, 0.0, 0.5, preload}, 1.0))},
+        {phi, 0.0 * phi, phi});
   };
   Harmonics q(1, 1);
   q.rows()(1, 0) = 1.0;  // |K x| = √5 against μ n = 5
@@ -294,12 +295,12 @@ TEST(SleepingLaws, LinearStateIsProvedOfAPlanarBall) {
   EXPECT_EQ(force(0.0).linear_state(q, 0.0), LinearState::unknown);
 }
 
-TEST(SleepingLaws, LinearStateIsProvedOfSeveralHarmonics) {
+TEST(SleepingSet, LinearStateIsProvedOfSeveralHarmonics) {
   Eigen::MatrixXd phi(1, 1);
   phi << 1.0;
-  LawPatchForce force(Eigen::VectorXd::Ones(1),
-                      {std::make_shared<EventLaw>(PointParameters{2.0, 1.0, 0.5, 10.0})},
-                      {phi, 0.0 * phi, {}});
+  PointMethodForce force(Eigen::VectorXd::Ones(1),
+                         {std::make_shared<LineEvents>(PointParameters{2.0, 1.0, 0.5, 10.0})},
+                         {phi, 0.0 * phi, {}});
   Harmonics q(2, 1);
   q.rows() << 0.0, 1.0, 0.0, 1.0, 0.0;  // 2 |u| ≤ 3.52: sin θ + sin 2θ stays below 1.76
   EXPECT_EQ(force.linear_state(q, 0.0), LinearState::stuck);

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "contact/line/surface_event_law.hpp"
+#include "contact/line/surface_line_events.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_reference.hpp"
 #include "tests/support/campaign.hpp"
@@ -20,8 +20,8 @@ namespace microslip::test {
 namespace {
 
 using contact::PointHistory;
-using contact::SurfaceEventLaw;
 using contact::SurfaceLaw;
+using contact::SurfaceLineEvents;
 using Random = std::mt19937_64;
 
 constexpr double tolerance = 1e-14;
@@ -134,9 +134,9 @@ struct SurfaceKind {
   ReferenceHeights heights;
 };
 
-class SurfaceEventLawAgainstReference : public testing::TestWithParam<SurfaceKind> {};
+class SurfaceLineEventsAgainstReference : public testing::TestWithParam<SurfaceKind> {};
 
-TEST_P(SurfaceEventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
+TEST_P(SurfaceLineEventsAgainstReference, ForceCoefficientsAndWorkAgree) {
   Random random(20261121);
   // The reference takes long for heights of this kind.
   const int n_cases =
@@ -145,7 +145,7 @@ TEST_P(SurfaceEventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
     const SurfaceDraw d = drawn(random, GetParam().rate, GetParam().heights);
     const int H = d.c.motion.n_harmonics();
     const SurfaceLaw law = d.law.law();
-    const PointHistory ours = SurfaceEventLaw(law).history(d.c.motion, d.frequency, {}, H);
+    const PointHistory ours = SurfaceLineEvents(law).history(d.c.motion, d.frequency, {}, H);
     const SurfaceReference reference = surface_reference(d.law, d.c.motion, d.frequency, H);
     const double load = law.at(d.c.motion.rows()(0, 1) + amplitude(d.c, 1), 0.0).load;
     const double k_u = law.first_stiffness();
@@ -158,7 +158,7 @@ TEST_P(SurfaceEventLawAgainstReference, ForceCoefficientsAndWorkAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, SurfaceEventLawAgainstReference,
+    Kinds, SurfaceLineEventsAgainstReference,
     testing::Values(
         SurfaceKind{"exponential", ReferenceRate::exponential, ReferenceHeights::none},
         SurfaceKind{"hyperbolic", ReferenceRate::hyperbolic, ReferenceHeights::none},

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/line/event_law.hpp"
+#include "contact/line/line_events.hpp"
 #include "support/motion_cases.hpp"
 
 namespace microslip::contact {
@@ -26,7 +26,7 @@ Outcome outcome(const MotionCase& c, Eigen::Index k, double step) {
   MotionCase moved = c;
   moved.motion.vector()[k] += step;
   const PointHistory history =
-      EventLaw(c.point).history(moved.motion, 1.0, {}, c.motion.n_harmonics());
+      LineEvents(c.point).history(moved.motion, 1.0, {}, c.motion.n_harmonics());
   Outcome result{history.force.vector(), {}, 7.0};
   for (const CycleSegment& segment : history.segments) {
     result.sequence.push_back("SPNE"[static_cast<std::size_t>(segment.state)]);
@@ -69,11 +69,11 @@ Eigen::VectorXd one_sided(const MotionCase& c, Eigen::Index k, double h) {
          (2.0 * h);
 }
 
-class EventLawJacobian : public testing::TestWithParam<test::MotionStratum> {};
+class LineEventsJacobian : public testing::TestWithParam<test::MotionStratum> {};
 
 // Forces round at 1e-15 of their scale, so differences at 1e-10 of the stiffness; truncation is
 // below that where differences at h and h/2 agree.
-TEST_P(EventLawJacobian, IsThatOfCentralDifferences) {
+TEST_P(LineEventsJacobian, IsThatOfCentralDifferences) {
   Random random(20260205);
   int n_checked = 0;
   int n_drawn = 0;
@@ -81,7 +81,7 @@ TEST_P(EventLawJacobian, IsThatOfCentralDifferences) {
     const MotionCase c = GetParam().draw(random);
     const double scale = stiffness_scale(c);
     PointTraction now;
-    EventLaw(c.point).traction(c.motion, 1.0, now);
+    LineEvents(c.point).traction(c.motion, 1.0, now);
     for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
       if (k % 3 == 2) {
         ASSERT_TRUE((now.jacobian.col(k).array() == 0.0).all());
@@ -116,12 +116,12 @@ std::vector<test::MotionStratum> smooth_strata() {
   return chosen;
 }
 
-INSTANTIATE_TEST_SUITE_P(Strata, EventLawJacobian, testing::ValuesIn(smooth_strata()),
+INSTANTIATE_TEST_SUITE_P(Strata, LineEventsJacobian, testing::ValuesIn(smooth_strata()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 // Full stick with the mean pushed against an end of the admissible band: the derivative is that of
 // the end; with the mean inside, it is k_u for the mean alone.
-TEST(EventLawJacobianOfFullStick, FollowsTheActiveEndOfTheBand) {
+TEST(LineEventsJacobianOfFullStick, FollowsTheActiveEndOfTheBand) {
   Harmonics motion(2, 3);
   motion.rows().col(0) << 0.0, 1.0, 0.2, 0.3, -0.1;
   motion.rows().col(1) << 0.0, 0.1, 0.4, 0.2, 0.0;
@@ -130,7 +130,7 @@ TEST(EventLawJacobianOfFullStick, FollowsTheActiveEndOfTheBand) {
     motion.rows()(0, 0) = mean;
     const MotionCase c{point, motion};
     PointTraction now;
-    EventLaw(point).traction(motion, 1.0, now);
+    LineEvents(point).traction(motion, 1.0, now);
     ASSERT_EQ(now.regime, CycleRegime::full_stick);
     EXPECT_EQ(now.jacobian(0, 0), mean == 0.3 ? 1.0 : 0.0);
     for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
@@ -142,16 +142,16 @@ TEST(EventLawJacobianOfFullStick, FollowsTheActiveEndOfTheBand) {
 }
 
 // At the onset of slip the derivative from the stuck side is that of full stick.
-TEST(EventLawJacobianOfFullStick, IsOneSidedAtTheOnsetOfSlip) {
+TEST(LineEventsJacobianOfFullStick, IsOneSidedAtTheOnsetOfSlip) {
   Harmonics motion(2, 3);
   motion.rows().col(0) << 0.0, 1.0, 0.0, 0.0, 0.0;
   const PointParameters point{1.0, 0.0, 0.5, 2.0};  // μ n₀ = k_u a: just full stick
   PointTraction now;
-  EventLaw(point).traction(motion, 1.0, now);
+  LineEvents(point).traction(motion, 1.0, now);
   EXPECT_EQ(now.regime, CycleRegime::full_stick);
   PointTraction less;
   motion.rows()(1, 0) -= 1e-6;
-  EventLaw(point).traction(motion, 1.0, less);
+  LineEvents(point).traction(motion, 1.0, less);
   EXPECT_NEAR((now.force.rows()(1, 0) - less.force.rows()(1, 0)) / 1e-6, now.jacobian(3, 3), 1e-9);
 }
 
