@@ -17,8 +17,8 @@
 
 namespace microslip::contact {
 
-/// G and its derivatives at one iterate; n = (2H+1) · n_modes unknowns in the order of
-/// Harmonics::vector().
+/// G and its derivatives at one iterate, by n = rows · n_modes unknowns: all of Harmonics::vector(), in its order, or
+/// those asked for.
 struct ForceAndJacobian {
   Harmonics force;                       ///< G [N/√kg]
   Eigen::MatrixXd jacobian;              ///< ∂G/∂q [1/s²], n × n
@@ -43,9 +43,11 @@ enum class LinearState { unknown, stuck, free };
 
 /// What is asked of the equations at a motion.
 struct Asked {
-  /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, much cheaper.
+  /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, which is
+  /// cheaper where points are sampled.
   std::vector<Eigen::Index> rows{};
-  /// Of the force, those of the motion at least: what a motion asks of equations left out. 0: those of the motion.
+  /// Of the force: what a motion asks of equations left out. Fewer than the motion has, e.g. 0: those of the motion.
+  /// More: without derivatives.
   int n_harmonics = 0;
 };
 
@@ -66,11 +68,9 @@ class ModalForce {
   /// @param q          harmonics of the modal coordinates [m√kg].
   /// @param frequency  ω [rad/s].
   /// @return           derivatives by the rows asked for and by these alone: n = rows · n_modes.
-  /// @throws std::invalid_argument  another number of modes than n_modes(), or of harmonics than the force knows.
-  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency,
-                                          const Asked& asked) {
-    return evaluated(q, frequency, asked);
-  }
+  /// @throws std::invalid_argument  another number of modes than n_modes(), harmonics that the force does not know,
+  ///                                derivatives of more harmonics than the motion has.
+  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency, const Asked& asked);
   /// By all rows.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency);
 
@@ -78,7 +78,7 @@ class ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) = 0;
   /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
-  /// next to nothing at the motion evaluated last.
+  /// next to nothing at the motion evaluated last, elsewhere an evaluation.
   /// @param result  written whole, storage is used again; empty: not told.
   /// @throws std::invalid_argument  as evaluate().
   virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) {
@@ -87,7 +87,8 @@ class ModalForce {
 
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
-  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg]; unknown unless overridden.
+  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg], which may be infinite: of
+  /// all there are. Unknown unless overridden.
   [[nodiscard]] virtual LinearState linear_state(const Harmonics& /*centre*/,
                                                  double /*radius*/) const {
     return LinearState::unknown;

@@ -14,7 +14,8 @@ namespace microslip::solver {
 
 using contact::Harmonics;
 
-/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates.
+/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates. Its forces keep storage of their own:
+/// whatever is solved with one scene is solved one after the other, threads have a scene each.
 struct Scene {
   Eigen::VectorXd natural_frequency;             ///< ω_n [rad/s], n_modes, ≥ 0
   Eigen::VectorXd damping_ratio;                 ///< ζ_n [-], n_modes

@@ -1,9 +1,18 @@
 #include "contact/modal_force.hpp"
 
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace microslip::contact {
+
+ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency, const Asked& asked) {
+  if (asked.n_harmonics > q.n_harmonics() && !asked.rows.empty()) {
+    throw std::invalid_argument(
+        "contact force: derivatives with more harmonics than the motion has");
+  }
+  return evaluated(q, frequency, asked);
+}
 
 ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency) {
   Asked all;

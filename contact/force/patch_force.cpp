@@ -173,6 +173,10 @@ PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
 ForceAndJacobian PatchForce::evaluated(const Harmonics& q, double /*frequency*/,
                                        const Asked& asked) {
   require_single_harmonic(q, n_modes());
+  if (asked.n_harmonics > 1) {
+    throw std::invalid_argument("PatchForce: " + std::to_string(asked.n_harmonics) +
+                                " harmonics of the force; the closed form has one");
+  }
   const auto n = static_cast<std::size_t>(n_modes());
   if (sleep_.look_at(q, patch_, shapes_)) {
     blocks_ = packed(shapes_, sleep_.order());

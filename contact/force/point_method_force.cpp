@@ -6,21 +6,15 @@
 namespace microslip::contact {
 namespace {
 
-/// Of rough surfaces the range tells where they are open alone, nothing of friction.
-bool is_frictionless(const std::optional<LinearRange>& range) {
-  return range && range->sticks_linearly && !range->rubs();
-}
-
 RestingPoints at_rest(Eigen::VectorXd weights,
                       const std::vector<std::shared_ptr<const PointMethod>>& methods) {
   const auto n = static_cast<Eigen::Index>(methods.size());
-  RestingPoints points{std::move(weights), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}, {}};
+  RestingPoints points{std::move(weights), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}};
   for (Eigen::Index i = 0; i < n; ++i) {
     const PointMethod& method = *methods[static_cast<std::size_t>(i)];
     points.load_at_rest[i] = method.load_at_rest();
     points.stuck_stiffness.row(i) = method.stuck_stiffness().transpose();
     points.ranges.push_back(method.linear_range());
-    points.frictionless.push_back(is_frictionless(points.ranges.back()));
   }
   return points;
 }

@@ -12,7 +12,9 @@ namespace {
 
 void check(const RestingPoints& points, const ModalShapes& shapes) {
   const Eigen::Index n = points.weights.size();
-  if (n < 1 || static_cast<Eigen::Index>(points.ranges.size()) != n) {
+  const bool whole = static_cast<Eigen::Index>(points.ranges.size()) == n &&
+                     points.load_at_rest.size() == n && points.stuck_stiffness.rows() == n;
+  if (n < 1 || !whole) {
     throw std::invalid_argument("contact force: " + std::to_string(n) + " weights for " +
                                 std::to_string(points.ranges.size()) + " points");
   }
@@ -53,18 +55,25 @@ void PointwiseForce::look_at(const Harmonics& q, double frequency) {
 ForceAndJacobian PointwiseForce::evaluated(const Harmonics& q, double frequency,
                                            const Asked& asked) {
   look_at(q, frequency);
-  const bool wider = asked.n_harmonics > q.n_harmonics();
-  kept_q_ = wider ? Harmonics() : q;  // methods asked for more harmonics do not tell their cycles
-  kept_frequency_ = frequency;
+  kept_q_.reset();
   keep_sleeping();
   ForceAndJacobian result = awake_force(frequency, asked);
+  if (asked.n_harmonics <= q.n_harmonics()) {
+    kept_q_ = q;
+    kept_frequency_ = frequency;
+  }
   if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, asked.rows.size());
   return result;
 }
 
 void PointwiseForce::keep(Eigen::Index point, const CycleStates& cycle) {
-  const auto i = static_cast<std::size_t>(point);
-  cycles_[i] = points_.frictionless[i] ? cycle.without_slip() : cycle;
+  cycles_[static_cast<std::size_t>(point)] = is_frictionless(point) ? cycle.without_slip() : cycle;
+}
+
+/// Of rough surfaces the range tells where they are open alone, nothing of friction.
+bool PointwiseForce::is_frictionless(Eigen::Index point) const {
+  const std::optional<LinearRange>& range = points_.ranges[static_cast<std::size_t>(point)];
+  return range && range->sticks_linearly && !range->rubs();
 }
 
 void PointwiseForce::keep_sleeping() {
@@ -78,8 +87,8 @@ void PointwiseForce::keep_sleeping() {
 }
 
 void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates& result) {
-  const bool known = frequency == kept_frequency_ && q.rows().rows() == kept_q_.rows().rows() &&
-                     q.vector() == kept_q_.vector();
+  const bool known = kept_q_ && frequency == kept_frequency_ &&
+                     q.rows().rows() == kept_q_->rows().rows() && q.vector() == kept_q_->vector();
   if (!known) static_cast<void>(evaluated(q, frequency, {}));
   const double area = points_.weights.sum();
   result.clear();
@@ -101,7 +110,7 @@ CycleReport PointwiseForce::report(const Harmonics& q, double frequency) {
     if (weight == 0.0) continue;
     const bool open = state == SleepState::open;
     // In contact without friction: whether that is slip, the cycle tells.
-    if (state == SleepState::awake || (!open && points_.frictionless[i])) {
+    if (state == SleepState::awake || (!open && is_frictionless(point))) {
       others.push_back(point);
       continue;
     }

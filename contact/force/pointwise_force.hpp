@@ -23,13 +23,12 @@ struct RestingPoints {
   Eigen::VectorXd load_at_rest;                    ///< n_ref [Pa]
   Eigen::MatrixX3d stuck_stiffness;                ///< along p, q, r [N/m³]
   std::vector<std::optional<LinearRange>> ranges;  ///< none: always evaluated
-  std::vector<bool> frictionless;                  ///< slip is not told: it has no force
 };
 
 class PointwiseForce : public ModalForce {
  public:
   [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) final;
-  /// At another motion than the last one: costs its evaluation, without derivatives.
+  /// At another motion than the last one: costs its evaluation, without derivatives by the modes.
   void states(const Harmonics& q, double frequency, ContactStates& result) final;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const final;
   /// Of any number of harmonics; unknown where a point has no range. See linear_proof.hpp.
@@ -47,12 +46,14 @@ class PointwiseForce : public ModalForce {
   [[nodiscard]] const std::vector<Eigen::Index>& awake() const { return sleep_.awake(); }
   /// Keeps what an awake point does under the motion.
   void keep(Eigen::Index point, const CycleStates& cycle);
+  /// Linear in contact without friction: slip there has no force, and is not told.
+  [[nodiscard]] bool is_frictionless(Eigen::Index point) const;
 
  private:
   /// Equal input gives equal bits, whatever was asked before.
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency,
                                            const Asked& asked) final;
-  /// Sum of the awake points under motion(), which are kept.
+  /// Sum of the awake points under motion(). What they do is kept, but where more harmonics are asked for.
   [[nodiscard]] virtual ForceAndJacobian awake_force(double frequency, const Asked& asked) = 0;
   /// Cycles of these points under motion().
   virtual void add_cycles(std::span<const Eigen::Index> points, double frequency,
@@ -65,9 +66,8 @@ class PointwiseForce : public ModalForce {
   ModalShapes shapes_;
   SleepingSet sleep_;
   PatchMotion motion_;
-  // Of the motion evaluated last.
   std::vector<CycleStates> cycles_;
-  Harmonics kept_q_;
+  std::optional<Harmonics> kept_q_;  ///< the motion of cycles_; none: they are of no motion
   double kept_frequency_ = 0.0;
 };
 

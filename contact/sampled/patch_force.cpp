@@ -14,33 +14,39 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument("sampled::PatchForce: " + message);
 }
 
-bool is_frictionless(const SurfaceLaw& surface, const LinearRange& range) {
-  if (surface.is_smooth()) return !range.rubs();
-  return !surface.is_rate_dependent() && surface.friction().at_rest() == 0.0;
-}
-
-Eigen::RowVector3d stuck_stiffness(const SurfaceLaw& surface, bool frictionless, bool planar) {
+Eigen::RowVector3d stuck_stiffness(const SurfaceLaw& surface, bool planar) {
   const SurfaceState rest = surface.at(0.0, 0.0);
   const double closed =
       surface.is_smooth() ? surface.point().normal_stiffness : rest.load_by_approach;
-  if (frictionless) return {0.0, closed, 0.0};
+  const bool rubs = surface.is_rate_dependent() || surface.friction().at_rest() > 0.0;
+  if (!rubs) return {0.0, closed, 0.0};
   return {surface.first_stiffness() * rest.stiffness_ratio, closed,
           planar ? surface.second_stiffness() * rest.second_stiffness_ratio : 0.0};
+}
+
+/// Without a spring along the face nothing slips, whatever its slider does: as by the other methods.
+std::vector<CycleSegment> told(std::vector<CycleSegment> segments, const SurfaceLaw& surface,
+                               bool planar) {
+  const bool has_spring =
+      surface.first_stiffness() > 0.0 || (planar && surface.second_stiffness() > 0.0);
+  if (has_spring) return segments;
+  for (CycleSegment& segment : segments) {
+    if (segment.state != ContactState::separated) segment.state = ContactState::stick;
+  }
+  return joined_segments(segments, 0.0);
 }
 
 RestingPoints at_rest(Eigen::VectorXd weights, const std::vector<SurfaceLaw>& surfaces,
                       bool planar) {
   const auto n = static_cast<Eigen::Index>(surfaces.size());
-  RestingPoints points{std::move(weights), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}, {}};
+  RestingPoints points{std::move(weights), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}};
   for (Eigen::Index i = 0; i < n; ++i) {
     const SurfaceLaw& surface = surfaces[static_cast<std::size_t>(i)];
     LinearRange range = surface.linear_range();
     if (!planar) range.stiffness[2] = 0.0;
-    const bool frictionless = is_frictionless(surface, range);
     points.load_at_rest[i] = surface.load_at_rest();
-    points.stuck_stiffness.row(i) = stuck_stiffness(surface, frictionless, planar);
+    points.stuck_stiffness.row(i) = stuck_stiffness(surface, planar);
     points.ranges.emplace_back(range);
-    points.frictionless.push_back(frictionless);
   }
   return points;
 }
@@ -150,7 +156,9 @@ void PatchForce::add_cycles(std::span<const Eigen::Index> points, double frequen
       line_.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
     }
     for (std::size_t p = 0; p < block.size(); ++p) {
-      sum.add(cycle_segments(planar ? plane_.runs(p) : line_.runs(p), grid.of_motion->size()),
+      const auto& surface = surfaces_[static_cast<std::size_t>(block[p])];
+      const auto& runs = planar ? plane_.runs(p) : line_.runs(p);
+      sum.add(told(cycle_segments(runs, grid.of_motion->size()), surface, planar),
               planar ? plane_.slip_work(p) : line_.slip_work(p), this->points().weights[block[p]]);
     }
   }

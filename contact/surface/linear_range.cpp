@@ -134,6 +134,7 @@ PhaseTable::PhaseTable(int harmonics) : n_harmonics(harmonics) {
 
 LinearReserve reserve_of_ball(const LinearRange& range, const Eigen::Vector3d& sizes,
                               int n_harmonics, double radius) {
+  if (std::isinf(radius)) return {radius, radius};
   const double reach = std::sqrt(1.0 + n_harmonics) * radius;
   const double load = range.stiffness[1] * sizes[1] * reach;
   if (!range.rubs()) return {load, load};

@@ -11,13 +11,6 @@
 namespace microslip::pipelines {
 namespace {
 
-std::string setting_of(const SceneDescription& scene, const char* name) {
-  for (const auto& [effect, setting] : scene.effects) {
-    if (effect == name) return setting;
-  }
-  return "auto";
-}
-
 void require_stiffness_along_r(const ReducedModel& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const contact::Patch& patch : model.patches) {

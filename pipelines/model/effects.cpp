@@ -36,19 +36,13 @@ ContactFacts facts_of(const SceneDescription& scene) {
   return facts;
 }
 
-std::string setting_of(const SceneDescription& scene, const std::string& name) {
-  for (const auto& [effect, setting] : scene.effects) {
-    if (effect == name) return setting;
-  }
-  return "auto";
-}
-
 void add_second_direction(const SceneDescription& scene, const ReducedModel* model,
                           std::vector<EffectRecord>& effects) {
-  const std::string setting = setting_of(scene, "second_direction");
-  const bool simulated = model != nullptr ? model->effects.second_direction : setting == "on";
+  using enum Discretisation::Choice;
+  const Discretisation::Choice choice = scene.settings.second_direction;
+  const bool simulated = model != nullptr ? model->effects.second_direction : choice == on;
   std::string reason;
-  if (setting != "auto") {
+  if (choice != automatic) {
     reason = "asked for in the scene";
   } else if (model == nullptr) {
     reason = "decided when the modes are known: friction along r where the patch moves along r";
@@ -56,6 +50,7 @@ void add_second_direction(const SceneDescription& scene, const ReducedModel* mod
     reason = fmt::format("motion along r is {:.2g} % of that along p in the linear limits",
                          100.0 * model->effects.motion_ratio);
   }
+  const char* setting = choice == on ? "on" : choice == off ? "off" : "auto";
   effects.push_back({"second_direction", setting, simulated, reason});
 }
 
@@ -103,8 +98,8 @@ std::string harmonics_text(const SceneDescription& scene) {
 
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
   const ContactFacts facts = facts_of(scene);
-  const auto* modal = std::get_if<ModalModel>(&scene.model);
-  const ResidualKind residual = modal != nullptr ? modal->residual : scene.settings.basis.residual;
+  const bool modal = std::holds_alternative<ModalModel>(scene.model);
+  const ResidualKind residual = scene.settings.basis.residual;
   const bool left_out = setting_of(scene, "normal_motion") == "off";
   const bool normal = facts.has_normal_stiffness && !left_out;
   const std::string constant_load =
@@ -125,8 +120,7 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       residual == ResidualKind::attachment
           ? "static shapes of the contact and of the forces stand for omitted modes"
           : "flexibility of the omitted modes stands in series with the contact stiffness",
-      modal == nullptr ? "modes.residual = \"none\", or no contact"
-                       : "the given stiffness is used as it is");
+      !modal ? "modes.residual = \"none\", or no contact" : "the given stiffness is used as it is");
   const bool several = scene.settings.harmonics.highest > 1;
   add("stability", facts.has_contact,
       several ? "Hill's exponents of every point with several harmonics, where they can tell; in "

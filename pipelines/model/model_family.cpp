@@ -62,9 +62,9 @@ ReducedModel model_with(const Discretisation& settings, const SceneDescription& 
   }
   SceneDescription other = scene;
   other.settings = settings;
-  if (structure == nullptr || settings.basis == scene.settings.basis) {
-    return model_of(other, structure, warnings);
-  }
+  if (settings.basis == scene.settings.basis) return model_of(other, structure, warnings);
+  if (structure == nullptr)
+    throw std::invalid_argument("settings with another basis of given modes");
   const SolvedStructure solved{structure->mesh, solve_structure(structure->mesh, other)};
   return model_of(other, &solved, warnings);
 }

@@ -37,7 +37,7 @@ struct SolvedStructure {
 /// A richer, or leaner, model of the same scene.
 /// @param structure  of the scene: its mesh serves, and its modes where the basis is the same. nullptr as above.
 /// @param warnings   as above.
-/// @throws std::invalid_argument  not one patch per contact.
+/// @throws std::invalid_argument  not one patch per contact, or another basis where modes are given.
 /// @throws SceneError, RefusedError  as model_of() and solve_structure().
 [[nodiscard]] ReducedModel model_with(const Discretisation& settings, const SceneDescription& scene,
                                       const SolvedStructure* structure,

@@ -53,9 +53,12 @@ void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescri
   options.degree = scene.settings.basis.attachment_degree;
   std::vector<fem::AttachmentFace> faces;
   for (const ContactDescription& contact : scene.contacts) {
-    const double tangential =
-        contact.tangential_stiffness.value();  // settle_residual() saw to both
-    const Eigen::Vector3d local(tangential, contact.normal_stiffness.value(), tangential);
+    if (!contact.tangential_stiffness || !contact.normal_stiffness) {
+      throw SceneError(contact.place +
+                       ": attachment shapes need a stiffness of the contact in N/m^3");
+    }
+    const double tangential = *contact.tangential_stiffness;
+    const Eigen::Vector3d local(tangential, *contact.normal_stiffness, tangential);
     faces.push_back({mesh.surface(contact.surface), contact_frame(mesh, contact), local});
   }
   fem::AttachedBasis attached = structure.attach(

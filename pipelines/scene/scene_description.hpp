@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -165,6 +166,14 @@ struct SceneDescription {
   for (const ContactDescription& contact : scene.contacts) rules.push_back(contact.rules);
   if (rules.empty()) rules.push_back(scene.rules);
   return rules;
+}
+
+/// What the scene says of an effect: auto, on or off.
+[[nodiscard]] inline std::string setting_of(const SceneDescription& scene, std::string_view name) {
+  for (const auto& [effect, setting] : scene.effects) {
+    if (effect == name) return setting;
+  }
+  return "auto";
 }
 
 [[nodiscard]] inline bool is_rough(const SceneDescription& scene) {

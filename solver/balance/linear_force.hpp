@@ -26,10 +26,10 @@ class LinearForce final : public contact::ModalForce {
                                             double frequency) override {
     return contact_ != nullptr ? contact_->report(q, frequency) : report_;
   }
-  /// Stuck, if nothing but the stiffness is meant by that, whatever the motion.
+  /// The free limit, or one of contact that sticks, whatever the motion.
   [[nodiscard]] contact::LinearState linear_state(const contact::Harmonics& /*centre*/,
                                                   double /*radius*/) const override {
-    return contact::LinearState::stuck;
+    return stiffness_.isZero(0.0) ? contact::LinearState::free : contact::LinearState::stuck;
   }
 
  private:

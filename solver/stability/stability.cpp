@@ -215,8 +215,15 @@ bool is_damped_linear(const Scene& scene) {
   if (!damped || !scene.contact) return damped;
   const contact::Harmonics rest(1, scene.n_modes());
   const double any = std::numeric_limits<double>::infinity();
-  return scene.contact->linear_state(rest, any) == contact::LinearState::stuck &&
-         is_spring(scene.contact->stuck_stiffness());
+  switch (scene.contact->linear_state(rest, any)) {
+    case contact::LinearState::free:
+      return true;
+    case contact::LinearState::stuck:
+      return is_spring(scene.contact->stuck_stiffness());
+    case contact::LinearState::unknown:
+      break;
+  }
+  return false;
 }
 
 }  // namespace

@@ -156,14 +156,14 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
                      !kind.surface(samples.points[0]).is_rate_dependent();
   if (kind.second_direction) {
     for (const double tolerance : {1e-13, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2}) {
-      add("planar law", tolerance, by_methods(samples, kind, planar(tolerance)));
+      add("planar events", tolerance, by_methods(samples, kind, planar(tolerance)));
     }
     return methods;
   }
   if (plain) add("located events", 0.0, by_methods(samples, kind, located()));
   add("slider band", 0.0, by_methods(samples, kind, band()));
   const double tolerance = plain ? 1e-6 : 1e-12;
-  add("planar law", tolerance, by_methods(samples, kind, planar(tolerance)));
+  add("planar events", tolerance, by_methods(samples, kind, planar(tolerance)));
   if (plain && kind.n_harmonics == 1) {
     add("closed form", 0.0,
         std::make_shared<PatchForce>(ContactPatch(samples.weights, samples.points),

@@ -4,7 +4,7 @@
 /// point, ten modes, on one core:
 ///
 ///   line   one direction, against located events    (line_events.hpp)
-///   plane  two directions, against the planar law    (planar_cycle.hpp)
+///   plane  two directions, against planar events    (planar_cycle.hpp)
 ///
 /// for 1, 3, 9 harmonics and n = 32 … 2048 instants. Prints a table; no argument.
 #include <algorithm>
@@ -130,7 +130,7 @@ void compare(int H, bool second_direction, Eigen::Index n) {
     PatchForce patch(weights, surfaces, shapes, {instants});
     print(name + " n = " + std::to_string(instants), H, timed(patch, q, n), exact, first, q);
   }
-  print(second_direction ? "planar law" : "located events", H, exact, exact, first, q);
+  print(second_direction ? "planar events" : "located events", H, exact, exact, first, q);
 }
 
 }  // namespace

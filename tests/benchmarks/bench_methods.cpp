@@ -86,7 +86,7 @@ Methods by_line_events(Eigen::Index n, int awake) {
   return methods;
 }
 
-Methods planar_laws(Eigen::Index n, int awake) {
+Methods by_planar_events(Eigen::Index n, int awake) {
   Methods methods;
   for (Eigen::Index i = 0; i < n; ++i) {
     methods.push_back(std::make_shared<PlaneEvents>(SurfaceLaw(point_of(i, awake), 0.8)));
@@ -160,7 +160,7 @@ BENCHMARK(sleeping_event)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicroseco
 
 void sleeping_planar(benchmark::State& state) {
   constexpr Eigen::Index n = 300;
-  compare(state, planar_laws(n, static_cast<int>(state.range(0))), shapes_of(n, true),
+  compare(state, by_planar_events(n, static_cast<int>(state.range(0))), shapes_of(n, true),
           motion_of(1));
 }
 BENCHMARK(sleeping_planar)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);

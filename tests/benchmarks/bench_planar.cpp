@@ -40,7 +40,7 @@ double microseconds(const test::PlanarCase& c) {
   return 1e6 * (seconds_spent() - begin);
 }
 
-void planar_law(benchmark::State& state, const test::PlanarStratum& stratum) {
+void planar_events(benchmark::State& state, const test::PlanarStratum& stratum) {
   std::mt19937_64 random(11);
   std::vector<double> spent;
   for (auto _ : state) {
@@ -113,8 +113,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   for (const test::PlanarStratum& stratum : test::planar_strata()) {
     benchmark::RegisterBenchmark(
-        ("planar_law/" + std::string(stratum.name)).c_str(),
-        [&stratum](benchmark::State& state) { planar_law(state, stratum); })
+        ("planar_events/" + std::string(stratum.name)).c_str(),
+        [&stratum](benchmark::State& state) { planar_events(state, stratum); })
         ->Iterations(n_states)
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);

@@ -84,11 +84,11 @@ double stiffness_scale(const MotionCase& c) {
          (1.0 + c.point.friction_coefficient) * c.point.normal_stiffness;
 }
 
-class SurfaceLineEventss : public testing::TestWithParam<SurfaceCase> {};
+class AllSurfaceLineEvents : public testing::TestWithParam<SurfaceCase> {};
 
 // The planar method along a line is integrated to its tolerance; an independent way to the same
 // cycle.
-TEST_P(SurfaceLineEventss, AgreeWithThePlaneEventsAlongALine) {
+TEST_P(AllSurfaceLineEvents, AgreeWithThePlaneEventsAlongALine) {
   for (const MotionCase& drawn : motions(60, 32)) {
     MotionCase c = drawn;
     c.motion.rows().col(2).setZero();
@@ -107,7 +107,7 @@ TEST_P(SurfaceLineEventss, AgreeWithThePlaneEventsAlongALine) {
   }
 }
 
-TEST_P(SurfaceLineEventss, AreFiniteInEveryStratum) {
+TEST_P(AllSurfaceLineEvents, AreFiniteInEveryStratum) {
   for (const MotionStratum& stratum : test::motion_strata()) {
     Random random(34);
     for (int i = 0; i < 60; ++i) {
@@ -136,7 +136,7 @@ Eigen::VectorXd central(const SurfaceLineEvents& method, const Harmonics& motion
 
 // Forces round at 1e-13, so differences at 1e-13/1e-4; where differences at h and h/2 differ by
 // more than 1e-8 the motion is near a kink.
-TEST_P(SurfaceLineEventss, HaveTheJacobianOfDifferences) {
+TEST_P(AllSurfaceLineEvents, HaveTheJacobianOfDifferences) {
   int n_checked = 0;
   int n_drawn = 0;
   for (const MotionCase& c : motions(40, 35)) {
@@ -161,7 +161,7 @@ TEST_P(SurfaceLineEventss, HaveTheJacobianOfDifferences) {
   EXPECT_GT(n_checked, n_drawn / 2);
 }
 
-TEST_P(SurfaceLineEventss, HaveTheFrequencyDerivativeOfDifferences) {
+TEST_P(AllSurfaceLineEvents, HaveTheFrequencyDerivativeOfDifferences) {
   int n_checked = 0;
   for (const MotionCase& c : motions(40, 36)) {
     const SurfaceLineEvents method(GetParam().make(c));
@@ -182,7 +182,7 @@ TEST_P(SurfaceLineEventss, HaveTheFrequencyDerivativeOfDifferences) {
 
 // Theory sections 7, 11: the normal method is elastic; the work of friction is that of slip where
 // the tangential stiffness does not depend on the load.
-TEST_P(SurfaceLineEventss, BalanceTheirWork) {
+TEST_P(AllSurfaceLineEvents, BalanceTheirWork) {
   for (const MotionCase& c : motions(100, 37)) {
     const SurfaceLaw surface = GetParam().make(c);
     const int H = c.motion.n_harmonics();
@@ -200,7 +200,7 @@ TEST_P(SurfaceLineEventss, BalanceTheirWork) {
 
 // What is told of the cycle is the cycle: forces at instants add up to the coefficients, the slider
 // keeps to the method, slip by slip to what is dissipated.
-TEST_P(SurfaceLineEventss, TellTheCycleThatTheyIntegrate) {
+TEST_P(AllSurfaceLineEvents, TellTheCycleThatTheyIntegrate) {
   constexpr int n = 4096;
   Eigen::VectorXd phases(n);
   for (int i = 0; i < n; ++i) phases[i] = 2.0 * pi * i / n - 1.0;
@@ -238,7 +238,7 @@ TEST_P(SurfaceLineEventss, TellTheCycleThatTheyIntegrate) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SurfaceLineEventss, testing::ValuesIn(test::surface_cases()),
+INSTANTIATE_TEST_SUITE_P(Surfaces, AllSurfaceLineEvents, testing::ValuesIn(test::surface_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
 // Heights that vanish leave the smooth method; what they change is of their own size.

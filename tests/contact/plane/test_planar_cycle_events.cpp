@@ -1,4 +1,4 @@
-// The planar law against cycles whose events are located in extended precision and whose slip is
+// The planar events against cycles whose events are located in extended precision and whose slip is
 // integrated to order twelve: several harmonics, different stiffness along p and r, separation,
 // coefficients that fall with the speed within a small part of the period.
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// The patch in lanes in two tangential directions, against the planar law, and its Jacobian against differences
+/// The patch in lanes in two tangential directions, against planar events, and its Jacobian against differences
 /// of its own force.
 #include <gtest/gtest.h>
 

@@ -348,7 +348,7 @@ TEST(CycleInTwoDirections, ACircleDissipatesTheClosedForm) {
   EXPECT_EQ(row["segments"][0]["state"], "slip");
 }
 
-// Along a line the planar law is the other one, turned.
+// Along a line planar events is the other one, turned.
 TEST(CycleInTwoDirections, AStraightObliqueMotionIsTheOtherOneTurned) {
   const Json straight = cycles(header + "1,1,0.5,1,5,0,0,0.2,0.1\n")[0];
   const std::string columns = header.substr(0, header.size() - 1) + ",w_sin,w_cos\n";

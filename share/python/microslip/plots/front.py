@@ -13,7 +13,7 @@ METHODS = [  # name, colour, mark
     ("closed form", ACCENT, "*"),
     ("located events", "#12355b", "s"),
     ("slider band", "#3a86ff", "D"),
-    ("planar law", "#5b9279", "^"),
+    ("planar events", "#5b9279", "^"),
     ("lanes", "#f4a259", "o"),
     ("centres of cells", "#f4a259", "o"),
     ("extrapolated", "#b23a6f", "s"),
