@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "contact/numerics/plane_hull.hpp"
@@ -110,8 +111,13 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> visible_directions(const Eigen::Matrix3
                                                             Eigen::Index n_corners) {
   const Eigen::VectorXd loaded = (weights.array() > 0.0).cast<double>();
   // Of the arms, not of their squares: an area may be flatter than the root of rounding.
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> axes(loaded.asDiagonal() * arms.transpose(),
-                                                Eigen::ComputeThinV);
+  Eigen::MatrixX3d tall = Eigen::MatrixX3d::Zero(std::max<Eigen::Index>(arms.cols(), 3), 3);
+  tall.topRows(arms.cols()) = loaded.asDiagonal() * arms.transpose();
+  const Eigen::Matrix3d R = Eigen::HouseholderQR<Eigen::MatrixX3d>(tall)
+                                .matrixQR()
+                                .topRows<3>()
+                                .triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> axes(R, Eigen::ComputeFullV);
   const Eigen::Index n = std::min<Eigen::Index>(n_corners, 3);
   return axes.matrixV().leftCols(n) *
          (std::sqrt(loaded.sum()) * axes.singularValues().head(n).cwiseInverse()).asDiagonal();

@@ -1,5 +1,6 @@
 #include "tests/support/dense_system.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "fem/elements/element_matrices.hpp"
@@ -10,6 +11,15 @@ Eigen::MatrixXd DenseSystem::expand(const Eigen::MatrixXd& free, Eigen::Index n_
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n_mesh_dofs, free.cols());
   all(dofs, Eigen::all) = free;
   return all;
+}
+
+PencilPairs pencil_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(A, B);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Eigen::MatrixXd DenseSystem::solve(const Eigen::MatrixXd& on_mesh) const {
+  return expand(K.llt().solve(reduce(on_mesh)), on_mesh.rows());
 }
 
 Eigen::VectorXd DenseSystem::eigenvalues() const {

@@ -13,6 +13,14 @@
 
 namespace microslip::test {
 
+/// A φ = λ B φ with ΦᵀBΦ = I.
+struct PencilPairs {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< columns
+};
+/// @param A, B  symmetric, B positive definite.
+[[nodiscard]] PencilPairs pencil_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
 struct DenseSystem {
   Eigen::MatrixXd K;               ///< [N/m], free degrees of freedom
   Eigen::MatrixXd M;               ///< [kg]
@@ -23,6 +31,8 @@ struct DenseSystem {
     return on_mesh(dofs, Eigen::all);
   }
   [[nodiscard]] Eigen::MatrixXd expand(const Eigen::MatrixXd& free, Eigen::Index n_mesh_dofs) const;
+  /// K⁻¹ F. @param on_mesh  F, a row per degree of freedom of the mesh.   @return likewise.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& on_mesh) const;
   /// All eigenvalues ω² [rad²/s²], ascending.
   [[nodiscard]] Eigen::VectorXd eigenvalues() const;
 };
