@@ -172,8 +172,7 @@ TEST(HarmonicsChosen, RandomScenesKeepThePromise) {
     compare(random.scene, options, "seed " + std::to_string(seed), count);
   }
   print("random scenes", count);
-  EXPECT_LE(count.unsolved, n_seeds / 20);
-  EXPECT_LE(count.kept, n_seeds / 10);
+  EXPECT_EQ(count.unsolved + count.kept, 0);
 }
 
 }  // namespace
