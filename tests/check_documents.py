@@ -1,4 +1,5 @@
-"""The documents hold together: links lead somewhere, citations of the theory have their section, the README is short.
+"""The documents hold together: links lead somewhere, citations of the theory have their section, the README is short,
+the tables of drawers are those that the check of dependencies draws.
 
 usage: check_documents.py SOURCE_FOLDER
 """
@@ -79,6 +80,15 @@ class Documents(unittest.TestCase):
         self.assertGreater(self.find_citations(pattern, theory_sections()), 100)  # 244 when this was written
         pattern = r"interfaces\.md sections?"
         self.assertGreater(self.find_citations(pattern, sections_of(document("interfaces.md"))), 0)
+
+    def test_tables_of_drawers_are_those_that_are_checked(self):
+        drawn = text(os.path.join(SOURCE, "tests", "check_dependencies.cmake"))
+        layout = document("layout.md")
+        for room in ("contact", "solver", "pipelines"):
+            drawers = re.search(rf"set\(drawers_{room}([^)]*)\)", drawn)[1].split()
+            table = layout[layout.index(f"### {room}/"):].split("\n### ")[0].split("\n## ")[0]
+            with self.subTest(room=room):
+                self.assertEqual(set(re.findall(r"^\| `(\w+)/` ", table, re.M)), set(drawers))
 
     def test_readme_is_short(self):
         readme = text(os.path.join(SOURCE, "README.md"))
