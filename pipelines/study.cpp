@@ -80,7 +80,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     draw_maps(model, scene, curves, record);
     if (scene.response->optimum) {
       record.stage("optimum");
-      OptimumSearch search(model, scene, structure);
+      OptimumSearch search(model, scene, structure, options.jobs);
       if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
       record.keep_optimum(model, *scene.response->optimum, search.best());
       record.keep_bracket(search.bracket());

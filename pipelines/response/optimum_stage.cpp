@@ -1,6 +1,7 @@
 #include "pipelines/response/optimum_stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "solver/continuation.hpp"
@@ -42,14 +44,17 @@ solver::OptimumOptions options_of(const SceneDescription& scene) {
 }  // namespace
 
 OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
-                             std::shared_ptr<const SolvedStructure> structure)
+                             std::shared_ptr<const SolvedStructure> structure, int jobs)
     : model_(model),
       scene_(scene),
       request_(*scene.response->optimum),
       family_(scene, request_.key, model, std::move(structure)),
+      // Another number may need other modes, which one thread alone may ask for.
+      jobs_(request_.of_preload() ? jobs : 1),
       options_(options_of(scene)) {}
 
 const ReducedModel& OptimumSearch::model_at(double value, double stiffness_factor) {
+  const std::lock_guard lock(family_mutex_);  // what it gives stays where it is
   if (!request_.of_preload()) return family_.at(value, stiffness_factor);
   return stiffness_factor == 1.0 ? model_ : family_.as_given(stiffness_factor);
 }
@@ -137,14 +142,21 @@ std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
   // Where the lowest of a few neighbours lies tells which way the best value moves.
   std::string lowest = "not found";
   double least = std::numeric_limits<double>::infinity();
-  for (const double factor : {0.7, 0.84, 1.0, 1.19, 1.42}) {
-    const double value = factor * best.parameter;
-    if (value == best.parameter && factor != 1.0) continue;  // zero has no neighbours
-    if (value < options_.lower || value > options_.upper) continue;
-    const auto there = factor == 1.0 ? here : richer_at(value, highest);
-    if (!there || !there->change || there->amplitude >= least) continue;
+  constexpr std::array factors{0.7, 0.84, 1.19, 1.42};
+  std::array<std::optional<solver::RicherPeak>, factors.size()> neighbours;
+  in_parallel(factors.size(), jobs_, [&](std::size_t i) {
+    const double value = factors[i] * best.parameter;
+    const bool inside = value >= options_.lower && value <= options_.upper;
+    if (value != best.parameter && inside) neighbours[i] = richer_at(value, highest);
+  });
+  const auto look_at = [&](double value, const std::optional<solver::RicherPeak>& there) {
+    if (!there || !there->change || there->amplitude >= least) return;
     least = there->amplitude;
     lowest = fmt::format("{:.2g} m at {} {:.3g}", least, request_.key, value);
+  };
+  look_at(best.parameter, here);
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    look_at(factors[i] * best.parameter, neighbours[i]);
   }
   const std::string peak = here->change
                                ? fmt::format("{:.2g} m, {:+.0f} %", here->amplitude,
@@ -157,18 +169,8 @@ std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
       highest, peak, lowest, highest);
 }
 
-OptimumBracket OptimumSearch::bracket() {
-  OptimumBracket bracket;
-  const auto add = [&](const char* parameter, double factor, const Factors& factors) {
-    try {
-      const solver::OptimumOptions options = options_for(factors);
-      const bool widened = options.lower < options_.lower || options.upper > options_.upper;
-      bracket.entries.push_back(
-          {parameter, factor, search(factors), {options.lower, options.upper}, widened});
-    } catch (const RefusedError& error) {
-      bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, error.what()));
-    }
-  };
+/// What is left out is told in the bracket.
+std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracket) const {
   const auto varies = [&](const char* parameter, const char* searched, std::string obstacle) {
     const std::string_view key = request_.key;
     if (key.starts_with("contact") && key.find(searched) != key.npos) {
@@ -182,9 +184,36 @@ OptimumBracket OptimumSearch::bracket() {
   const bool friction_varies = varies(friction, "friction", no_friction_factor(model_));
   const bool stiffness_varies =
       varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
+  std::vector<Change> list;
   for (const double factor : {0.5, 2.0}) {
-    if (friction_varies) add(friction, factor, {factor, 1.0});
-    if (stiffness_varies) add(stiffness, factor, {1.0, factor});
+    if (friction_varies) list.push_back({friction, factor, {factor, 1.0}});
+    if (stiffness_varies) list.push_back({stiffness, factor, {1.0, factor}});
+  }
+  return list;
+}
+
+OptimumBracket OptimumSearch::bracket() {
+  OptimumBracket bracket;
+  const std::vector<Change> list = changes(bracket);
+  std::vector<std::optional<solver::Optimum>> found(list.size());
+  std::vector<std::string> refused(list.size());
+  in_parallel(list.size(), jobs_, [&](std::size_t i) {
+    try {
+      found[i] = search(list[i].factors);
+    } catch (const RefusedError& error) {
+      refused[i] = error.what();
+    }
+  });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto& [parameter, factor, factors] = list[i];
+    if (!found[i]) {
+      bracket.left_out.push_back(fmt::format("{} x {:g}: {}", parameter, factor, refused[i]));
+      continue;
+    }
+    const solver::OptimumOptions options = options_for(factors);
+    const bool widened = options.lower < options_.lower || options.upper > options_.upper;
+    bracket.entries.push_back(
+        {parameter, factor, std::move(*found[i]), {options.lower, options.upper}, widened});
   }
   return bracket;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +23,10 @@ class OptimumSearch {
   /// @param model      of the scene, borrowed.
   /// @param scene      with response.optimum, borrowed.
   /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+  /// @param jobs       searches and checks side by side, ≥ 1; results do not depend on it.
   /// @throws SceneError  no bounds can be told.
   OptimumSearch(const ReducedModel& model, const SceneDescription& scene,
-                std::shared_ptr<const SolvedStructure> structure);
+                std::shared_ptr<const SolvedStructure> structure, int jobs);
 
   /// What the search does otherwise than the curves, for the log; empty: nothing.
   [[nodiscard]] std::string warning() const;
@@ -49,11 +51,20 @@ class OptimumSearch {
   [[nodiscard]] std::string left_out(const solver::PeakOfParameter& best);
   [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value, int highest);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
+  /// One task of the bracket.
+  struct Change {
+    const char* parameter;
+    double factor;
+    Factors factors;
+  };
+  [[nodiscard]] std::vector<Change> changes(OptimumBracket& bracket) const;
 
   const ReducedModel& model_;
   const SceneDescription& scene_;
   const OptimumRequest& request_;
+  std::mutex family_mutex_;
   ModelFamily family_;
+  int jobs_;
   solver::OptimumOptions options_;
 };
 

@@ -1,14 +1,12 @@
 #include "pipelines/run/curve_family.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
 #include <numbers>
-#include <thread>
 
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
 
 namespace microslip::pipelines {
@@ -20,32 +18,6 @@ double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& p
   const double width = range.frequency_end_hz - range.frequency_begin_hz;
   const double frequency_hz = point.frequency / (2.0 * std::numbers::pi);
   return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
-}
-
-/// Runs task(i) for i < n on `jobs` threads; the first exception is thrown on when all have ended.
-template <typename Task>
-void in_parallel(std::size_t n, int jobs, const Task& task) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < n; i = next++) {
-      try {
-        task(i);
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = n;
-      }
-    }
-  };
-  const auto n_threads = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(jobs, 1)), 1, n);
-  {
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 1; i < n_threads; ++i) workers.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ ReducedModel model_alone(const SceneDescription& scene) {
   return model_of(scene, nullptr, warnings);
 }
 
-Found search(const SceneDescription& scene, bool with_bracket = true) {
+Found search(const SceneDescription& scene, bool with_bracket = true, int jobs = 2) {
   const ReducedModel model = model_alone(scene);
-  OptimumSearch search(model, scene, nullptr);
+  OptimumSearch search(model, scene, nullptr, jobs);
   return {search.best(), with_bracket ? search.bracket() : OptimumBracket{}};
 }
 
@@ -95,6 +95,24 @@ TEST(OptimumSearch, VariesTheLocalStiffnessAndNotTheResidualFlexibility) {
     const std::string key = "contact.tangential_stiffness=" + std::to_string(1e7 * factor);
     const Found scaled = search(parse_scene(bar_text, "bar", ".", {key}), false);
     expect_same(entry(found, "contact_stiffness", factor), scaled.best);
+  }
+}
+
+TEST(OptimumSearch, IsTheSameToTheLastBitSideBySide) {
+  const SceneDescription scene = parse_scene(bar_text, "bar", ".", {});
+  const Found one = search(scene, true, 1);
+  const Found three = search(scene, true, 3);
+  EXPECT_EQ(one.best.message, three.best.message);
+  EXPECT_EQ(one.bracket.left_out, three.bracket.left_out);
+  ASSERT_EQ(one.bracket.entries.size(), 4U);
+  ASSERT_EQ(three.bracket.entries.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const OptimumOfFactor& a = one.bracket.entries[i];
+    const OptimumOfFactor& b = three.bracket.entries[i];
+    EXPECT_EQ(a.parameter, b.parameter);
+    EXPECT_EQ(a.factor, b.factor);
+    EXPECT_EQ(a.optimum.best.parameter, b.optimum.best.parameter);
+    EXPECT_EQ(a.optimum.best.amplitude, b.optimum.best.amplitude);
   }
 }
 
@@ -172,13 +190,13 @@ TEST(OptimumSearch, SaysThatItDoesNotIntegrateInTime) {
                            "response.optimum=preload"};
   const SceneDescription scene = parse_scene(stop_text, "stop", ".", settings);
   const ReducedModel model = model_alone(scene);
-  OptimumSearch in_time(model, scene, nullptr);
+  OptimumSearch in_time(model, scene, nullptr, 1);
   EXPECT_NE(in_time.warning().find("harmonic balance"), std::string::npos);
   ASSERT_FALSE(in_time.best().notes.empty());
   EXPECT_EQ(in_time.best().notes.front(), in_time.warning());
   const SceneDescription plain = parse_scene(bar_text, "bar", ".", {});
   const ReducedModel other = model_alone(plain);
-  EXPECT_EQ(OptimumSearch(other, plain, nullptr).warning(), "");
+  EXPECT_EQ(OptimumSearch(other, plain, nullptr, 1).warning(), "");
 }
 
 }  // namespace
