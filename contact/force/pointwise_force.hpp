@@ -1,6 +1,6 @@
 /// @file
 /// Modal force of a patch whose points are evaluated while they slip or part, and are one matrix while they are
-/// proved stuck or open (sleeping_points.hpp): what is the same however a point is evaluated (theory section 13).
+/// proved stuck or open (sleeping_set.hpp): what is the same however a point is evaluated (theory section 13).
 ///
 ///   G^(k)_m = Σ_i w_i [ φ_u,im f_p,i + φ_v,im (n_i − n_ref,i δ_k0) + φ_w,im f_r,i ]^(k)
 #pragma once
