@@ -56,6 +56,7 @@ CycleStates cycle_states(const std::vector<Run>& runs, std::size_t n) {
 std::vector<CycleSegment> cycle_segments(const std::vector<Run>& runs, std::size_t n) {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(n);
   std::vector<CycleSegment> phases;
+  phases.reserve(runs.size());
   for (const Run& run : runs) {
     phases.push_back({static_cast<ContactState>(run.state),
                       (static_cast<double>(run.begin) - 0.5) * step,

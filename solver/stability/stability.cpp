@@ -256,7 +256,7 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen:
 StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
                                double frequency, StabilityReport slow) {
   if (balance.set().highest() == 1) return slow;
-  StabilityReport report = std::move(slow);
+  StabilityReport report = slow;
   if (is_damped_linear(balance.scene())) {
     report.stability = Stability::stable;
     report.basis = StabilityBasis::damped_linear;
