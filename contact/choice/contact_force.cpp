@@ -162,9 +162,8 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
                                           std::move(stack.shapes));
     case Method::lanes:
-      return std::make_unique<sampled::PatchForce>(
-          std::move(stack.weights), surfaces(begin, end), std::move(stack.shapes),
-          sampled::Options{.instants = instants_per_period});
+      return std::make_unique<sampled::PatchForce>(std::move(stack.weights), surfaces(begin, end),
+                                                   std::move(stack.shapes), instants_per_period);
     case Method::point_methods:
       break;
   }

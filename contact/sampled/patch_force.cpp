@@ -54,10 +54,10 @@ RestingPoints at_rest(Eigen::VectorXd weights, const std::vector<SurfaceLaw>& su
 }  // namespace
 
 PatchForce::PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces,
-                       ModalShapes shapes, const Options& options)
+                       ModalShapes shapes, int instants)
     : PointwiseForce(at_rest(std::move(weights), surfaces, shapes.w.size() > 0), std::move(shapes)),
       surfaces_(std::move(surfaces)),
-      instants_(options.instants) {
+      instants_(instants) {
   require(instants_ >= 16, std::to_string(instants_) + " instants, must be 16 or more");
 }
 

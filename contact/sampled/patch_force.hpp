@@ -24,19 +24,16 @@
 
 namespace microslip::contact::sampled {
 
-struct Options {
-  int instants = 128;  ///< n ≥ 16 per period; doubled until 8 (H + 1) at least
-};
-
 class PatchForce final : public PointwiseForce {
  public:
   /// @param weights   area of each point [m²], n_points ≥ 1, ≥ 0.
   /// @param surfaces  one per point.
   /// @param shapes    relative mode shapes, n_points × n_modes; w empty: no motion along r, friction along p
   ///                  alone.
+  /// @param instants  n ≥ 16 per period; doubled until 8 (H + 1) at least.
   /// @throws std::invalid_argument  sizes differ, a value is not finite, too few instants.
   PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces, ModalShapes shapes,
-             const Options& options = {});
+             int instants);
 
  private:
   struct Grid {

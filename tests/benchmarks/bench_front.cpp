@@ -133,7 +133,7 @@ Force in_lanes(const Samples& samples, const Kind& kind, int instants) {
   std::vector<SurfaceLaw> surfaces;
   for (const PointParameters& point : samples.points) surfaces.push_back(kind.surface(point));
   return std::make_shared<sampled::PatchForce>(samples.weights, std::move(surfaces), samples.shapes,
-                                               sampled::Options{.instants = instants});
+                                               instants);
 }
 
 LawMaker located() {

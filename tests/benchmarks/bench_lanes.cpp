@@ -127,7 +127,7 @@ void compare(int H, bool second_direction, Eigen::Index n) {
               first.report(q, 1.0).slip_share, first.report(q, 1.0).separated_share);
   for (int instants = 32; instants <= 2048; instants *= 2) {
     if (instants < 8 * (H + 1)) continue;
-    PatchForce patch(weights, surfaces, shapes, {instants});
+    PatchForce patch(weights, surfaces, shapes, instants);
     print(name + " n = " + std::to_string(instants), H, timed(patch, q, n), exact, first, q);
   }
   print(second_direction ? "planar events" : "located events", H, exact, exact, first, q);

@@ -18,6 +18,7 @@
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "tests/support/sleepless_method.hpp"
 
 namespace {
 
@@ -31,24 +32,6 @@ double seconds_spent() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-/// Does not say where it is linear: always evaluated.
-class Sleepless final : public PointMethod {
- public:
-  explicit Sleepless(std::shared_ptr<const PointMethod> method) : law_(std::move(method)) {}
-  void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
-    law_->traction(motion, frequency, result);
-  }
-  [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
-                                     const Eigen::VectorXd& phases, int n) const override {
-    return law_->history(motion, frequency, phases, n);
-  }
-  [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override { return law_->stuck_stiffness(); }
-  [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
-
- private:
-  std::shared_ptr<const PointMethod> law_;
-};
 
 using Methods = std::vector<std::shared_ptr<const PointMethod>>;
 
@@ -96,7 +79,8 @@ Methods by_planar_events(Eigen::Index n, int awake) {
 
 Methods sleepless(const Methods& methods) {
   Methods bare;
-  for (const auto& method : methods) bare.push_back(std::make_shared<Sleepless>(method));
+  for (const auto& method : methods)
+    bare.push_back(std::make_shared<microslip::tests::SleeplessMethod>(method));
   return bare;
 }
 

@@ -45,8 +45,7 @@ struct Points {
   [[nodiscard]] std::unique_ptr<PointwiseForce> in_lanes() const {
     std::vector<SurfaceLaw> surfaces;
     for (const PointParameters& point : parameters) surfaces.emplace_back(point, 0.0);
-    return std::make_unique<sampled::PatchForce>(weights, std::move(surfaces), shapes,
-                                                 sampled::Options{.instants = 2048});
+    return std::make_unique<sampled::PatchForce>(weights, std::move(surfaces), shapes, 2048);
   }
   Harmonics motion(int n_harmonics, double size) {
     std::normal_distribution<double> g(0.0, size);

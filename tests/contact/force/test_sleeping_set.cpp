@@ -11,30 +11,12 @@
 #include "contact/line/line_events.hpp"
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "tests/support/sleepless_method.hpp"
 
 namespace microslip::contact {
 namespace {
 
 constexpr Eigen::Index n_modes = 4;
-
-// A method that does not say where it is linear: always evaluated.
-class Sleepless final : public PointMethod {
- public:
-  explicit Sleepless(std::shared_ptr<const PointMethod> method) : law_(std::move(method)) {}
-
-  void traction(const Harmonics& motion, double frequency, PointTraction& result) const override {
-    law_->traction(motion, frequency, result);
-  }
-  [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
-                                     const Eigen::VectorXd& phases, int n) const override {
-    return law_->history(motion, frequency, phases, n);
-  }
-  [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override { return law_->stuck_stiffness(); }
-  [[nodiscard]] double load_at_rest() const override { return law_->load_at_rest(); }
-
- private:
-  std::shared_ptr<const PointMethod> law_;
-};
 
 using Methods = std::vector<std::shared_ptr<const PointMethod>>;
 using MakeMethod =
@@ -47,7 +29,8 @@ struct Patch {
 
 Patch patch_of(const Eigen::VectorXd& weights, const Methods& methods, const ModalShapes& shapes) {
   Methods bare;
-  for (const auto& method : methods) bare.push_back(std::make_shared<Sleepless>(method));
+  for (const auto& method : methods)
+    bare.push_back(std::make_shared<tests::SleeplessMethod>(method));
   return {PointMethodForce(weights, methods, shapes), PointMethodForce(weights, bare, shapes)};
 }
 

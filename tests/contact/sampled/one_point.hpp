@@ -16,7 +16,7 @@ inline contact::sampled::PatchForce one_point(const contact::SurfaceLaw& surface
   shapes.u = Eigen::RowVectorXd::Unit(n_signals, 0);
   shapes.v = Eigen::RowVectorXd::Unit(n_signals, 1);
   if (n_signals == 3) shapes.w = Eigen::RowVectorXd::Unit(n_signals, 2);
-  return {Eigen::VectorXd::Ones(1), {surface}, std::move(shapes), {instants}};
+  return {Eigen::VectorXd::Ones(1), {surface}, std::move(shapes), instants};
 }
 
 /// The motion of a case as modal coordinates.
