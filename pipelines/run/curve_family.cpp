@@ -32,6 +32,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   std::size_t kept = 0;
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
+    if (interrupt_requested()) throw InterruptedError("interrupted; finished points are kept");
     results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, preload_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);

@@ -485,8 +485,12 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   ASSERT_GE(child, 0);
   wait_until([this] { return exists("out/curves/scale_1.csv"); });
   interrupt(child);
-  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 3);
+  const Json summary = Json::parse(content_of(path("out/summary.json")));
+  EXPECT_EQ(summary["exit_code"], 3);
   EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+  const auto n_cut = std::ranges::count_if(
+      summary["curves"], [](const Json& curve) { return !curve["complete"].get<bool>(); });
+  EXPECT_LE(n_cut, std::thread::hardware_concurrency()) << "a curve was begun after the interrupt";
 }
 
 TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
