@@ -22,13 +22,16 @@ constexpr double kink_correction =
     10.0;                              // of the step: a turn by 84°; beyond, it is another branch
 constexpr double cosine_limit = 0.93;  // 21.5°: beyond, the curve would look angular
 constexpr double angle_wanted = 0.13;  // rad per step
+// Where the predictor has learned the bend, and a plot as well.
+constexpr double learned_angle = 0.2;
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
 constexpr int wanted_updates = 4;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
 constexpr double exact_share = 1e-13;
-// A sampled force has a kink at each instant; below this share one cannot be told from a turn.
-constexpr double sampled_share = 1e-6;
+// Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
+// peak.
+constexpr double sampled_share = 5e-3;
 
 }  // namespace
 
@@ -116,7 +119,7 @@ void BranchWalker::choose_step(const Trial& trial) {
   const double effort =
       std::sqrt(static_cast<double>(wanted) / std::max(trial.point.solution.iterations, 1));
   const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
-  const double bend = angle > 0.0 ? angle_wanted / angle : 2.0;
+  const double bend = angle > 0.0 ? (residual_ ? learned_angle : angle_wanted) / angle : 2.0;
   step_ = std::min(residual_ ? longest_learned_step : longest_step,
                    step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
 }

@@ -63,6 +63,8 @@ class BranchWalker {
                                                  double share) const;
   /// Share of a step below which places on it differ by the errors of the force alone.
   [[nodiscard]] double resolution() const;
+  /// Of a force that is sampled, whose Jacobian is dear.
+  [[nodiscard]] bool is_sampled() const { return static_cast<bool>(residual_); }
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
   [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
 

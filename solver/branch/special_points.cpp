@@ -1,6 +1,7 @@
 #include "solver/branch/special_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -14,6 +15,9 @@ namespace {
 constexpr double rounding_share = 1e-8;
 constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
+// Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
+constexpr int n_cubics = 4;
+constexpr double across = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
 // One that is this large where the cubic has its extremum does not; below, parabolas look closer.
@@ -159,21 +163,43 @@ class Segment {
     return contact::state_change(before, after).n_regimes > 0;
   }
 
+  /// Slope of the cubic through both ends, c₀ + c₁ u + c₂ u² over the share 0 ≤ u ≤ 1 of the way between.
+  struct CubicSlope {
+    CubicSlope(const Node& a, const Node& b) {
+      const BranchVector chord = minus(b.position, a.position);
+      const double square = dot(chord, chord);
+      const auto by_share = [&](const Node& at) {
+        return at.value.slope * square /
+               std::max(dot(at.tangent, chord), across * std::sqrt(square));
+      };
+      c[0] = by_share(a);
+      last = by_share(b);
+      const double rise = b.value.value - a.value.value;
+      c[1] = 6.0 * rise - 4.0 * c[0] - 2.0 * last;
+      c[2] = 3.0 * (c[0] + last) - 6.0 * rise;
+    }
+
+    /// Between ends of different signs.
+    [[nodiscard]] double zero() const {
+      const double root = std::sqrt(std::max(c[1] * c[1] - 4.0 * c[0] * c[2], 0.0));
+      const double q = -0.5 * (c[1] + std::copysign(root, c[1]));
+      const double near = c[0] / q;
+      return near > 0.0 && near < 1.0 ? near : q / c[2];
+    }
+
+    std::array<double, 3> c{};
+    double last = 0.0;
+  };
+
   /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole
   /// segment; 0: it does not.
   [[nodiscard]] static double turning_share(const Node& a, const Node& b) {
-    const BranchVector chord = minus(b.position, a.position);
-    const double length = std::sqrt(dot(chord, chord));
-    const double first = a.value.slope;
-    const double last = b.value.slope;
-    const double rise = b.value.value - a.value.value;
-    const double linear = 6.0 * rise - (4.0 * first + 2.0 * last) * length;
-    const double square = 3.0 * (first + last) * length - 6.0 * rise;
-    const double share = -0.5 * linear / square;
+    const CubicSlope slope(a, b);
+    const double share = -0.5 * slope.c[1] / slope.c[2];
     if (!(share > 0.02) || !(share < 0.98)) return 0.0;
-    const double sign = first > 0.0 ? 1.0 : -1.0;
-    const double least = sign * (first * length + 0.5 * linear * share);
-    const double least_end = std::min(std::abs(first), std::abs(last)) * length;
+    const double sign = slope.c[0] > 0.0 ? 1.0 : -1.0;
+    const double least = sign * (slope.c[0] + 0.5 * slope.c[1] * share);
+    const double least_end = std::min(std::abs(slope.c[0]), std::abs(slope.last));
     if (!(least < suspicious_slope * least_end)) return 0.0;
     return a.at.share + share * (b.at.share - a.at.share);
   }
@@ -229,7 +255,8 @@ class Segment {
     return std::nullopt;
   }
 
-  /// Regula falsi (Illinois) with a bisection after every two steps, so that a jump is found as well.
+  /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois) with a bisection
+  /// after every two steps, so that a jump is found as well.
   [[nodiscard]] SpecialPoint locate(Node low, Node high) const {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;
@@ -237,9 +264,13 @@ class Segment {
     const double enough =
         0.1 * walker_.resolution() * std::max(std::abs(low_weight), std::abs(high_weight));
     std::optional<SpecialPoint> best;
+    const int last_cubic = walker_.is_sampled() ? n_cubics : 0;
     for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
       const double cut = low_weight / (low_weight - high_weight);
-      std::optional<Node> point = inside(low, high, i % 3 == 2 ? 0.5 : cut);
+      const double cubic = i < last_cubic ? CubicSlope(low, high).zero() : 0.0;
+      const bool by_cubic = cubic > 0.0 && cubic < 1.0;
+      const double line = i % 3 == 2 ? 0.5 : cut;
+      std::optional<Node> point = inside(low, high, by_cubic ? cubic : line);
       if (!point) return unsolved(low, high);
       const double slope = point->value.slope;
       best = SpecialPoint{point->at.share, point->at.point.solution, kind_, true};
@@ -247,7 +278,7 @@ class Segment {
       const bool is_low = (slope > 0.0) == rises;
       (is_low ? low : high) = std::move(*point);
       (is_low ? low_weight : high_weight) = slope;
-      (is_low ? high_weight : low_weight) *= 0.5;
+      if (!by_cubic) (is_low ? high_weight : low_weight) *= 0.5;
     }
     return best ? std::move(*best) : unsolved(low, high);
   }

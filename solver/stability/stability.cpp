@@ -20,8 +20,8 @@ constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
 // it, and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
-// Of Hill's problem: some 0.1 s for its eigenvectors.
-constexpr Eigen::Index most_states = 160;
+// Of Hill's problem: some 3 ms for its eigenvectors.
+constexpr Eigen::Index most_states = 80;
 // Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
 // springs.
 constexpr double reach_of_width = 6.0;
@@ -79,8 +79,8 @@ std::vector<Eigen::Index> moving_modes(const HarmonicBalance& balance, double fr
 }
 
 /// As many as Hill's problem can hold.
-std::vector<int> low_orders(const HarmonicBalance& balance) {
-  const auto room = static_cast<std::size_t>(most_states / (4 * balance.scene().n_modes()));
+std::vector<int> low_orders(const HarmonicBalance& balance, Eigen::Index n_modes) {
+  const auto room = static_cast<std::size_t>(most_states / (4 * n_modes));
   std::vector<int> orders = balance.set().orders();
   orders.resize(std::min(orders.size(), std::max<std::size_t>(room, 2)));
   return orders;
@@ -265,12 +265,13 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
-  const Reduced low = reduced(balance, jacobian, low_orders(balance), all_modes(scene));
+  auto modes = moving_modes(balance, frequency);
+  const auto n = static_cast<Eigen::Index>(modes.size());
+  const Reduced low = reduced(balance, jacobian, low_orders(balance, n), std::move(modes));
   const Eigen::MatrixXd matrix = hill_matrix(scene, low, frequency);
   if (!matrix.allFinite()) return report;
   const auto pairs = contact::general_pairs(matrix);
   if (!pairs) return report;
-  const auto n = static_cast<Eigen::Index>(low.modes.size());
   const Eigen::MatrixXcd vectors = pairs->vectors.topRows(low.jacobian.rows());
   std::vector<std::pair<double, Eigen::Index>> centres;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {

@@ -11,7 +11,8 @@
 ///
 /// Several: Hill's quadratic eigenproblem (∂R/∂x + λΔ + λ²I) p = 0, Δ made of C and 2kω, whose
 /// eigenvectors p tell the 2 n_modes exponents that are no copies λ ± ikω of others: those centred
-/// on harmonic 0. Where 160 states do not hold all harmonics, the highest answer quasi-statically. A real
+/// on harmonic 0. Modes far above all harmonics answer
+/// quasi-statically, and where 80 states do not hold all harmonics the highest. A real
 /// exponent that grows, or a negative determinant, is unstable. The Jacobian of a hysteretic force is that
 /// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
 /// point is not assessed. With no exponent growing it is called stable, which pairs of a hysteretic force do
