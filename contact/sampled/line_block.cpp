@@ -8,8 +8,8 @@ namespace microslip::contact::sampled {
 void LineBlock::resize(const Instants& of_motion, const Instants& of_force) {
   instants_ = &of_motion;
   const std::size_t size = of_motion.size() * block_size;
-  for (auto* values :
-       {&u_, &v_, &rate_, &closeness_, &half_width_, &normal_, &slider_, &friction_, &state_}) {
+  for (auto* values : {&u_, &v_, &rate_, &closeness_, &half_width_, &normal_, &low_, &high_,
+                       &turns_, &landed_, &slider_, &friction_, &state_}) {
     values->resize(size);
   }
   coefficients_.resize(2 * of_motion.n_rows() * block_size);
@@ -61,10 +61,37 @@ void LineBlock::march_smooth() {
                                compliant_friction_.data(), stiffness_.data()};
   line_kernels().load(n, constants, v_.data(), closeness_.data(), normal_.data(),
                       half_width_.data());
-  line_kernels().march(
-      {n, u_.data(), closeness_.data(), half_width_.data(), slider_.data(), state_.data()},
-      touches());
+  const bool touches = this->touches();
+  line_kernels().turning_band(n, constants, u_.data(), closeness_.data(), half_width_.data(),
+                              {low_.data(), high_.data(), turns_.data(), landed_.data()}, touches);
+  line_kernels().march(arrays(), touches);
   line_kernels().friction(n, constants, u_.data(), slider_.data(), friction_.data());
+}
+
+LineArrays LineBlock::arrays() {
+  LineArrays all{.n_instants = instants_->size(),
+                 .u = u_.data(),
+                 .closeness = closeness_.data(),
+                 .low = low_.data(),
+                 .high = high_.data(),
+                 .slider = slider_.data(),
+                 .state = state_.data()};
+  if (!simple_) return all;
+  all.half_width = half_width_.data();
+  all.turns = turns_.data();
+  all.landed = landed_.data();
+  return all;
+}
+
+SmoothPoint LineBlock::smooth_point(std::size_t place) const {
+  return {stiffness_[place], normal_stiffness_[place], coefficient_[place]};
+}
+
+void LineBlock::mend_kinks(std::size_t n_points) {
+  for (std::size_t p = 0; p < n_points; ++p) {
+    find_kinks(smooth_point(p), runs_[p], columns(p), instants_->size(), ends_[p]);
+    mend(ends_[p], friction_.data() + p, normal_.data() + p);
+  }
 }
 
 /// Instant by instant and point by point: surfaces are a class with branches.
@@ -86,7 +113,9 @@ void LineBlock::ask_surfaces(std::span<const Eigen::Index> points) {
       const double mu_by_rate = k_u > 0.0 ? now.friction_coefficient_by_rate : 0.0;
       closeness_[at] = smooth ? now.gap_load : v_[at] - touch;
       normal_[at] = now.load;
-      half_width_[at] = closeness_[at] > 0.0 ? mu * now.load_per_ratio * compliance : 0.0;
+      const double half_width = closeness_[at] > 0.0 ? mu * now.load_per_ratio * compliance : 0.0;
+      low_[at] = u_[at] - half_width;
+      high_[at] = u_[at] + half_width;
       slopes_[p][i] = {k_u * now.stiffness_ratio,
                        k_u * now.stiffness_ratio_by_approach,
                        mu * now.load_by_approach,
@@ -119,9 +148,7 @@ void LineBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMot
   } else {
     kernels.synthesize(n, rows, of_motion.rates(), coefficients_.data(), rate_.data());
     ask_surfaces(points);
-    kernels.march(
-        {n, u_.data(), closeness_.data(), half_width_.data(), slider_.data(), state_.data()},
-        touches());
+    kernels.march(arrays(), touches());
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t p = 0; p < block_size; ++p) {
         const std::size_t at = i * block_size + p;
@@ -129,30 +156,39 @@ void LineBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMot
       }
     }
   }
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    find_runs(state_.data() + p, n, block_size, runs_[p]);
+  }
+  if (simple_) mend_kinks(points.size());
   kernels.analyze(n, of_force.n_rows(), of_force.n_rows(), of_force.basis(), friction_.data(),
                   friction_sums_.data());
   kernels.analyze(n, of_force.n_rows(), of_force.n_rows(), of_force.basis(), normal_.data(),
                   normal_sums_.data());
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    find_runs(state_.data() + p, n, block_size, runs_[p]);
-  }
 }
 
 LineColumns LineBlock::columns(std::size_t place) const {
-  return {u_.data() + place, closeness_.data() + place, half_width_.data() + place,
+  return {u_.data() + place,
+          closeness_.data() + place,
+          low_.data() + place,
+          high_.data() + place,
+          simple_ ? turns_.data() + place : nullptr,
           slider_.data() + place};
 }
 
 const LineDerivatives& LineBlock::derivatives(std::size_t place) {
   derivatives_.reset(*instants_);
   if (simple_) {
-    derivatives_.smooth({stiffness_[place], normal_stiffness_[place], coefficient_[place]},
-                        runs_[place], columns(place));
+    derivatives_.smooth(smooth_point(place), runs_[place], ends_[place], columns(place));
   } else {
     derivatives_.any_surface(slopes_[place], closeness_by_approach_[place], frequency_,
                              runs_[place], columns(place));
   }
   return derivatives_;
+}
+
+/// Without what was taken off around kinks.
+double LineBlock::force(std::size_t at, std::size_t place) const {
+  return simple_ ? stiffness_[place] * (u_[at] - slider_[at]) : friction_[at];
 }
 
 double LineBlock::slip_work(std::size_t place) const {
@@ -164,15 +200,15 @@ double LineBlock::slip_work(std::size_t place) const {
     const InstantState state = instant_state(state_[now]);
     if (state == InstantState::separated || state == InstantState::stick) continue;
     double start = slider_[before];
-    double limit = std::abs(friction_[before]);
+    double limit = std::abs(force(before, place));
     if (closeness_[before] <= 0.0) {
       const double x = -closeness_[before] / (closeness_[now] - closeness_[before]);
       start = u_[before] + x * (u_[now] - u_[before]);
       limit = 0.0;
     } else if (instant_state(state_[before]) == InstantState::stick) {
-      limit = std::abs(friction_[now]);
+      limit = std::abs(force(now, place));
     }
-    work += 0.5 * (limit + std::abs(friction_[now])) * std::abs(slider_[now] - start);
+    work += 0.5 * (limit + std::abs(force(now, place))) * std::abs(slider_[now] - start);
   }
   return work;
 }

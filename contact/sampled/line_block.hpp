@@ -39,6 +39,10 @@ class LineBlock {
   void load_motion(const PatchMotion& motion, std::span<const Eigen::Index> points);
   void smooth_constants(std::span<const Eigen::Index> points);
   void march_smooth();
+  void mend_kinks(std::size_t n_points);
+  [[nodiscard]] LineArrays arrays();
+  [[nodiscard]] SmoothPoint smooth_point(std::size_t place) const;
+  [[nodiscard]] double force(std::size_t at, std::size_t place) const;
   void ask_surfaces(std::span<const Eigen::Index> points);
   [[nodiscard]] bool touches();
   [[nodiscard]] LineColumns columns(std::size_t place) const;
@@ -49,12 +53,14 @@ class LineBlock {
   double frequency_ = 0.0;
   bool simple_ = true;  // smooth surfaces, constant coefficient
   std::vector<double> coefficients_;
-  std::vector<double> u_, v_, rate_, closeness_, half_width_, normal_, slider_, friction_, state_;
+  std::vector<double> u_, v_, rate_, closeness_, half_width_, normal_, low_, high_, turns_, landed_,
+      slider_, friction_, state_;
   std::vector<double> friction_sums_, normal_sums_;
   std::array<double, block_size> preload_{}, normal_stiffness_{}, compliant_friction_{},
       stiffness_{}, coefficient_{}, closeness_by_approach_{};
   std::array<std::vector<InstantSlopes>, block_size> slopes_;
   std::array<std::vector<Run>, block_size> runs_;
+  std::array<std::vector<RunEnd>, block_size> ends_;
   LineDerivatives derivatives_;
 };
 

@@ -1,11 +1,24 @@
 #include "contact/sampled/line_kernels.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "contact/sampled/pack.hpp"
 
 namespace microslip::contact::sampled {
 namespace {
 
+// GCC knows no root of a vector; eight of them are one instruction all the same.
+MICROSLIP_INLINE Pack square_root(const Pack& x) {
+  Pack result;
+  for (std::size_t i = 0; i < pack_size; ++i) result[i] = std::sqrt(x[i]);
+  return result;
+}
+
 // NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument.
+
+// Conditions are numbers of which the smaller or the larger is taken: masks that are combined are
+// taken apart number by number by the compiler.
 
 // Rows at a time, so that sums stay in registers.
 constexpr std::size_t tile = 4;
@@ -83,6 +96,127 @@ MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, con
   }
 }
 
+/// Between two instants, by what is there and by the slopes from their neighbours; C¹ from one to the next.
+struct Spline {
+  Pack begin, slope, square, cube;
+
+  MICROSLIP_INLINE static Spline through(const Pack& w0, const Pack& w1, const Pack& w2,
+                                         const Pack& w3) {
+    const Pack rise = w2 - w1;
+    const Pack m1 = 0.5 * (w2 - w0);
+    const Pack m2 = 0.5 * (w3 - w1);
+    return {w1, m1, 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise};
+  }
+  MICROSLIP_INLINE Pack at(const Pack& x) const {
+    return begin + x * (slope + x * (square + x * cube));
+  }
+  MICROSLIP_INLINE Pack slope_at(const Pack& x) const {
+    return slope + x * (2.0 * square + 3.0 * x * cube);
+  }
+  /// Where a slope that is positive at 0 and negative at 1 vanishes.
+  MICROSLIP_INLINE Pack top() const {
+    const Pack root = square_root(square * square - 3.0 * slope * cube);
+    return slope / (root - square);
+  }
+};
+
+/// Of the four places around the step that ends at an instant.
+struct Places {
+  std::size_t at[4];
+
+  MICROSLIP_INLINE static Places of(std::size_t i, std::size_t n, std::size_t own) {
+    return {{(i >= 2 ? i - 2 : i + n - 2) * block_size + own,
+             (i >= 1 ? i - 1 : n - 1) * block_size + own, i * block_size + own,
+             (i + 1 < n ? i + 1 : 0) * block_size + own}};
+  }
+  MICROSLIP_INLINE Spline spline(const double* w) const {
+    return Spline::through(pack_at(w + at[0]), pack_at(w + at[1]), pack_at(w + at[2]),
+                           pack_at(w + at[3]));
+  }
+};
+
+/// u + ratio r: an end of the band, which extended by r < 0 is smooth where contact opens and closes.
+MICROSLIP_INLINE Spline end_of_band(const Spline& u, const Spline& r, const Pack& ratio) {
+  return {u.begin + ratio * r.begin, u.slope + ratio * r.slope, u.square + ratio * r.square,
+          u.cube + ratio * r.cube};
+}
+
+MICROSLIP_INLINE Spline turned_over(const Spline& w) {
+  return {-w.begin, -w.slope, -w.square, -w.cube};
+}
+
+struct Top {
+  Pack place;   // of the step; 2: none in it
+  Pack height;  // there
+};
+
+/// In contact.
+MICROSLIP_INLINE Top top_of(const Spline& w, const Spline& r) {
+  const Pack none = Pack{} + 2.0;
+  const Pack end = w.slope_at(Pack{} + 1.0);
+  const Pack x = larger(smaller(w.top(), Pack{} + 1.0), Pack{});
+  const Pack rises = w.slope > Pack{} ? x : none;
+  const Pack falls = end < Pack{} ? x : none;
+  const Pack holds = r.at(x) > Pack{} ? x : none;
+  return {larger(larger(rises, falls), holds), w.at(x)};
+}
+
+/// u where r rises through zero in the step.
+MICROSLIP_INLINE Pack landing(const Spline& u, const Spline& r, const Pack& way) {
+  const Pack one = Pack{} + 1.0;
+  Pack x = -r.begin / way;
+  for (int i = 0; i < 2; ++i) {
+    x = x - r.at(x) / larger(r.slope_at(x), 0.25 * way);
+    x = smaller(larger(x, Pack{}), one);
+  }
+  return u.at(x);
+}
+
+template <bool touches>
+MICROSLIP_INLINE void band_of(std::size_t n, const SmoothArrays& constants, const double* u,
+                              const double* closeness, const double* half_width,
+                              const TurningBand& band) {
+  const Pack far = Pack{} + std::numeric_limits<double>::max();
+  for (std::size_t b = 0; b < block_size; b += pack_size) {
+    const Pack ratio = pack_at(constants.compliant_friction + b);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Places places = Places::of(i, n, b);
+      const std::size_t at = places.at[2];
+      const Spline position = places.spline(u);
+      const Spline r = places.spline(closeness);
+      const Top up = top_of(end_of_band(position, r, -ratio), r);
+      const Top down = top_of(turned_over(end_of_band(position, r, ratio)), r);
+      const Pack here = pack_at(u + at);
+      const Pack g = pack_at(half_width + at);
+      const Pack up_turns = up.place < 1.5 ? Pack{} + 1.0 : Pack{};
+      const Pack down_turns = down.place < 1.5 ? Pack{} + 2.0 : Pack{};
+      const Pack both = up_turns + down_turns;
+      const Pack later = smaller(both - 2.0, up.place - down.place);
+      const Pack last = later > Pack{} ? Pack{} + 1.0 : Pack{};
+      // Neither what is apart nor what never sticks turns.
+      const Pack turn = g > Pack{} ? both + last : Pack{};
+      const Pack w = turn == 2.0 ? -far : up.height;
+      const Pack W = turn == 1.0 ? far : -down.height;
+      pack_at(band.low + at) = turn > Pack{} ? w : here - g;
+      pack_at(band.high + at) = turn > Pack{} ? W : here + g;
+      pack_at(band.turns + at) = turn;
+      if constexpr (touches) {
+        const Pack now = pack_at(closeness + at);
+        const Pack closes = smaller(now, r.begin <= Pack{} ? Pack{} + 1.0 : Pack{});
+        pack_at(band.landed + at) = closes > Pack{} ? landing(position, r, now - r.begin) : -far;
+      }
+    }
+  }
+}
+
+MICROSLIP_INLINE void turning_band_all(std::size_t n, const SmoothArrays& constants,
+                                       const double* u, const double* closeness,
+                                       const double* half_width, const TurningBand& band,
+                                       bool touches) {
+  touches ? band_of<true>(n, constants, u, closeness, half_width, band)
+          : band_of<false>(n, constants, u, closeness, half_width, band);
+}
+
 MICROSLIP_INLINE void friction_all(std::size_t n, const SmoothArrays& constants, const double* u,
                                    const double* slider, double* friction) {
   for (std::size_t b = 0; b < block_size; b += pack_size) {
@@ -91,6 +225,14 @@ MICROSLIP_INLINE void friction_all(std::size_t n, const SmoothArrays& constants,
       const std::size_t at = i * block_size + b;
       pack_at(friction + at) = stiffness * (pack_at(u + at) - pack_at(slider + at));
     }
+  }
+}
+
+MICROSLIP_INLINE void outer_all(std::size_t n_rows, const double* a, const double* b, double factor,
+                                double* sum) {
+  for (std::size_t k = 0; k < n_rows; ++k, sum += n_rows) {
+    const double number = factor * a[k];
+    for (std::size_t l = 0; l < n_rows; l += pack_size) pack_at(sum + l) += number * pack_at(b + l);
   }
 }
 
@@ -108,52 +250,85 @@ MICROSLIP_INLINE void range_all(std::size_t n, const double* values, double* lea
   }
 }
 
-MICROSLIP_INLINE void keep(const LineArrays& a, std::size_t at, const Pack& before, const Pack& low,
-                           const Pack& high, const Pack& r, const Pack& s) {
-  // One condition at a time: masks that are combined are taken apart number by number by the
-  // compiler.
-  const Pack positive = before < low ? Pack{} + 1.0 : Pack{};
-  const Pack negative = before > high ? Pack{} + 2.0 : Pack{};
-  const Pack slip = positive + negative;
-  pack_at(a.state + at) = r > Pack{} ? slip : Pack{} + 3.0;
-  pack_at(a.slider + at) = s;
+// What a pass through the period does besides (1).
+struct Pass {
+  bool touches;  // (2)
+  bool turns;    // the band between instants
+  bool last;     // what is kept
+};
+
+/// The slider before a step, of points that close in it where they do.
+template <bool turns>
+MICROSLIP_INLINE Pack start_of_step(const LineArrays& a, std::size_t i, std::size_t own,
+                                    const Pack& s) {
+  const std::size_t at = i * block_size + own;
+  if constexpr (turns) {
+    const Pack landed = pack_at(a.landed + at);
+    return landed > Pack{} - std::numeric_limits<double>::max() ? landed : s;
+  } else {
+    const std::size_t before = (i > 0 ? i - 1 : a.n_instants - 1) * block_size + own;
+    const Pack r0 = pack_at(a.closeness + before);
+    const Pack r = pack_at(a.closeness + at);
+    const Pack closes = smaller(r, r0 <= Pack{} ? Pack{} + 1.0 : Pack{});
+    const Pack u0 = pack_at(a.u + before);
+    const Pack landed = u0 - r0 / (r - r0) * (pack_at(a.u + at) - u0);
+    return closes > Pack{} ? landed : s;
+  }
 }
 
-template <bool touches, bool last>
+MICROSLIP_INLINE Pack slip_state(const Pack& start, const Pack& low, const Pack& high) {
+  const Pack positive = start < low ? Pack{} + 1.0 : Pack{};
+  const Pack negative = start > high ? Pack{} + 2.0 : Pack{};
+  return positive + negative;
+}
+
+template <Pass kind>
 MICROSLIP_INLINE void pass(const LineArrays& a, Pack* s) {
-  const std::size_t end = (a.n_instants - 1) * block_size;
-  std::size_t before = end;
-  for (std::size_t at = 0; at <= end; before = at, at += block_size) {
+  for (std::size_t i = 0; i < a.n_instants; ++i) {
     for (std::size_t b = 0; b < block_packs; ++b) {
-      const std::size_t now = at + b * pack_size;
-      const std::size_t then = before + b * pack_size;
-      const Pack u = pack_at(a.u + now);
-      const Pack r = pack_at(a.closeness + now);
+      const std::size_t at = i * block_size + b * pack_size;
       Pack start = s[b];
-      if constexpr (touches) {
-        const Pack u0 = pack_at(a.u + then);
-        const Pack r0 = pack_at(a.closeness + then);
-        const Pack landing = u0 - r0 / (r - r0) * (u - u0);
-        const Pack closes = r0 <= Pack{} ? r : Pack{} - 1.0;
-        start = closes > Pack{} ? landing : start;
+      if constexpr (kind.touches) start = start_of_step<kind.turns>(a, i, b * pack_size, start);
+      const Pack low = pack_at(a.low + at);
+      const Pack high = pack_at(a.high + at);
+      Pack state;
+      if constexpr (kind.turns) {
+        const Pack turn = pack_at(a.turns + at);
+        const Pack u = pack_at(a.u + at);
+        const Pack g = pack_at(a.half_width + at);
+        const Pack low_first = smaller(larger(start, low), high);
+        const Pack high_first = larger(smaller(start, high), low);
+        const Pack moved_on = turn > 3.5 ? high_first : low_first;
+        const Pack turned = turn > Pack{} ? moved_on : start;
+        s[b] = smaller(larger(turned, u - g), u + g);
+        state = slip_state(turned, u - g, u + g);
+        const Pack moved = turned != start ? Pack{} + 5.0 : Pack{};
+        const Pack stays = state > Pack{} ? Pack{} : Pack{} + 5.0;
+        state += smaller(moved, stays);
+      } else {
+        s[b] = smaller(larger(start, low), high);
+        state = slip_state(start, low, high);
       }
-      const Pack g = pack_at(a.half_width + now);
-      const Pack low = u - g;
-      const Pack high = u + g;
-      s[b] = smaller(larger(start, low), high);
-      if constexpr (last) keep(a, now, start, low, high, r, s[b]);
+      if constexpr (kind.last) {
+        pack_at(a.state + at) = pack_at(a.closeness + at) > Pack{} ? state : Pack{} + 3.0;
+        pack_at(a.slider + at) = s[b];
+      }
     }
   }
 }
 
-MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
+template <bool touches, bool turns>
+MICROSLIP_INLINE void two_periods(const LineArrays& arrays) {
   Pack s[block_packs] = {};
-  if (touches) {
-    pass<true, false>(arrays, s);
-    pass<true, true>(arrays, s);
+  pass<Pass{touches, turns, false}>(arrays, s);
+  pass<Pass{touches, turns, true}>(arrays, s);
+}
+
+MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
+  if (arrays.turns == nullptr) {
+    touches ? two_periods<true, false>(arrays) : two_periods<false, false>(arrays);
   } else {
-    pass<false, false>(arrays, s);
-    pass<false, true>(arrays, s);
+    touches ? two_periods<true, true>(arrays) : two_periods<false, true>(arrays);
   }
 }
 
@@ -175,6 +350,12 @@ MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
                                double* closeness, double* normal, double* half_width) {           \
       load_all(n, constants, v, closeness, normal, half_width);                                   \
     }                                                                                             \
+    attribute static void turning_band(std::size_t n, const SmoothArrays& constants,              \
+                                       const double* u, const double* closeness,                  \
+                                       const double* half_width, const TurningBand& band,         \
+                                       bool touches) {                                            \
+      turning_band_all(n, constants, u, closeness, half_width, band, touches);                    \
+    }                                                                                             \
     attribute static void march(const LineArrays& arrays, bool touches) {                         \
       march_all(arrays, touches);                                                                 \
     }                                                                                             \
@@ -182,11 +363,16 @@ MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
                                    const double* slider, double* result) {                        \
       friction_all(n, constants, u, slider, result);                                              \
     }                                                                                             \
+    attribute static void outer(std::size_t n_rows, const double* a, const double* b,             \
+                                double factor, double* sum) {                                     \
+      outer_all(n_rows, a, b, factor, sum);                                                       \
+    }                                                                                             \
     attribute static void range(std::size_t n, const double* values, double* least,               \
                                 double* most) {                                                   \
       range_all(n, values, least, most);                                                          \
     }                                                                                             \
-    static constexpr LineKernels all{synthesize, analyze, load, march, friction, range};          \
+    static constexpr LineKernels all{synthesize, analyze,  load,  turning_band,                   \
+                                     march,      friction, outer, range};                         \
   };
 // NOLINTEND(bugprone-macro-parentheses)
 

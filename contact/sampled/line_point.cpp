@@ -1,8 +1,10 @@
 #include "contact/sampled/line_point.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+
+#include "contact/sampled/step_spline.hpp"
 
 namespace microslip::contact::sampled {
 namespace {
@@ -11,67 +13,19 @@ void add(std::vector<double>& sum, double factor, const double* terms) {
   for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += factor * terms[m];
 }
 
-double sign_of(InstantState state) { return state == InstantState::negative_slip ? -1.0 : 1.0; }
+/// 0 where nothing rises.
+double ratio_of(double a, double b) { return b == 0.0 ? 0.0 : a / b; }
 
-bool slips(InstantState state) {
-  return state != InstantState::stick && state != InstantState::separated;
-}
+double sign_of(InstantState state) { return state == InstantState::negative_slip ? -1.0 : 1.0; }
 
 }  // namespace
 
-void find_runs(const double* state, std::size_t n, std::size_t stride, std::vector<Run>& runs) {
-  runs.clear();
-  std::size_t first = 1;
-  while (first < n && state[first * stride] == state[(first - 1) * stride]) ++first;
-  if (first == n) {  // at most one change, and that at 0
-    runs.push_back({instant_state(state[0]), 0, n});
-    return;
-  }
-  for (std::size_t j = 0; j < n; ++j) {
-    const std::size_t i = first + j < n ? first + j : first + j - n;
-    const InstantState now = instant_state(state[i * stride]);
-    if (runs.empty() || runs.back().state != now) runs.push_back({now, i, 0});
-    ++runs.back().length;
-  }
-}
-
-CycleStates cycle_states(const std::vector<Run>& runs, std::size_t n) {
-  const double step = 2.0 * std::numbers::pi / static_cast<double>(n);
-  CycleStates result{CycleRegime::full_stick, PeriodStates(ContactState::stick)};
-  bool any_slip = false;
-  bool any_apart = false;
-  for (const Run& run : runs) {
-    any_slip = any_slip || slips(run.state);
-    any_apart = any_apart || run.state == InstantState::separated;
-    result.period.set(static_cast<ContactState>(run.state),
-                      (static_cast<double>(run.begin) - 0.5) * step,
-                      static_cast<double>(run.length) * step);
-  }
-  if (any_slip) result.regime = CycleRegime::stick_slip;
-  if (any_apart) result.regime = CycleRegime::separation;
-  if (any_apart && runs.size() == 1) result.regime = CycleRegime::separated;
-  return result;
-}
-
-std::vector<CycleSegment> cycle_segments(const std::vector<Run>& runs, std::size_t n) {
-  const double step = 2.0 * std::numbers::pi / static_cast<double>(n);
-  std::vector<CycleSegment> phases;
-  phases.reserve(runs.size());
-  for (const Run& run : runs) {
-    phases.push_back({static_cast<ContactState>(run.state),
-                      (static_cast<double>(run.begin) - 0.5) * step,
-                      static_cast<double>(run.length) * step, 0.0});
-  }
-  return joined_segments(phases, 0.0);
-}
-
-/// ds of (2) as functions of û and v̂: (1−x) T(before) + x T(now) and what follows from it.
+/// ds of (2) as a function of û and v̂: u at a place between four instants and what follows from it.
 struct LineDerivatives::Anchor {
-  std::size_t before = 0;
-  std::size_t now = 0;
-  double share = 1.0;  // x
+  std::size_t first = 0;  // instants, counted on over n
+  std::array<double, 4> share{1.0, 0.0, 0.0, 0.0};
   double by_approach = 0.0;
-  double by_rate = 0.0;
+  double by_rate = 0.0;  // at the first
   double by_frequency = 0.0;
 };
 
@@ -84,7 +38,8 @@ void LineDerivatives::reset(const Instants& instants) {
   for (auto* moments : {&stick_, &limit_, &rate_, &normal_, &part_}) {
     moments->resize(instants.n_moments());
   }
-  for (auto* row : {&phase_, &b_u_, &b_v_, &row_}) row->resize(n_rows_);
+  for (auto* row : {&phase_, &b_, &change_, &slope_, &moved_, &row_}) row->resize(n_rows_);
+  padded_.assign(n_rows_ + pack_size, 0.0);
   products_.reset(instants.n_harmonics());
 }
 
@@ -94,22 +49,27 @@ void LineDerivatives::clear() {
   }
 }
 
+void LineDerivatives::add_outer(const std::vector<double>& a, const std::vector<double>& b,
+                                double factor_u, double factor_v) {
+  std::copy_n(b.data(), n_rows_, padded_.data());
+  const auto& outer = line_kernels().outer;
+  if (factor_u != 0.0) outer(n_rows_, a.data(), padded_.data(), factor_u, by_u_.data());
+  if (factor_v != 0.0) outer(n_rows_, a.data(), padded_.data(), factor_v, by_v_.data());
+}
+
 void LineDerivatives::add_anchor(const Anchor& anchor, const std::vector<double>& a) {
-  const double* before = instants_->basis(anchor.before);
-  const double* now = instants_->basis(anchor.now);
-  const double* rates = instants_->rates(anchor.now);
-  for (std::size_t l = 0; l < n_rows_; ++l) {
-    const double T = (1.0 - anchor.share) * before[l] + anchor.share * now[l];
-    b_u_[l] = T + anchor.by_rate * rates[l];
-    b_v_[l] = anchor.by_approach * T;
+  const std::size_t n = instants_->size();
+  std::fill(b_.begin(), b_.end(), 0.0);
+  for (std::size_t j = 0; j < anchor.share.size(); ++j) {
+    if (anchor.share[j] != 0.0) add(b_, anchor.share[j], instants_->basis((anchor.first + j) % n));
   }
-  for (std::size_t k = 0; k < n_rows_; ++k) {
-    double* row_u = by_u_.data() + k * n_rows_;
-    double* row_v = by_v_.data() + k * n_rows_;
-    for (std::size_t l = 0; l < n_rows_; ++l) row_u[l] += a[k] * b_u_[l];
-    for (std::size_t l = 0; l < n_rows_; ++l) row_v[l] += a[k] * b_v_[l];
-    by_frequency_[k] += a[k] * anchor.by_frequency;
+  add_outer(a, b_, 1.0, anchor.by_approach);
+  if (anchor.by_rate != 0.0) {
+    const double* rates = instants_->rates(anchor.first);
+    b_.assign(rates, rates + n_rows_);
+    add_outer(a, b_, anchor.by_rate, 0.0);
   }
+  if (anchor.by_frequency != 0.0) add(by_frequency_, anchor.by_frequency, a.data());
 }
 
 LineDerivatives::Anchor LineDerivatives::landing(std::size_t before, std::size_t now,
@@ -118,7 +78,43 @@ LineDerivatives::Anchor LineDerivatives::landing(std::size_t before, std::size_t
   const double r0 = columns.closeness[before * block_size];
   const double change = columns.closeness[now * block_size] - r0;
   const double way = columns.u[now * block_size] - columns.u[before * block_size];
-  return {before, now, -r0 / change, -way * closeness_by_approach / change, 0.0, 0.0};
+  const double x = -r0 / change;
+  return {.first = before,
+          .share = {1.0 - x, x, 0.0, 0.0},
+          .by_approach = -way * closeness_by_approach / change};
+}
+
+/// As the kernel lands (line_kernels.cpp), by four instants.
+LineDerivatives::Anchor LineDerivatives::smooth_landing(std::size_t now, double normal_stiffness,
+                                                        const LineColumns& columns) const {
+  const std::size_t n = instants_->size();
+  const std::array<double, 4> around = around_step(columns.closeness, now, n);
+  const StepSpline r(around);
+  const StepSpline u(around_step(columns.u, now, n));
+  const double x = r.rise_through_zero(around[2] - around[1]);
+  const double rise = std::max(r.slope_at(x), 0.25 * (around[2] - around[1]));
+  return {.first = (now + n - 2) % n,
+          .share = StepSpline::shares(x),
+          .by_approach = -u.slope_at(x) / rise * normal_stiffness};
+}
+
+/// Where an end of the band took the slider: at an instant, or where it turned in the step before.
+LineDerivatives::Anchor LineDerivatives::pushed(std::size_t now, const LineColumns& columns) const {
+  const std::size_t n = instants_->size();
+  const std::size_t at = now * block_size;
+  const double width = point_.compliance() * point_.normal_stiffness;
+  const bool by_low = columns.slider[at] == columns.low[at];
+  const bool by_high = columns.slider[at] == columns.high[at];
+  if (columns.turns[at] == 0.0 || !(by_low || by_high)) {
+    return {.first = now, .by_approach = columns.slider[at] < columns.u[at] ? -width : width};
+  }
+  const double side = by_low ? -1.0 : 1.0;
+  std::array<double, 4> w = around_step(columns.u, now, n);
+  const std::array<double, 4> r = around_step(columns.closeness, now, n);
+  for (std::size_t j = 0; j < w.size(); ++j) w[j] += side * point_.compliance() * r[j];
+  return {.first = (now + n - 2) % n,
+          .share = StepSpline::shares(StepSpline(w).turn()),
+          .by_approach = side * width};
 }
 
 /// Where a point that sticks throughout had its slider pushed to where it is; n: nowhere.
@@ -126,10 +122,7 @@ std::size_t LineDerivatives::last_push(const LineColumns& columns) const {
   const std::size_t n = instants_->size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t at = i * block_size;
-    const double s = columns.slider[at];
-    const double u = columns.u[at];
-    const double g = columns.half_width[at];
-    if (s == u - g || s == u + g) return i;
+    if (columns.slider[at] == columns.low[at] || columns.slider[at] == columns.high[at]) return i;
   }
   return n;
 }
@@ -159,48 +152,166 @@ void LineDerivatives::add_weights(double frequency) {
   }
 }
 
-void LineDerivatives::smooth(const SmoothPoint& point, const std::vector<Run>& runs,
-                             const LineColumns& columns) {
-  clear();
+/// Moments of the instants of a run.
+void LineDerivatives::sum_part(const Run& run) {
   const std::size_t n = instants_->size();
-  const std::size_t H = n_rows_ / 2;
-  const double k_u = point.tangential_stiffness;
-  const double k_v = point.normal_stiffness;
-  const double width_by_approach = k_u > 0.0 ? point.friction_coefficient * k_v / k_u : 0.0;
-  for (const Run& run : runs) {
+  const std::size_t end = run.begin + run.length;
+  std::fill(part_.begin(), part_.end(), 0.0);
+  add(part_, 1.0, instants_->sums(std::min(end, n)));
+  add(part_, -1.0, instants_->sums(run.begin));
+  if (end > n) add(part_, 1.0, instants_->sums(end - n));
+}
+
+void LineDerivatives::smooth(const SmoothPoint& point, const std::vector<Run>& runs,
+                             const std::vector<RunEnd>& ends, const LineColumns& columns) {
+  clear();
+  point_ = point;
+  const double limit = point.friction_coefficient * point.normal_stiffness;
+  for (std::size_t j = 0; j < runs.size(); ++j) {
+    const Run& run = runs[j];
     if (run.state == InstantState::separated) continue;
-    const std::size_t end = run.begin + run.length;
-    std::fill(part_.begin(), part_.end(), 0.0);
-    add(part_, 1.0, instants_->sums(std::min(end, n)));
-    add(part_, -1.0, instants_->sums(run.begin));
-    if (end > n) add(part_, 1.0, instants_->sums(end - n));
-    add(normal_, k_v, part_.data());
-    if (slips(run.state)) {
-      add(limit_, sign_of(run.state) * point.friction_coefficient * k_v, part_.data());
-      continue;
-    }
-    add(stick_, k_u, part_.data());
-    phase_[0] = -k_u * part_[0];
-    for (std::size_t h = 1; h <= H; ++h) {
-      phase_[h] = -k_u * part_[2 * H + h];
-      phase_[H + h] = -k_u * part_[h];
-    }
-    if (k_u == 0.0) continue;
-    const std::size_t before = (run.begin + n - 1) % n;
-    if (run.length == n) {
-      const std::size_t i = last_push(columns);
-      if (i == n || columns.slider[0] == 0.0) continue;
-      const double side = columns.slider[0] < columns.u[i * block_size] ? 1.0 : -1.0;
-      add_anchor({i, i, 1.0, -side * width_by_approach, 0.0, 0.0}, phase_);
-    } else if (columns.closeness[before * block_size] <= 0.0) {
-      add_anchor(landing(before, run.begin, k_v, columns), phase_);
+    const bool sticks = run.state == InstantState::stick;
+    sum_part(run);
+    add(normal_, point.normal_stiffness, part_.data());
+    std::fill(phase_.begin(), phase_.end(), 0.0);
+    if (sticks) {
+      hold_part();
     } else {
-      const double side =
-          columns.slider[before * block_size] < columns.u[before * block_size] ? 1.0 : -1.0;
-      add_anchor({before, before, 1.0, -side * width_by_approach, 0.0, 0.0}, phase_);
+      add(limit_, sign_of(run.state) * limit, part_.data());
     }
+    if (!ends.empty()) {
+      const Kink& first = ends[j > 0 ? j - 1 : ends.size() - 1].contact;
+      if (first.kind == Kink::Kind::closes) add_closing(first, run);
+      if (ends[j].slip.kind == Kink::Kind::slips) add_slip(ends[j].slip, run, columns);
+      if (ends[j].contact.kind == Kink::Kind::opens) add_opening(ends[j].contact);
+    }
+    if (sticks && point.tangential_stiffness > 0.0) add_stuck(run, columns);
   }
   add_weights(0.0);
+}
+
+/// k (u − s) of the instants of the run, the part of s in `phase_`.
+void LineDerivatives::hold_part() {
+  const std::size_t H = n_rows_ / 2;
+  const double k_u = point_.tangential_stiffness;
+  add(stick_, k_u, part_.data());
+  phase_[0] = -k_u * part_[0];
+  for (std::size_t h = 1; h <= H; ++h) {
+    phase_[h] = -k_u * part_[2 * H + h];
+    phase_[H + h] = -k_u * part_[h];
+  }
+}
+
+/// `phase_` times the motion of s in a run.
+void LineDerivatives::add_stuck(const Run& run, const LineColumns& columns) {
+  const std::size_t n = instants_->size();
+  const std::size_t before = (run.begin + n - 1) % n;
+  if (run.length == n) {
+    const std::size_t i = last_push(columns);
+    if (i < n && columns.slider[0] != 0.0) add_anchor(pushed(i, columns), phase_);
+  } else if (run.turned) {
+    add_anchor(pushed(run.begin, columns), phase_);
+  } else if (columns.closeness[before * block_size] <= 0.0) {
+    add_anchor(smooth_landing(run.begin, point_.normal_stiffness, columns), phase_);
+  } else {
+    add_anchor(pushed(before, columns), phase_);
+  }
+}
+
+/// P = T(θ_x) between the two instants, Q its change from one to the other, and its slope by the spline.
+void LineDerivatives::place(const Kink& kink) {
+  const std::size_t n = instants_->size();
+  const std::array<double, 4> shares = StepSpline::slope_shares(kink.share);
+  std::fill(slope_.begin(), slope_.end(), 0.0);
+  for (std::size_t j = 0; j < shares.size(); ++j) {
+    add(slope_, shares[j], instants_->basis((kink.now + n + j - 2) % n));
+  }
+  const double* T0 = instants_->basis(kink.before);
+  const double* T1 = instants_->basis(kink.now);
+  for (std::size_t l = 0; l < n_rows_; ++l) {
+    b_[l] = (1.0 - kink.share) * T0[l] + kink.share * T1[l];
+    change_[l] = T1[l] - T0[l];
+  }
+}
+
+/// The derivative of what is taken off, with w = u ∓ g, its rise Δ over the step, x Δ = s − w_before, b = x (1−x)/2:
+///
+///   d k (b Δ − φ w'/12) P = k [ b P dΔ − φ P dw'/12 + (b' P + b Q − φ (w'' P + w' Q)/(12 Δ)) (ds − dw_x) ]
+void LineDerivatives::add_slip(const Kink& kink, const Run& run, const LineColumns& columns) {
+  place(kink);
+  const double k_u = point_.tangential_stiffness;
+  const double weight = k_u * kink.weight();
+  const double late = k_u / 12.0;
+  const double by_approach = -kink.side * point_.compliance() * point_.normal_stiffness;
+  const double stay =
+      k_u * kink.weight_slope() - late * kink.late() * ratio_of(kink.bend, kink.rise);
+  const double move = weight - late * kink.damping * ratio_of(kink.slope, kink.rise);
+  for (std::size_t l = 0; l < n_rows_; ++l) moved_[l] = stay * b_[l] + move * change_[l];
+  add_outer(b_, change_, weight, weight * by_approach);
+  add_outer(b_, slope_, -late * kink.late(), -late * kink.late() * by_approach);
+  add_outer(moved_, b_, -1.0, -by_approach);
+  if (run.state == InstantState::stick) {
+    add(phase_, 1.0, moved_.data());
+  } else {
+    add_anchor(pushed(kink.before, columns), moved_);
+  }
+}
+
+/// Moments for the instants that the sums count too much or too little; the antisymmetric part of the derivative, of
+/// second order, has no place there.
+void LineDerivatives::add_load(const Kink& kink, double sign) {
+  const double weight = sign * point_.normal_stiffness *
+                        (kink.weight_slope() - kink.late() * ratio_of(kink.bend, kink.rise) / 12.0);
+  add(normal_, weight * (1.0 - kink.share), instants_->moment_basis(kink.before));
+  add(normal_, weight * kink.share, instants_->moment_basis(kink.now));
+}
+
+/// The friction is a share of the load. Its derivative as add_slip(), with r against 0.
+void LineDerivatives::add_opening(const Kink& kink) {
+  place(kink);
+  add_load(kink, -1.0);
+  const double limit = -kink.side * point_.friction_coefficient * point_.normal_stiffness;
+  const double late = kink.late() / 12.0;
+  const double stay = kink.weight_slope() - late * ratio_of(kink.bend, kink.rise);
+  const double move = kink.weight() - kink.damping * ratio_of(kink.slope, kink.rise) / 12.0;
+  for (std::size_t l = 0; l < n_rows_; ++l) {
+    moved_[l] = stay * b_[l] + move * change_[l];
+    slope_[l] = late * slope_[l] - kink.weight() * change_[l];
+  }
+  add_outer(moved_, b_, 0.0, limit);
+  add_outer(b_, slope_, 0.0, limit);
+}
+
+/// −d(x f P/2) with f at the instant behind, and what the slope at the kink adds: that of k u or that of the limit.
+void LineDerivatives::add_closing(const Kink& kink, const Run& run) {
+  place(kink);
+  add_load(kink, 1.0);
+  const double x = kink.share;
+  const double k_u = point_.tangential_stiffness;
+  const double k_v = point_.normal_stiffness;
+  const double* T = instants_->basis(kink.now);
+  moved_.assign(T, T + n_rows_);
+  if (run.state == InstantState::stick) {
+    add_outer(b_, moved_, -0.5 * x * k_u, 0.0);
+    add(phase_, 0.5 * x * k_u, b_.data());
+  } else {
+    const double limit = sign_of(run.state) * point_.friction_coefficient * k_v;
+    add_outer(b_, moved_, 0.0, -0.5 * x * limit);
+  }
+  const bool sticks = kink.side == 0.0;
+  const double limit = kink.side * point_.friction_coefficient * k_v;
+  const double late = (sticks ? kink.damping : kink.late()) / 12.0;
+  add_outer(b_, slope_, sticks ? late * k_u : 0.0, late * limit);
+  // The place moves by −P dr/Δ.
+  const double force = 0.5 * kink.force;
+  const double slope = sticks ? k_u * kink.stick_slope : limit / k_v * kink.slope;
+  const double bend = sticks ? k_u * kink.stick_bend : limit / k_v * kink.bend;
+  const double by_approach = ratio_of(k_v, kink.rise);
+  for (std::size_t l = 0; l < n_rows_; ++l) {
+    moved_[l] =
+        (force - late * bend) * b_[l] + (force * x - kink.damping * slope / 12.0) * change_[l];
+  }
+  add_outer(moved_, b_, 0.0, by_approach);
 }
 
 void LineDerivatives::any_surface(const std::vector<InstantSlopes>& slopes,
@@ -212,12 +323,10 @@ void LineDerivatives::any_surface(const std::vector<InstantSlopes>& slopes,
     const double side = columns.slider[i * block_size] < columns.u[i * block_size] ? 1.0 : -1.0;
     const InstantSlopes& at = slopes[i];
     const double along = at.rate < 0.0 ? -1.0 : 1.0;
-    return Anchor{i,
-                  i,
-                  1.0,
-                  -side * at.width_by_approach,
-                  -side * at.width_by_rate * frequency * along,
-                  -side * at.width_by_rate * std::abs(at.rate)};
+    return Anchor{.first = i,
+                  .by_approach = -side * at.width_by_approach,
+                  .by_rate = -side * at.width_by_rate * frequency * along,
+                  .by_frequency = -side * at.width_by_rate * std::abs(at.rate)};
   };
   for (const Run& run : runs) {
     if (run.state == InstantState::separated) continue;

@@ -1,6 +1,6 @@
 /// @file
-/// Derivatives of the sampled force of one point along one direction, exactly those of the sums over instants
-/// (theory sections 6, 8):
+/// Derivatives of the sampled force of one point along one direction, those of the sums over instants (theory
+/// sections 6, 8):
 ///
 ///   stick   df_i = k_i (du_i − ds) + k_i' dv_i (u_i − s),   slip   df_i = ± d(μ n)_i,   apart   0       (1)
 ///   ds  after slip at i*         du ∓ dg  there
@@ -8,40 +8,19 @@
 ///       virgin                   0                                                                    (2)
 ///
 /// so that ∂f̂/∂û = [products of moments of weights] + Σ_stick phases a ⊗ b, a_k = −Σ_phase k_i T_k(θ_i), b of (2).
+///
+/// On smooth surfaces i* lies between instants, du there is that of the polynomial through its neighbours, and the
+/// sums are mended at kinks (kinks.hpp); their derivatives are complete but for parts of second order.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "contact/point/cycle_segments.hpp"
-#include "contact/point/period_states.hpp"
 #include "contact/sampled/instants.hpp"
-#include "contact/sampled/line_kernels.hpp"
+#include "contact/sampled/kinks.hpp"
+#include "contact/sampled/runs.hpp"
 
 namespace microslip::contact::sampled {
-
-/// Instants of the same state; goes on at 0 after the last. @param begin in [0, n).
-struct Run {
-  InstantState state = InstantState::stick;
-  std::size_t begin = 0;
-  std::size_t length = 0;
-};
-
-/// Of one point, in order of time, neighbours differ.
-/// @param state  n numbers, `stride` apart.   @param runs  written whole.
-void find_runs(const double* state, std::size_t n, std::size_t stride, std::vector<Run>& runs);
-
-/// What a step control and a report want to know.
-[[nodiscard]] CycleStates cycle_states(const std::vector<Run>& runs, std::size_t n);
-[[nodiscard]] std::vector<CycleSegment> cycle_segments(const std::vector<Run>& runs, std::size_t n);
-
-/// The march of one point, columns of a block.
-struct LineColumns {
-  const double* u = nullptr;
-  const double* closeness = nullptr;
-  const double* half_width = nullptr;
-  const double* slider = nullptr;
-};
 
 /// What the instants of a point with any surface answer: filled where the surface is asked.
 struct InstantSlopes {
@@ -55,17 +34,11 @@ struct InstantSlopes {
   double rate = 0.0;                   ///< u' [m]; σ = ω|u'|
 };
 
-/// Constants of smooth surfaces; k_u = 0 and μ = 0 both where there is no friction.
-struct SmoothPoint {
-  double tangential_stiffness = 0.0;
-  double normal_stiffness = 0.0;
-  double friction_coefficient = 0.0;
-};
-
 class LineDerivatives {
  public:
   void reset(const Instants& instants);
-  void smooth(const SmoothPoint& point, const std::vector<Run>& runs, const LineColumns& columns);
+  void smooth(const SmoothPoint& point, const std::vector<Run>& runs,
+              const std::vector<RunEnd>& ends, const LineColumns& columns);
   /// @param slopes  n.   @param closeness_by_approach  dr/dv.
   void any_surface(const std::vector<InstantSlopes>& slopes, double closeness_by_approach,
                    double frequency, const std::vector<Run>& runs, const LineColumns& columns);
@@ -81,10 +54,23 @@ class LineDerivatives {
  private:
   struct Anchor;
   void clear();
+  void sum_part(const Run& run);
+  void add_outer(const std::vector<double>& a, const std::vector<double>& b, double factor_u,
+                 double factor_v);
   void add_anchor(const Anchor& anchor, const std::vector<double>& a);
+  void hold_part();
+  void add_stuck(const Run& run, const LineColumns& columns);
+  void place(const Kink& kink);
+  void add_slip(const Kink& kink, const Run& run, const LineColumns& columns);
+  void add_load(const Kink& kink, double sign);
+  void add_opening(const Kink& kink);
+  void add_closing(const Kink& kink, const Run& run);
   void add_weights(double frequency);
   [[nodiscard]] Anchor landing(std::size_t before, std::size_t now, double closeness_by_approach,
                                const LineColumns& columns) const;
+  [[nodiscard]] Anchor smooth_landing(std::size_t now, double normal_stiffness,
+                                      const LineColumns& columns) const;
+  [[nodiscard]] Anchor pushed(std::size_t now, const LineColumns& columns) const;
   [[nodiscard]] std::size_t last_push(const LineColumns& columns) const;
 
   const Instants* instants_ = nullptr;
@@ -98,9 +84,13 @@ class LineDerivatives {
   std::vector<double> normal_;  // of dn/dv
   std::vector<double> part_;
   std::vector<double> phase_;  // a
-  std::vector<double> b_u_;
-  std::vector<double> b_v_;
+  std::vector<double> b_;
+  std::vector<double> change_;
+  std::vector<double> slope_;
+  std::vector<double> moved_;
   std::vector<double> row_;
+  std::vector<double> padded_;  // a row, zeros behind
+  SmoothPoint point_;
   Products products_;
 };
 

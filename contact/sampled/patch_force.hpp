@@ -4,7 +4,8 @@
 ///
 ///   G^(k)_m = Σ_i w_i [ φ_u f_p + φ_v (n − n_ref δ_k0) + φ_w f_r ]^(k)_im,   sums over n instants         (1)
 ///
-/// The error falls with n²; derivatives are those of the sums, so that Newton's method converges on them.
+/// The error falls with n³ along one direction on smooth surfaces (kinks.hpp), else with n²; derivatives are those of
+/// the sums, so that Newton's method converges on them.
 /// In two directions the slider is marched until it repeats (plane_block.hpp); what has not settled is the defect.
 ///
 /// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (line_events.hpp) are exact and slower.

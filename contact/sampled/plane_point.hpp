@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "contact/sampled/instants.hpp"
-#include "contact/sampled/line_point.hpp"
 #include "contact/sampled/plane_kernels.hpp"
 #include "contact/sampled/product_kernels.hpp"
+#include "contact/sampled/runs.hpp"
 
 namespace microslip::contact::sampled {
 

@@ -1,5 +1,5 @@
 /// The patch in lanes along one direction, against located events, where these are exact, and its Jacobian
-/// against differences of its own force.
+/// against differences of its own force; smooth surfaces, whose kinks are mended, in third order and without jumps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,6 +80,125 @@ TEST_P(LineSurfaces, ConvergeToLocatedEventsInSecondOrder) {
   EXPECT_GT(coarse / fine, GetParam().name == "rising" ? 16.0 : 64.0);
 }
 
+/// Of many harmonics, so that phases are as short as ten instants.
+std::vector<MotionCase> rippled_motions(int n, int n_harmonics) {
+  Random random(7);
+  std::normal_distribution<double> normal;
+  std::vector<MotionCase> cases = motions(n);
+  for (MotionCase& c : cases) {
+    Harmonics motion(n_harmonics, c.motion.rows().cols());
+    motion.rows().topRows(3) = c.motion.rows().topRows(3);
+    for (Eigen::Index row = 3; row < motion.rows().rows(); ++row) {
+      const auto k = static_cast<double>((row + 1) / 2);
+      for (Eigen::Index signal = 0; signal < 2; ++signal) {
+        const double size = c.motion.rows().col(signal).norm();
+        motion.rows()(row, signal) = 0.3 * normal(random) / (k * k) * size;
+      }
+    }
+    c.motion = std::move(motion);
+  }
+  return cases;
+}
+
+// kinks.hpp (1): from 128 to 2048 instants 4096 in third order, 256 in second.
+TEST(SampledLine, SmoothSurfacesConvergeInThirdOrder) {
+  const test::SurfaceCase smooth{"smooth", test::smooth_surface};
+  for (const auto& cases : {motions(40), rippled_motions(40, 9)}) {
+    std::vector<Harmonics> exact;
+    for (const MotionCase& c : cases) {
+      exact.push_back(traction(LineEvents(c.point), c.motion).force);
+    }
+    const double coarse = rms(cases, smooth, exact, 128);
+    const double fine = rms(cases, smooth, exact, 2048);
+    std::printf("rms error at 128, 2048 instants: %.2e %.2e\n", coarse, fine);
+    EXPECT_LT(coarse, 1e-5);
+    EXPECT_GT(coarse / fine, 1000.0);
+  }
+}
+
+double stiffness_scale(const MotionCase& c) {
+  return c.point.tangential_stiffness +
+         (1.0 + c.point.friction_coefficient) * c.point.normal_stiffness;
+}
+
+/// Root mean square over random directions, relative.
+double jacobian_error(const std::vector<MotionCase>& cases, int n) {
+  Random random(11);
+  std::normal_distribution<double> normal;
+  double sum = 0.0;
+  for (const MotionCase& c : cases) {
+    PatchForce force = one_point(test::smooth_surface(c), 2, n);
+    const Harmonics q = modal(c.motion, 2);
+    const Eigen::VectorXd way =
+        Eigen::VectorXd::NullaryExpr(q.vector().size(), [&] { return normal(random); });
+    const double h = 1e-6 * normal_scale(c) / c.point.normal_stiffness;
+    Harmonics ahead = q;
+    Harmonics behind = q;
+    ahead.vector() += h * way;
+    behind.vector() -= h * way;
+    const Eigen::VectorXd slope = (force.evaluate(ahead, frequency, {}).force.vector() -
+                                   force.evaluate(behind, frequency, {}).force.vector()) /
+                                  (2.0 * h);
+    const Eigen::VectorXd product = force.evaluate(q, frequency).jacobian * way;
+    sum += (product - slope).squaredNorm() / std::pow(stiffness_scale(c) * way.norm(), 2);
+  }
+  return std::sqrt(sum / static_cast<double>(cases.size()));
+}
+
+// What the derivatives of mended kinks leave out: a quarter per doubling.
+TEST(SampledLine, JacobianOfSmoothSurfacesErrsInSecondOrder) {
+  const auto cases = rippled_motions(60, 9);
+  const double coarse = jacobian_error(cases, 128);
+  const double fine = jacobian_error(cases, 512);
+  std::printf("rms error of the Jacobian at 128, 512 instants: %.2e %.2e\n", coarse, fine);
+  EXPECT_LT(coarse, 3e-4);
+  EXPECT_GT(coarse / fine, 8.0);
+}
+
+// A curve needs a force without jumps: where a kink, a turn or a landing passes an instant the sums
+// go on. Motions with a stick of one instant between two slips may jump by the order of the error.
+TEST(SampledLine, SmoothSurfacesDoNotJumpWhereKinksPassInstants) {
+  constexpr int n_steps = 100;
+  Random random(13);
+  std::normal_distribution<double> normal;
+  int n_jumps = 0;
+  double largest = 0.0;
+  for (const MotionCase& c : rippled_motions(40, 9)) {
+    PatchForce force = one_point(test::smooth_surface(c), 2, 128);
+    const Harmonics q = modal(c.motion, 2);
+    Eigen::VectorXd way =
+        Eigen::VectorXd::NullaryExpr(q.vector().size(), [&] { return normal(random); });
+    way *= 0.0025 * q.vector().norm() / way.norm();
+    const auto at = [&](double share) -> Eigen::VectorXd {
+      Harmonics moved = q;
+      moved.vector() += share * way;
+      return force.evaluate(moved, frequency, {}).force.vector() /
+             (friction_scale(c) + normal_scale(c));
+    };
+    Eigen::VectorXd before = at(0.0);
+    for (int i = 1; i <= n_steps; ++i) {
+      double low = static_cast<double>(i - 1) / n_steps;
+      double high = static_cast<double>(i) / n_steps;
+      Eigen::VectorXd left = before;
+      Eigen::VectorXd right = before = at(high);
+      // What is left of a step of 1e-5 after a thousandth of it is a jump.
+      for (int halving = 0; halving < 10; ++halving) {
+        const double middle = 0.5 * (low + high);
+        Eigen::VectorXd here = at(middle);
+        const bool in_left = (here - left).norm() > (right - here).norm();
+        (in_left ? high : low) = middle;
+        (in_left ? right : left) = std::move(here);
+      }
+      const double jump = (right - left).norm();
+      largest = std::max(largest, jump);
+      if (jump > 1e-6) ++n_jumps;
+    }
+  }
+  std::printf("%d jumps in %d steps, the largest %.1e\n", n_jumps, 40 * n_steps, largest);
+  EXPECT_LE(n_jumps, 2);
+  EXPECT_LT(largest, 1e-4);
+}
+
 // Central differences of the sampled force itself: exact but for rounding 1e-16/1e-6 and instants
 // that change their state within the step, which differences at h and h/2 show.
 TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
@@ -89,8 +208,9 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
     PatchForce force = one_point(GetParam().make(c), 2, 128);
     const Harmonics q = modal(c.motion, 2);
     const ForceAndJacobian now = force.evaluate(q, frequency);
-    const double scale = c.point.tangential_stiffness +
-                         (1.0 + c.point.friction_coefficient) * c.point.normal_stiffness;
+    const double scale = stiffness_scale(c);
+    // Of smooth surfaces complete but for what is of second order: see above.
+    const double allowed = GetParam().name == "smooth" ? 2e-3 : 1e-6;
     for (Eigen::Index k = 0; k < now.jacobian.cols(); ++k) {
       const auto central = [&](double h) -> Eigen::VectorXd {
         Harmonics a = q;
@@ -106,7 +226,7 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
       const Eigen::VectorXd fine = central(0.5 * h);
       ++n_drawn;
       if ((central(h) - fine).cwiseAbs().maxCoeff() > 1e-7 * scale) continue;
-      ASSERT_LE((now.jacobian.col(k) - fine).cwiseAbs().maxCoeff(), 1e-6 * scale) << k;
+      ASSERT_LE((now.jacobian.col(k) - fine).cwiseAbs().maxCoeff(), allowed * scale) << k;
       ++n_checked;
     }
   }
@@ -137,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, LineSurfaces, testing::ValuesIn(test::surface
                          [](const auto& instance) { return instance.param.name; });
 
 // Section 4.2: a virgin slider, clipped into its band. Points that are pushed are not asleep; where
-// the band is met between instants its end errs by O(n⁻²).
+// the band is met between instants its end errs by O(n⁻³).
 TEST(SampledLine, FullStickKeepsTheConventionOfTheLineEvents) {
   Random random(5);
   int n_free = 0;
@@ -152,7 +272,7 @@ TEST(SampledLine, FullStickKeepsTheConventionOfTheLineEvents) {
     const ForceAndJacobian now = one_point(test::smooth_surface(c), 2, 256).evaluate(q, 1.0);
     const bool pushed = exact.jacobian(0, 0) == 0.0;
     ++(pushed ? n_pushed : n_free);
-    EXPECT_LE(error(now.force, exact.force, c), pushed ? 2e-3 : 1e-14);
+    EXPECT_LE(error(now.force, exact.force, c), pushed ? 1e-5 : 1e-14);
     EXPECT_NEAR(now.jacobian(0, 0), exact.jacobian(0, 0), 1e-12 * c.point.tangential_stiffness);
   }
   std::printf("free %d, pushed %d\n", n_free, n_pushed);
@@ -174,7 +294,7 @@ TEST(SampledLine, EveryStratumIsFiniteAndNearLocatedEvents) {
       worst = std::max(worst, error(now.force, traction(LineEvents(c.point), c.motion).force, c));
     }
     std::printf("%-22s %.1e\n", std::string(stratum.name).c_str(), worst);
-    EXPECT_LT(worst, 1e-3) << stratum.name;
+    EXPECT_LT(worst, 1e-5) << stratum.name;
   }
 }
 

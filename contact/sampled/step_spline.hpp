@@ -1,0 +1,72 @@
+/// @file
+/// A signal between two instants: the cubic with the slopes that its neighbours give at both ends, as the kernels have
+/// it (line_kernels.cpp). From one step to the next it is C¹; its error is of third order in the step.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "contact/sampled/block_size.hpp"
+
+namespace microslip::contact::sampled {
+
+struct StepSpline {
+  double begin, slope, square, cube;
+
+  /// @param w  at four instants, the step between the second and the third.
+  explicit StepSpline(const std::array<double, 4>& w) {
+    const double rise = w[2] - w[1];
+    const double m1 = 0.5 * (w[2] - w[0]);
+    const double m2 = 0.5 * (w[3] - w[1]);
+    begin = w[1];
+    slope = m1;
+    square = 3.0 * rise - 2.0 * m1 - m2;
+    cube = m1 + m2 - 2.0 * rise;
+  }
+  /// x in [0, 1].
+  [[nodiscard]] double at(double x) const { return begin + x * (slope + x * (square + x * cube)); }
+  [[nodiscard]] double slope_at(double x) const {
+    return slope + x * (2.0 * square + 3.0 * x * cube);
+  }
+  [[nodiscard]] double bend_at(double x) const { return 2.0 * square + 6.0 * x * cube; }
+  /// Where a slope that changes its sign vanishes.
+  [[nodiscard]] double turn() const {
+    const double root = std::sqrt(std::max(square * square - 3.0 * slope * cube, 0.0));
+    const double below = std::copysign(root, slope) - square;
+    return below == 0.0 ? 0.0 : std::clamp(slope / below, 0.0, 1.0);
+  }
+  /// Where a signal that rises through 0 does so, by Newton's method from the chord.
+  [[nodiscard]] double rise_through_zero(double chord) const {
+    double x = -begin / chord;
+    for (int i = 0; i < 2; ++i) {
+      x = std::clamp(x - at(x) / std::max(slope_at(x), 0.25 * chord), 0.0, 1.0);
+    }
+    return x;
+  }
+  /// ∂w(x)/∂w at the four instants.
+  [[nodiscard]] static std::array<double, 4> shares(double x) {
+    const double out = 0.5 * x * (1.0 - x) * (1.0 - x);
+    const double in = 0.5 * x * x * (x - 1.0);
+    const double blend = x * x * (3.0 - 2.0 * x);
+    return {-out, 1.0 - blend - in, blend + out, in};
+  }
+  /// ∂w'(x)/∂w.
+  [[nodiscard]] static std::array<double, 4> slope_shares(double x) {
+    const double out = 0.5 * (1.0 - x) * (1.0 - 3.0 * x);
+    const double in = 0.5 * x * (3.0 * x - 2.0);
+    const double blend = 6.0 * x * (1.0 - x);
+    return {-out, -blend - in, blend + out, in};
+  }
+};
+
+/// Of a column of a block, around the step that ends at instant `now` of n.
+[[nodiscard]] inline std::array<double, 4> around_step(const double* column, std::size_t now,
+                                                       std::size_t n) {
+  std::array<double, 4> w{};
+  for (std::size_t j = 0; j < 4; ++j) w[j] = column[(now + n + j - 2) % n * block_size];
+  return w;
+}
+
+}  // namespace microslip::contact::sampled
