@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/sampled/slip_work.hpp"
+
 namespace microslip::contact::sampled {
 
 void LineBlock::resize(const Instants& of_motion, const Instants& of_force) {
@@ -186,13 +188,9 @@ const LineDerivatives& LineBlock::derivatives(std::size_t place) {
   return derivatives_;
 }
 
-/// Without what was taken off around kinks.
-double LineBlock::force(std::size_t at, std::size_t place) const {
-  return simple_ ? stiffness_[place] * (u_[at] - slider_[at]) : friction_[at];
-}
-
 double LineBlock::slip_work(std::size_t place) const {
   const std::size_t n = instants_->size();
+  if (simple_) return sampled::slip_work(smooth_point(place), columns(place), &state_[place], n);
   double work = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t now = i * block_size + place;
@@ -200,15 +198,15 @@ double LineBlock::slip_work(std::size_t place) const {
     const InstantState state = instant_state(state_[now]);
     if (state == InstantState::separated || state == InstantState::stick) continue;
     double start = slider_[before];
-    double limit = std::abs(force(before, place));
+    double limit = std::abs(friction_[before]);
     if (closeness_[before] <= 0.0) {
       const double x = -closeness_[before] / (closeness_[now] - closeness_[before]);
       start = u_[before] + x * (u_[now] - u_[before]);
       limit = 0.0;
     } else if (instant_state(state_[before]) == InstantState::stick) {
-      limit = std::abs(force(now, place));
+      limit = std::abs(friction_[now]);
     }
-    work += 0.5 * (limit + std::abs(force(now, place))) * std::abs(slider_[now] - start);
+    work += 0.5 * (limit + std::abs(friction_[now])) * std::abs(slider_[now] - start);
   }
   return work;
 }

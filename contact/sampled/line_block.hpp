@@ -42,7 +42,6 @@ class LineBlock {
   void mend_kinks(std::size_t n_points);
   [[nodiscard]] LineArrays arrays();
   [[nodiscard]] SmoothPoint smooth_point(std::size_t place) const;
-  [[nodiscard]] double force(std::size_t at, std::size_t place) const;
   void ask_surfaces(std::span<const Eigen::Index> points);
   [[nodiscard]] bool touches();
   [[nodiscard]] LineColumns columns(std::size_t place) const;

@@ -116,6 +116,29 @@ TEST(SampledLine, SmoothSurfacesConvergeInThirdOrder) {
   }
 }
 
+// What the slider does is what friction does over the cycle, here that of located events.
+TEST(SampledLine, SlipWorkOfSmoothSurfacesConverges) {
+  const auto rms_error = [](const std::vector<MotionCase>& cases, int n) {
+    double sum = 0.0;
+    for (const MotionCase& c : cases) {
+      const Harmonics force = traction(LineEvents(c.point), c.motion).force;
+      const double work = test::cycle_work(c.motion, force, 0);
+      PatchForce patch = one_point(test::smooth_surface(c), 2, n);
+      const double slip = patch.report(modal(c.motion, 2), frequency).slip_work;
+      const double scale = friction_scale(c) * c.motion.rows().col(0).norm();
+      sum += std::pow((slip - work) / scale, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(cases.size()));
+  };
+  for (const auto& cases : {motions(40), rippled_motions(40, 9)}) {
+    const double coarse = rms_error(cases, 128);
+    const double fine = rms_error(cases, 1024);
+    std::printf("rms error of the slip work at 128, 1024 instants: %.2e %.2e\n", coarse, fine);
+    EXPECT_LT(coarse, 1e-5);
+    EXPECT_GT(coarse / fine, 200.0);  // 512 in third order, 64 in second
+  }
+}
+
 double stiffness_scale(const MotionCase& c) {
   return c.point.tangential_stiffness +
          (1.0 + c.point.friction_coefficient) * c.point.normal_stiffness;
