@@ -41,10 +41,7 @@ class Step {
     kink.side = side;
     kink.rise = band_end(now_, -side) - first;
     place(kink, slider - first);
-    std::array<double, 4> w = around_step(columns_.u, now_, n_);
-    const std::array<double, 4> r = around_step(columns_.closeness, now_, n_);
-    for (std::size_t j = 0; j < w.size(); ++j) w[j] -= side * point_.compliance() * r[j];
-    damp(kink, w, side);
+    damp(kink, end_of_band(point_, columns_, -side, now_, n_), side);
     kink.friction = -point_.tangential_stiffness *
                     (kink.weight() * kink.rise - kink.damping * kink.slope / 12.0);
     return kink;
@@ -130,6 +127,14 @@ void add(double* column, const Kink& kink, double error) {
 }
 
 }  // namespace
+
+std::array<double, 4> end_of_band(const SmoothPoint& point, const LineColumns& columns, double side,
+                                  std::size_t now, std::size_t n) {
+  std::array<double, 4> w = around_step(columns.u, now, n);
+  const std::array<double, 4> r = around_step(columns.closeness, now, n);
+  for (std::size_t j = 0; j < w.size(); ++j) w[j] += side * point.compliance() * r[j];
+  return w;
+}
 
 void find_kinks(const SmoothPoint& point, const std::vector<Run>& runs, const LineColumns& columns,
                 std::size_t n, std::vector<RunEnd>& ends) {

@@ -13,6 +13,7 @@
 /// which does not jump where a kink passes an instant.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,6 +43,11 @@ struct LineColumns {
   const double* turns = nullptr;  ///< null: of any surface
   const double* slider = nullptr;
 };
+
+/// u + side g at the four instants around the step that ends at `now`, extended by r < 0. @param side  −1 w, 1 W.
+[[nodiscard]] std::array<double, 4> end_of_band(const SmoothPoint& point,
+                                                const LineColumns& columns, double side,
+                                                std::size_t now, std::size_t n);
 
 struct Kink {
   enum class Kind : std::int8_t { none, slips, closes, opens };

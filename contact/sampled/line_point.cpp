@@ -109,11 +109,9 @@ LineDerivatives::Anchor LineDerivatives::pushed(std::size_t now, const LineColum
     return {.first = now, .by_approach = columns.slider[at] < columns.u[at] ? -width : width};
   }
   const double side = by_low ? -1.0 : 1.0;
-  std::array<double, 4> w = around_step(columns.u, now, n);
-  const std::array<double, 4> r = around_step(columns.closeness, now, n);
-  for (std::size_t j = 0; j < w.size(); ++j) w[j] += side * point_.compliance() * r[j];
+  const StepSpline end(end_of_band(point_, columns, side, now, n));
   return {.first = (now + n - 2) % n,
-          .share = StepSpline::shares(StepSpline(w).turn()),
+          .share = StepSpline::shares(end.turn()),
           .by_approach = side * width};
 }
 

@@ -76,7 +76,7 @@ class Step {
 
   /// Where the end of the band meets the slider.
   [[nodiscard]] double meeting(double direction) const {
-    std::array<double, 4> w = end_of_band(direction);
+    std::array<double, 4> w = end_of_band(point_, columns_, -direction, now_, n_);
     const double slider = at(columns_.slider, before_);
     for (double& number : w) number = direction * (number - slider);
     const double rise = w[2] - w[1];
@@ -92,15 +92,8 @@ class Step {
     return at(columns_.closeness, now_) - at(columns_.closeness, before_);
   }
 
-  [[nodiscard]] std::array<double, 4> end_of_band(double direction) const {
-    std::array<double, 4> w = around_step(columns_.u, now_, n_);
-    const std::array<double, 4> r = around_step(columns_.closeness, now_, n_);
-    for (std::size_t j = 0; j < w.size(); ++j) w[j] -= direction * point_.compliance() * r[j];
-    return w;
-  }
-
   [[nodiscard]] StepSpline band_end(double direction) const {
-    return StepSpline(end_of_band(direction));
+    return StepSpline(end_of_band(point_, columns_, -direction, now_, n_));
   }
 
   /// Gauss's rule of three points: exact for the product of a cubic and the slope of one.
