@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <numbers>
+#include <string>
 
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -20,6 +21,10 @@ double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& p
   return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
 }
 
+void stop_if_interrupted(const std::string& kept) {
+  if (interrupt_requested()) throw InterruptedError("interrupted; finished " + kept + " are kept");
+}
+
 }  // namespace
 
 std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDescription& scene,
@@ -32,7 +37,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   std::size_t kept = 0;
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
-    if (interrupt_requested()) throw InterruptedError("interrupted; finished points are kept");
+    stop_if_interrupted("points");
     results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, preload_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
@@ -48,14 +53,14 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       record.keep_curve(results[kept], model);
     }
   });
-  if (interrupt_requested()) throw InterruptedError("interrupted; finished points are kept");
+  stop_if_interrupted("points");
   return results;
 }
 
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, RunRecord& record) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (interrupt_requested()) throw InterruptedError("interrupted; finished curves are kept");
+    stop_if_interrupted("curves");
     for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
     if (const auto* peak = highest_peak(curves[i].curve)) {
       record.keep_motion(curves[i].name + "_peak", *peak);

@@ -20,7 +20,7 @@ constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
 // it, and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
-// Of Hill's problem: some 3 ms for its eigenvectors.
+// Of Hill's problem: some 7 ms for its eigenvectors.
 constexpr Eigen::Index most_states = 80;
 // Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
 // springs.
