@@ -39,6 +39,9 @@ struct OptimumOptions {
   double relative_tolerance = 1e-4;
   int n_scan = 12;  ///< values of the first scan, ≥ 3
   ParameterScale scale = ParameterScale::logarithmic;
+  /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best value and at
+  /// both ends of the interval that is as good to 1 %; 0: none beside those the scene asks for.
+  int search_starts = 2;
 };
 
 /// @param family  scene for a value of the parameter.

@@ -180,6 +180,14 @@ class Search {
     return g;
   }
 
+  /// No longer on the way to a solution: the merit has not fallen to a half over the last iterations.
+  [[nodiscard]] static bool is_stalled(const std::vector<double>& merits) {
+    constexpr std::size_t patience = 8;
+    if (!std::isfinite(merits.back())) return true;
+    if (merits.size() <= patience) return false;
+    return !(merits.back() < 0.5 * merits[merits.size() - 1 - patience]);
+  }
+
   /// Newton's method on the deflated equations. Empty: it did not converge.
   [[nodiscard]] std::optional<Eigen::VectorXd> deflated(Eigen::VectorXd x, double frequency,
                                                         const std::vector<Eigen::VectorXd>& known) {
@@ -191,26 +199,28 @@ class Search {
     for (const Eigen::VectorXd& other : known) {
       if ((x - other).norm() < 1e-2 * size) x *= 1.1;  // m has no value at a known solution
     }
-    BalanceEvaluation at = balance_->evaluate(x, frequency);
+    Eigen::VectorXd residual = balance_->residual(x, frequency).residual;
     count(0, 1);
+    std::vector<double> merits;
     for (int i = 0; i < most_iterations; ++i) {
-      const double merit = factor(x, size, known) * at.residual.norm();
-      if (at.residual.norm() <= 1e-8 * scale) return x;
+      merits.push_back(factor(x, size, known) * residual.norm());
+      if (residual.norm() <= 1e-8 * scale) return x;
+      if (is_stalled(merits)) return std::nullopt;
+      const BalanceEvaluation at = balance_->evaluate(x, frequency);
       Eigen::VectorXd step = -at.jacobian.partialPivLu().solve(at.residual);
       step /= 1.0 - logarithmic_gradient(x, size, known).dot(step);
-      if (!step.allFinite() || !std::isfinite(merit)) return std::nullopt;
+      if (!step.allFinite()) return std::nullopt;
       const double longest = longest_step * std::max(x.norm(), size);
       if (step.norm() > longest) step *= longest / step.norm();
-      count(1, 0);
+      count(1, 1);
       double length = 1.0;
       for (int k = 0; k <= most_halvings; ++k, length *= 0.5) {
         const Eigen::VectorXd next = x + length * step;
-        BalanceEvaluation there = balance_->evaluate(next, frequency);
+        residual = balance_->residual(next, frequency).residual;
         count(0, 1);
         // The last try is taken even if it rises: between regimes no length may do.
-        if (factor(next, size, known) * there.residual.norm() < merit || k == most_halvings) {
+        if (factor(next, size, known) * residual.norm() < merits.back() || k == most_halvings) {
           x = next;
-          at = std::move(there);
           break;
         }
       }

@@ -147,7 +147,7 @@ class Search {
     };
     // A peak that only the curve at the optimum shows is followed from there, a valley that only
     // its edges show is searched, and all repeated; each round finds one more.
-    constexpr int rounds = 4;
+    constexpr int rounds = 8;
     for (int i = 0; i < rounds; ++i) {
       refine(followed);
       if (settled() && open_valleys(peaks_.result().peaks).empty()) return finished();
@@ -156,7 +156,7 @@ class Search {
         "peaks followed kept missing the highest one, or valleys kept appearing; search on whole "
         "curves");
     refine(on_whole_curves);
-    static_cast<void>(settled());
+    is_settled_ = settled();
     return finished();
   }
 
@@ -270,14 +270,26 @@ class Search {
     const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
     if (peaks.empty()) return true;
     result_.best = *lowest(peaks);
-    if (!peaks_.confirm(result_.best.parameter)) return false;
+    if (!peaks_.confirm(result_.best.parameter, options_.search_starts)) return false;
+    // Following it once more may have found a peak that was missed before.
+    const double confirmed = peaks_.highest(result_.best.parameter).amplitude;
+    if (confirmed > the_same * result_.best.amplitude) return false;
     const bool flat = flat_interval(peaks_.result().peaks).has_value();
     for (const double direction : {-1.0, 1.0}) {
       if (flat) search_edge(direction, the_same * result_.best.amplitude);
       search_edge(direction, as_good * result_.best.amplitude);
     }
     const std::vector<PeakOfParameter> all = peaks_.result().peaks;
-    return lowest(all)->amplitude * the_same >= result_.best.amplitude;
+    return lowest(all)->amplitude * the_same >= result_.best.amplitude && edges_hold(all);
+  }
+
+  /// No higher peak, of the curves or beside them, at the ends of the interval called as good.
+  bool edges_hold(const std::vector<PeakOfParameter>& trace) {
+    if (options_.search_starts == 0) return true;
+    const auto [left, right] = below(trace, result_.best, as_good * result_.best.amplitude);
+    const std::array<double, 2> ends{left->parameter, std::prev(right)->parameter};
+    return std::ranges::all_of(
+        ends, [&](double end) { return peaks_.confirm(end, options_.search_starts); });
   }
 
   /// Solves for where the amplitude passes a limit, from the last value known to be lower towards the first
@@ -323,6 +335,10 @@ class Search {
 
   /// Why the lowest value is not the optimum; empty: it is.
   [[nodiscard]] std::string objection() const {
+    if (!is_settled_) {
+      return sentence("not settled: peaks beside those followed kept appearing, the last near ",
+                      result_.best.parameter);
+    }
     if (result_.flat) {
       return sentence("flat: the smallest amplitude is the same from ", (*result_.flat)[0]) +
              sentence(" to ", (*result_.flat)[1]);
@@ -374,6 +390,7 @@ class Search {
 
   OptimumOptions options_;
   bool one_frequency_;
+  bool is_settled_ = true;
   PeakFamilies peaks_;
   std::set<std::array<double, 3>>
       searched_;  // valleys of the present search, with their neighbours

@@ -19,12 +19,16 @@ constexpr double same_amplitude = 1e-7;  // relative
 constexpr double same_frequency = 1e-4;  // of the resonance width
 // Between two values the step is halved down to this share of their distance.
 constexpr double finest = 1.0 / 64.0;
+constexpr double rounding = 1e-6;  // of a step: what is left of the way is none of its own
 // A pair of peaks closer than this share of the step ahead tells rounding errors, not a direction.
 constexpr double shortest_base = 0.05;
 constexpr std::size_t most_seeds =
     4;  // peaks and ends of one curve that are followed, from the highest down
 // A peak lost below this share of the highest cannot become the highest within one step.
 constexpr double of_interest = 0.5;
+// Peaks of a curve lower than that are not followed: should one become the highest, the curve at
+// the best value has it.
+constexpr double worth_following = 0.25;
 
 bool same(const LocalPeak& a, const ResponsePoint& b) {
   return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
@@ -135,11 +139,11 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
   return best;
 }
 
-/// The highest point of a curve is the amplitude's, and stands beside the curve.
+/// The amplitude is that of the highest point, beside the curve, or of none that the curve has.
 bool PeakFamilies::is_detached(const Curve& curve, double amplitude) {
   const HighPoint& highest = curve.high.front();
-  const double solved = highest.point.amplitude;
-  return highest.detached && std::abs(amplitude - solved) <= same_amplitude * solved;
+  const double above = amplitude / highest.point.amplitude - 1.0;
+  return highest.detached ? above >= -same_amplitude : curve.complete && above > same_amplitude;
 }
 
 /// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
@@ -149,16 +153,18 @@ bool PeakFamilies::needs_curve(double position) const {
   return followed == nullptr || followed->rises;
 }
 
-const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
+const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_starts) {
   const auto known = curves_.find(position);
-  if (known != curves_.end()) return known->second;
+  if (known != curves_.end() && known->second.search_starts >= search_starts) return known->second;
   const Scene scene = family_(parameter(position));
-  const ResponseCurve curve = trace_response(scene, range_);
+  ContinuationOptions range = range_;
+  range.search_starts = std::max(range.search_starts, search_starts);
+  const ResponseCurve curve = trace_response(scene, range);
   ++result_.n_curves;
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
   if (!curve.complete) note("curve incomplete (" + curve.diagnosis + ")", position);
-  Curve kept{high_points(scene, curve, range_), curve.complete};
+  Curve kept{high_points(scene, curve, range_), curve.complete, range.search_starts};
   if (std::any_of(kept.high.begin(), kept.high.end(),
                   [](const auto& one) { return one.climbed; })) {
     note("a peak that the curve passes was solved for from the points beside it", position);
@@ -169,12 +175,21 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position) {
   if (!kept.high.empty() && kept.high.front().detached) {
     warn("the highest peak stands on a branch detached from the curve: no sweep meets it",
          position);
+    search_everywhere(range.search_starts);
   }
   if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
       left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {
     note("the highest peak lacks harmonics that the checks did not need", position);
   }
-  return curves_.emplace(position, std::move(kept)).first->second;
+  return curves_.insert_or_assign(position, std::move(kept)).first->second;
+}
+
+/// Curves whose surroundings were not searched cannot tell that a detached peak is not there.
+void PeakFamilies::search_everywhere(int search_starts) {
+  range_.search_starts = std::max(range_.search_starts, search_starts);
+  std::erase_if(curves_, [&](const auto& curve) {
+    return curve.second.search_starts < range_.search_starts;
+  });
 }
 
 bool PeakFamilies::agrees(const Peaks& peaks, double position) const {
@@ -194,18 +209,19 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
 }
 
 /// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
-/// that had it.
-void PeakFamilies::cut(Peaks& peaks, double position) {
+/// that had it. What is higher than all of the curve is a solution that counts, and stays.
+/// @return  whether it goes, back to the last curve that had it.
+bool PeakFamilies::cut(Peaks& peaks, double position) {
   const std::vector<HighPoint>& solved = curves_.at(position).high;
-  const bool higher =
-      solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude;
-  const std::string found =
-      " is not on the curve (its branch is detached, or another peak), curves traced whole";
-  if (higher) {
-    warn("a followed peak, higher than all of the curve," + found, position);
-  } else {
-    note("a followed peak" + found, position);
+  if (solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude) {
+    warn("a followed peak, higher than all of the curve, stands on a branch detached from it",
+         position);
+    return false;
   }
+  note(
+      "a followed peak is not on the curve (its branch is detached, or another peak), curves "
+      "traced whole",
+      position);
   const auto agreed = [&](const auto& curve) {
     return curve.second.complete && peaks.contains(curve.first) && agrees(peaks, curve.first);
   };
@@ -219,6 +235,7 @@ void PeakFamilies::cut(Peaks& peaks, double position) {
     if (asked_.contains(peak->first)) pending_.insert(peak->first);
     peak = peaks.erase(peak);
   }
+  return true;
 }
 
 std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const_iterator nearest,
@@ -248,24 +265,40 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
   return peak;
 }
 
-bool PeakFamilies::follow_to(Peaks& peaks, double target) {
-  auto nearest = peaks.lower_bound(target);
-  if (nearest == peaks.end() ||
-      (nearest != peaks.begin() && target - std::prev(nearest)->first < nearest->first - target)) {
-    nearest = std::prev(nearest);
-  }
+/// From the nearest known position; where that fails, from the nearest on the other side.
+bool PeakFamilies::follow_to(std::size_t family, double target) {
+  Peaks& peaks = families_[family];
+  const auto above = peaks.lower_bound(target);
+  if (above == peaks.end()) return follow_from(family, std::prev(above), target);
+  if (above == peaks.begin()) return follow_from(family, above, target);
+  const auto below = std::prev(above);
+  const bool down = target - below->first < above->first - target;
+  return follow_from(family, down ? below : above, target) ||
+         follow_from(family, down ? above : below, target);
+}
+
+bool PeakFamilies::follow_from(std::size_t family, Peaks::const_iterator nearest, double target) {
+  Peaks& peaks = families_[family];
   double step = target - nearest->first;
+  bool failed = false;
   while (nearest->first != target) {
     const double rest = target - nearest->first;
-    const double next = std::abs(rest) <= std::abs(step) ? target : nearest->first + step;
-    std::optional<LocalPeak> peak = followed(peaks, nearest, next);
+    const double next =
+        std::abs(rest) <= (1.0 + rounding) * std::abs(step) ? target : nearest->first + step;
+    Reach& reach = reach_[{family, nearest->first}];
+    std::optional<LocalPeak> peak;
+    if (next > reach.below && next < reach.above) peak = followed(peaks, nearest, next);
     if (peak) {
       nearest = peaks.emplace(next, std::move(*peak)).first;
-      step *= 2.0;
+      // What failed a step ago would fail again.
+      if (!failed) step *= 2.0;
     } else {
+      reach = next > nearest->first ? Reach{reach.below, std::min(reach.above, next)}
+                                    : Reach{std::max(reach.below, next), reach.above};
       step = 0.5 * (next - nearest->first);
       if (std::abs(step) < finest * spacing_) return false;
     }
+    failed = !peak;
   }
   return true;
 }
@@ -276,7 +309,7 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
     const double target = value_position(direction > 0.0 ? i : options_.n_values - 1 - i);
     if ((target - from) * direction <= 0.0) continue;
     Peaks& peaks = families_[family];
-    if (!follow_to(peaks, target)) {
+    if (!follow_to(family, target)) {
       const auto last = direction > 0.0 ? std::prev(peaks.end()) : peaks.begin();
       const double before = target - direction * spacing_;
       if (last->second.amplitude < of_interest * highest_at(before).amplitude) return;
@@ -291,19 +324,19 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
       return;
     }
     const auto curve = curves_.find(target);
-    if (curve != curves_.end() && curve->second.complete && !agrees(peaks, target)) {
-      cut(peaks, target);
-      return;
-    }
+    const bool contradicted =
+        curve != curves_.end() && curve->second.complete && !agrees(peaks, target);
+    if (contradicted && cut(peaks, target)) return;
   }
 }
 
-void PeakFamilies::seed(double position) {
+void PeakFamilies::seed(double position, int search_starts) {
   asked_.insert(position);
-  const Curve& curve = curve_at(position);
+  const Curve& curve = curve_at(position, search_starts);
   if (curve.complete) {
     for (Peaks& peaks : families_) {
-      if (peaks.contains(position) && !agrees(peaks, position)) cut(peaks, position);
+      const bool contradicted = peaks.contains(position) && !agrees(peaks, position);
+      if (contradicted) static_cast<void>(cut(peaks, position));
     }
   }
   const Scene scene = family_(parameter(position));
@@ -315,6 +348,8 @@ void PeakFamilies::seed(double position) {
       return here != peaks.end() && same(here->second, high.point);
     });
     if (known || high.place == PeakPlace::unsolved) continue;
+    const bool low = high.point.amplitude < worth_following * curve.high.front().point.amplitude;
+    if (low && high.place == PeakPlace::peak) continue;
     std::optional<LocalPeak> peak = high.place == PeakPlace::peak
                                         ? local_peak(balance, high.point)
                                         : local_end(balance, high.point, range_);
@@ -350,26 +385,27 @@ void PeakFamilies::trace() {
 PeakOfParameter PeakFamilies::highest(double parameter) {
   const double here = known_position(parameter);
   asked_.insert(here);
-  for (Peaks& peaks : families_) {
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    Peaks& peaks = families_[i];
     const auto above = peaks.lower_bound(here - spacing_);
     const bool near = above != peaks.end() && above->first <= here + spacing_;
-    if (near) static_cast<void>(follow_to(peaks, here));
+    if (near && follow_to(i, here) && known_elsewhere(i, here)) peaks.erase(here);
   }
   PeakOfParameter best = highest_at(here);
   best.parameter = parameter;
   return best;
 }
 
-bool PeakFamilies::confirm(double parameter) {
+bool PeakFamilies::confirm(double parameter, int search_starts) {
   const double followed = highest(parameter).amplitude;
   const double here = known_position(parameter);
-  seed(here);
+  seed(here, search_starts);
   settle();
-  const Curve& curve = curve_at(here);
+  const Curve& curve = curve_at(here, search_starts);
   if (!curve.complete || curve.high.empty())
     return true;  // named in the notes; nothing better is known
   const double solved = curve.high.front().point.amplitude;
-  const bool confirmed = std::abs(followed - solved) <= same_amplitude * solved;
+  const bool confirmed = followed >= (1.0 - same_amplitude) * solved;
   if (!confirmed) note("the curve has another highest peak than those followed", here);
   return confirmed;
 }

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -82,15 +83,22 @@ class PeakFamilies {
   [[nodiscard]] PeakOfParameter highest(double parameter);
   /// Traces the curve at a value whole. True: it confirms what highest() says there; else the peaks
   /// missing are followed from here on.
-  bool confirm(double parameter);
+  /// @param search_starts  of a search for detached branches there, beside what the options ask for.
+  bool confirm(double parameter, int search_starts = 0);
 
   [[nodiscard]] PeakTrace result() const;
 
  private:
   using Peaks = std::map<double, LocalPeak>;  // what one peak or end is, by position
+  /// The nearest positions to which a peak could not be followed.
+  struct Reach {
+    double below = -std::numeric_limits<double>::infinity();
+    double above = std::numeric_limits<double>::infinity();
+  };
   struct Curve {
     std::vector<HighPoint> high;  // from the highest down
     bool complete = false;
+    int search_starts = 0;
   };
 
   // Positions are parameters on the scale of the options.
@@ -103,16 +111,18 @@ class PeakFamilies {
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
   [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
-  const Curve& curve_at(double position);
-  void seed(double position);
+  const Curve& curve_at(double position, int search_starts);
+  void seed(double position, int search_starts = 0);
   void settle();
   void follow_values(std::size_t family, double from, double direction);
-  bool follow_to(Peaks& peaks, double target);
+  bool follow_to(std::size_t family, double target);
+  bool follow_from(std::size_t family, Peaks::const_iterator nearest, double target);
   [[nodiscard]] std::optional<LocalPeak> followed(const Peaks& peaks, Peaks::const_iterator nearest,
                                                   double target);
   [[nodiscard]] bool known_elsewhere(std::size_t family, double position) const;
+  void search_everywhere(int search_starts);
   [[nodiscard]] bool agrees(const Peaks& peaks, double position) const;
-  void cut(Peaks& peaks, double position);
+  [[nodiscard]] bool cut(Peaks& peaks, double position);
   void note(const std::string& text, double position);
   void warn(const std::string& text, double position);
 
@@ -122,6 +132,7 @@ class PeakFamilies {
   PeakTraceOptions options_;
   double spacing_;
   std::vector<Peaks> families_;
+  std::map<std::pair<std::size_t, double>, Reach> reach_;  // by family and position
   std::map<double, Curve> curves_;
   std::set<double> asked_;    // positions whose highest peak is known
   std::set<double> pending_;  // positions whose curve is to be traced whole

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/solver/humped_damping.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
@@ -190,6 +191,21 @@ TEST(MinimisePeak, SearchesEveryValleyThatTheSearchItselfLaysOpen) {
   const Optimum optimum = minimise_peak(family, range(), preloads(1.0, std::exp(11.0)));
   EXPECT_TRUE(optimum.found) << optimum.message;
   EXPECT_NEAR(std::log(optimum.best.parameter), 5.25, 1e-3);  // the tolerance of the search is 1e-4
+}
+
+TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
+  const auto family = [](double p) {
+    return tests::isola_scene(0.5 * (1.0 + (p - 1.0) * (p - 1.0)));
+  };
+  OptimumOptions options{.lower = 0.8, .upper = 1.3};
+  const Optimum best = minimise_peak(family, frequency_range(0.6, 1.4), options);
+  EXPECT_TRUE(best.found) << best.message;
+  EXPECT_TRUE(best.best.detached);
+  EXPECT_NEAR(best.best.amplitude, 5.0, 1e-4);  // of the isola; the curve stays below 2
+  EXPECT_NEAR(best.best.parameter, 1.0, 0.01);
+  EXPECT_FALSE(best.warnings.empty());
+  options.search_starts = 0;
+  EXPECT_LT(minimise_peak(family, frequency_range(0.6, 1.4), options).best.amplitude, 2.0);
 }
 
 TEST(MinimisePeak, SaysWhenTheSmallestPeakLiesAtABound) {
