@@ -214,8 +214,10 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
 bool PeakFamilies::cut(Peaks& peaks, double position) {
   const std::vector<HighPoint>& solved = curves_.at(position).high;
   if (solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude) {
-    warn("a followed peak, higher than all of the curve, stands on a branch detached from it",
-         position);
+    constexpr const char* text =
+        "a followed peak, higher than all of the curve, stands on a branch detached from it";
+    told_detached_ ? note(text, position) : warn(text, position);
+    told_detached_ = true;
     return false;
   }
   note(

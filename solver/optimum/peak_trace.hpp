@@ -9,12 +9,13 @@
 ///   a peak that appears or overtakes   it stands on the curve of a check and is followed back from there
 ///   a peak that enters the range       the amplitude at the end grows into it: the curve is traced whole
 ///   a peak that vanishes or jumps      following stops, the curve there is traced whole
-///   a branch that comes off the curve  its peak is missing on the curve of the next check; all values up to
-///                                      the last agreement are traced whole
+///   a branch that comes off the curve  its peak is missing on the curve of the next check: higher than all of
+///                                      that curve it counts and is told, else all values up to the last
+///                                      agreement are traced whole
 ///
 /// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is made with every
-/// whole curve; a peak it finds counts like one of the curve. Without it such a peak is not known, unless the
-/// branch was followed to where it came off the curve: the notes say so then. At worst every value is traced whole, which is what a search on curves costs.
+/// whole curve, from the first on that finds one; a peak it finds counts like one of the curve. At worst every
+/// value is traced whole, which is what a search on curves costs.
 ///
 /// Where harmonics are chosen, all peaks have those that the peaks of the checks need
 /// (common_harmonics.hpp); a curve whose highest peak needs more is named in `notes`.
@@ -136,6 +137,7 @@ class PeakFamilies {
   std::map<double, Curve> curves_;
   std::set<double> asked_;    // positions whose highest peak is known
   std::set<double> pending_;  // positions whose curve is to be traced whole
+  bool told_detached_ = false;
   PeakTrace result_;
 };
 
