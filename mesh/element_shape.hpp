@@ -2,7 +2,7 @@
 /// How well shaped elements are, and warnings about the worst: slivers are valid, but spoil the condition
 /// of the stiffness matrix and the accuracy around them.
 ///
-/// At each corner with edges e₁, e₂, e₃:
+/// At each corner with edges e₁, e₂, e₃ (of a pyramid: at its base):
 ///   dihedral angle at e₁   α = atan2(|e₁| det(e₁, e₂, e₃), (e₁ × e₂)·(e₁ × e₃))           (1)
 ///   height over (e₁, e₂)   h = det(e₁, e₂, e₃) / |e₁ × e₂|                               (2)
 ///   aspect ratio           longest edge / smallest height    (cube: 1, regular tetrahedron: 1.22)

@@ -9,7 +9,7 @@
 
 namespace microslip::mesh {
 
-/// Reads gmsh 2.2 and 4.1 (ASCII or binary) with tet4, tet10, hex8, hex20; physical groups of
+/// Reads gmsh 2.2 and 4.1 (ASCII or binary) with the elements of element_type.hpp; physical groups of
 /// dimension 2 become surfaces, of dimension 0 and 1 (and 2) node sets. Unused nodes are dropped.
 /// @param length_unit  metres per unit of the file (1e-3 for mm).
 /// @throws MeshError  missing, truncated or foreign file, unknown element; file and line or byte.

@@ -161,6 +161,26 @@ void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
                                       hexahedron_rule(5));  // per direction N_i N_j: 4, det J: 5
       return integrate<20>(stiffness, mass, nodes, material, result);
     }
+    case ElementType::wedge6: {
+      static const RuleTable<6> stiffness(type, wedge_rule(2, 2));
+      static const RuleTable<6> mass(type, wedge_rule(3, 3));  // N_i N_j: 2 and 2, det J: 1 and 2
+      return integrate<6>(stiffness, mass, nodes, material, result);
+    }
+    case ElementType::wedge15: {
+      static const RuleTable<15> stiffness(type, wedge_rule(4, 3));
+      static const RuleTable<15> mass(type, wedge_rule(8, 5));  // N_i N_j: 4 and 4, det J: 4 and 5
+      return integrate<15>(stiffness, mass, nodes, material, result);
+    }
+    case ElementType::pyramid5: {
+      static const RuleTable<5> stiffness(type, pyramid_rule(2));
+      static const RuleTable<5> mass(type, pyramid_rule(3));  // N_i N_j: 2, det J: 2 in a and b
+      return integrate<5>(stiffness, mass, nodes, material, result);
+    }
+    case ElementType::pyramid13: {
+      static const RuleTable<13> stiffness(type, pyramid_rule(3));
+      static const RuleTable<13> mass(type, pyramid_rule(5));  // N_i N_j: 4, det J: 5 in a and b
+      return integrate<13>(stiffness, mass, nodes, material, result);
+    }
   }
 }
 

@@ -7,12 +7,16 @@
 /// with Lamé's λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)). (1) needs only S = ∫ g gᵀ dV over the 3n-vector g
 /// of all gradients: λ, its transposed blocks and their traces give K.
 ///
-/// Quadrature. (2) is a polynomial in the reference coordinates and integrated exactly for every
-/// shape. (1) is exact on straight-sided tetrahedra and rational otherwise:
-///   tet4   1 point, exact           tet10  straight edges: 4 points, exact; curved: 14 points
-///   hex8   2³ points                hex20  3³ points
-/// Hex8 is fully integrated, without incompatible modes or B-bar: honest and convergent, but stiff
-/// in bending and near ν = ½; prefer hex20 there.
+/// Quadrature. (2) is a polynomial in the reference coordinates, of pyramids in the collapsed ones, and
+/// integrated exactly for every shape. (1) is exact on parallelepipeds, wedges between parallel equal triangles,
+/// pyramids on parallelograms, straight-sided tetrahedra, and rational otherwise:
+///   tet4      1 point            tet10      straight edges: 4 points, curved: 14 points
+///   hex8      2³ points          hex20      3³ points
+///   wedge6    3 × 2 points       wedge15    6 × 3 points
+///   pyramid5  2³ points          pyramid13  3³ points (collapsed Gauss–Jacobi)
+/// For every shape with straight edges ∫ g dV is exact: a patch of them carries uniform strain.
+/// Hex8, like wedge6 and pyramid5, is fully integrated, without incompatible modes or B-bar: honest and
+/// convergent, but stiff in bending and near ν = ½; prefer quadratic elements there.
 ///
 /// Source: Hughes, The Finite Element Method (1987), sections 2.7 and 3.
 #pragma once

@@ -59,6 +59,29 @@ QuadratureRule tetrahedron_14_points() {
   return rule;
 }
 
+// Orbit (a, a, 1 − 2a) of the triangle.
+void append_triangle_orbit(double a, double weight, QuadratureRule& rule, Eigen::Index& at) {
+  const double b = 1.0 - 2.0 * a;
+  rule.points.middleRows<3>(at) << a, a, 0.0, b, a, 0.0, a, b, 0.0;
+  rule.weights.segment<3>(at).setConstant(weight);
+  at += 3;
+}
+
+QuadratureRule triangle_3_points() {
+  QuadratureRule rule{Eigen::MatrixX3d(3, 3), Eigen::VectorXd(3)};
+  Eigen::Index at = 0;
+  append_triangle_orbit(1.0 / 6.0, 1.0 / 6.0, rule, at);
+  return rule;
+}
+
+QuadratureRule triangle_6_points() {
+  QuadratureRule rule{Eigen::MatrixX3d(6, 3), Eigen::VectorXd(6)};
+  Eigen::Index at = 0;
+  append_triangle_orbit(0.44594849091596488632, 0.22338158967801146570 / 2.0, rule, at);
+  append_triangle_orbit(0.091576213509770743460, 0.10995174365532186764 / 2.0, rule, at);
+  return rule;
+}
+
 // ξ = x, η = y(1 − x), ζ = z(1 − x)(1 − y): the Jacobian (1 − x)²(1 − y) becomes Jacobi weights.
 QuadratureRule collapsed_tetrahedron(int n) {
   const QuadratureRule x = gauss_jacobi(n, 2.0);
@@ -99,6 +122,8 @@ QuadratureRule tetrahedron_rule(int degree) {
 }
 
 QuadratureRule triangle_rule(int degree) {
+  if (degree <= 2) return triangle_3_points();
+  if (degree <= 4) return triangle_6_points();
   const int n = degree / 2 + 1;
   const QuadratureRule x = gauss_jacobi(n, 1.0);
   const QuadratureRule y = gauss_jacobi(n, 0.0);
@@ -123,6 +148,32 @@ QuadratureRule hexahedron_rule(int n) {
     const int k = at % n;
     rule.points.row(at) << line.points(i, 0), line.points(j, 0), line.points(k, 0);
     rule.weights[at] = line.weights[i] * line.weights[j] * line.weights[k];
+  }
+  return rule;
+}
+
+QuadratureRule wedge_rule(int degree, int n) {
+  const QuadratureRule triangle = triangle_rule(degree);
+  const QuadratureRule line = gauss_jacobi(n, 0.0);
+  const Eigen::Index n_triangle = triangle.weights.size();
+  QuadratureRule rule{triangle.points.replicate(n, 1), triangle.weights.replicate(n, 1)};
+  for (int i = 0; i < n; ++i) {
+    rule.points.col(2).segment(i * n_triangle, n_triangle).setConstant(line.points(i, 0));
+    rule.weights.segment(i * n_triangle, n_triangle) *= line.weights[i];
+  }
+  return rule;
+}
+
+// ξ = a(1 − ζ), η = b(1 − ζ): the Jacobian (1 − ζ)² becomes a Jacobi weight.
+QuadratureRule pyramid_rule(int n) {
+  const QuadratureRule base = square_rule(n);
+  const QuadratureRule height = gauss_jacobi(n, 2.0);
+  QuadratureRule rule{base.points.replicate(n, 1), base.weights.replicate(n, 1)};
+  for (int i = 0; i < n; ++i) {
+    const double zeta = 0.5 * (1.0 + height.points(i, 0));
+    rule.points.middleRows(i * n * n, n * n) *= 1.0 - zeta;
+    rule.points.col(2).segment(i * n * n, n * n).setConstant(zeta);
+    rule.weights.segment(i * n * n, n * n) *= height.weights[i] / 8.0;  // halves: 2² · 2
   }
   return rule;
 }

@@ -19,6 +19,10 @@ namespace {
 using Corner = std::array<int, 4>;
 constexpr std::array<Corner, 4> tetrahedron{
     {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
+constexpr std::array<Corner, 6> wedge{
+    {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
+/// Without the apex, where four edges meet: all dihedral angles and heights are seen from the base.
+constexpr std::array<Corner, 4> pyramid{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
 constexpr std::array<Corner, 8> hexahedron{{{0, 1, 3, 4},
                                             {1, 2, 0, 5},
                                             {2, 3, 1, 6},
@@ -29,8 +33,17 @@ constexpr std::array<Corner, 8> hexahedron{{{0, 1, 3, 4},
                                             {7, 6, 4, 3}}};
 
 std::span<const Corner> corners_of(ElementType type) {
-  if (n_corners(type) == 4) return tetrahedron;
-  return hexahedron;
+  switch (solid(type)) {
+    case Solid::tetrahedron:
+      return tetrahedron;
+    case Solid::hexahedron:
+      return hexahedron;
+    case Solid::wedge:
+      return wedge;
+    case Solid::pyramid:
+      return pyramid;
+  }
+  return {};
 }
 
 constexpr double to_degrees = 180.0 / std::numbers::pi;

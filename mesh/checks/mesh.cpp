@@ -59,7 +59,7 @@ class SurfaceBuilder {
       return;
     }
     const FaceUse& use = found->second.uses.front();
-    const FaceType type = face_type(elements_[use.block].type);
+    const FaceType type = face_type(elements_[use.block].type, use.face);
     FacesOfType& list = lists_[static_cast<std::size_t>(type)];
     list.type = type;
     list.faces.push_back(face_nodes(elements_, use));

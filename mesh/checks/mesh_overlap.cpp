@@ -59,7 +59,7 @@ class OuterFaces {
     const std::vector<Eigen::Index> face = face_nodes(elements_, use);
     const Eigen::MatrixX3d own = nodes_(face, Eigen::all);
     const ElementReference element{use.block, use.element};
-    for (const FaceShapes& s : samples_.of(face_type(elements_[use.block].type))) {
+    for (const FaceShapes& s : samples_.of(face_type(elements_[use.block].type, use.face))) {
       const Eigen::Vector3d x = own.transpose() * s.values;
       const Eigen::Matrix<double, 3, 2> tangents = own.transpose() * s.gradients;
       const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "mesh/shape_functions.hpp"
@@ -129,6 +130,84 @@ Eigen::MatrixX3d nodes_of(const Eigen::MatrixX3d& nodes, const ElementBlock& blo
   return own;
 }
 
+/// Eleven places along every edge, corners included: an edge's extremum lies between neighbours.
+std::vector<Eigen::Vector3d> sample_points(ElementType type) {
+  constexpr int n = 10;
+  // The determinant at the apex of a pyramid depends on the side it is reached from.
+  constexpr double before_apex = 1.0 - 1e-6;
+  if (type == ElementType::tet4) return {Eigen::Vector3d::Zero()};  // the same everywhere
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      for (int k = 0; k <= n; ++k) {
+        const Eigen::Vector3d share = Eigen::Vector3d(i, j, k) / n;
+        const Eigen::Vector3d cube = 2.0 * share - Eigen::Vector3d::Ones();
+        if (solid(type) == Solid::wedge) {
+          if (i + j <= n) points.emplace_back(share[0], share[1], cube[2]);
+        } else if (solid(type) == Solid::pyramid) {
+          const double up = std::min(share[2], before_apex);
+          points.emplace_back((1.0 - up) * cube[0], (1.0 - up) * cube[1], up);
+        } else {
+          points.push_back(cube);
+        }
+      }
+    }
+  }
+  return points;
+}
+
+using Gradients = decltype(ElementShapes::gradients);
+
+const std::vector<Gradients>& sampled_gradients(ElementType type) {
+  static const auto tables = [] {
+    std::array<std::vector<Gradients>, all_element_types.size()> all;
+    for (const ElementType each : all_element_types) {
+      for (const Eigen::Vector3d& xi : sample_points(each)) {
+        all[static_cast<std::size_t>(each)].push_back(shapes(each, xi).gradients);
+      }
+    }
+    return all;
+  }();
+  return tables[static_cast<std::size_t>(type)];
+}
+
+struct FacePoint {
+  FaceShapes shapes;
+  double weight;
+};
+
+/// Three Gauss points per direction, on triangles collapsed: for x·(x_ξ × x_η) on curved faces, of degree 5 per
+/// direction on quadrilaterals and 4 on triangles.
+std::vector<FacePoint> face_points(FaceType type) {
+  constexpr std::array<double, 3> x{-0.77459666924148337704, 0.0, 0.77459666924148337704};
+  constexpr std::array<double, 3> w{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const bool triangle = n_corners(type) == 3;
+  std::vector<FacePoint> points;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double along = 0.5 * (1.0 + x[i]);
+      const Eigen::Vector2d xi = triangle
+                                     ? Eigen::Vector2d(along, 0.5 * (1.0 - along) * (1.0 + x[j]))
+                                     : Eigen::Vector2d(x[i], x[j]);
+      points.push_back({shapes(type, xi), w[i] * w[j] * (triangle ? 0.25 * (1.0 - along) : 1.0)});
+    }
+  }
+  return points;
+}
+
+/// ∫ x·n dA over one face seen from outside: by Gauss's theorem the faces of a body sum to 3 V.
+double flux_of_position(FaceType type, const Eigen::MatrixX3d& nodes) {
+  static const std::array tables{face_points(FaceType::tri3), face_points(FaceType::tri6),
+                                 face_points(FaceType::quad4), face_points(FaceType::quad8)};
+  double flux = 0.0;
+  for (const FacePoint& point : tables[static_cast<std::size_t>(type)]) {
+    const Eigen::Vector3d x = nodes.transpose() * point.shapes.values;
+    const Eigen::Matrix<double, 3, 2> tangents = nodes.transpose() * point.shapes.gradients;
+    flux += point.weight * x.dot(tangents.col(0).cross(tangents.col(1)));
+  }
+  return flux;
+}
+
 // Of the cube of an element's size: the determinant of a flat element is rounding of products of
 // lengths.
 constexpr double flat = 1e-14;
@@ -151,53 +230,22 @@ std::string some(const std::vector<std::int64_t>& tags) {
 
 JacobianRange jacobian_range(ElementType type, const Eigen::MatrixX3d& nodes) {
   if (type == ElementType::tet10) return curved_tetrahedron(nodes);
-  if (type == ElementType::tet4) {
-    const double value = determinant(type, nodes, Eigen::Vector3d::Constant(0.25));
-    return {value, value};
-  }
   JacobianRange range{std::numeric_limits<double>::infinity(),
                       -std::numeric_limits<double>::infinity()};
-  constexpr int n = 10;  // intervals: an edge's extremum lies between samples 0.2 apart at most
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      for (int k = 0; k <= n; ++k) {
-        const double value = determinant(
-            type, nodes, Eigen::Vector3d(i, j, k) * (2.0 / n) - Eigen::Vector3d::Ones());
-        range.least = std::min(range.least, value);
-        range.largest = std::max(range.largest, value);
-      }
-    }
+  for (const Gradients& gradients : sampled_gradients(type)) {
+    const double value = Eigen::Matrix3d(nodes.transpose() * gradients).determinant();
+    range.least = std::min(range.least, value);
+    range.largest = std::max(range.largest, value);
   }
   return range;
 }
 
 double element_volume(ElementType type, const Eigen::MatrixX3d& nodes) {
+  const Eigen::MatrixX3d from_first = nodes.rowwise() - nodes.row(0);  // spares rounding far away
+  const auto table = faces(type);
   double volume = 0.0;
-  if (n_corners(type) == 4) {
-    // The determinant is cubic at most: the mean of its Bernstein coefficients is its integral.
-    Corners corners;
-    corners << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    if (type == ElementType::tet4) return determinant(type, nodes, Eigen::Vector3d::Zero()) / 6.0;
-    Eigen::Matrix<double, 20, 1> values;
-    const auto& e = cubic_exponents();
-    for (std::size_t i = 0; i < 20; ++i) {
-      Eigen::Vector4d barycentric;
-      for (std::size_t d = 0; d < 4; ++d) barycentric[static_cast<Eigen::Index>(d)] = e[i][d] / 3.0;
-      values[static_cast<Eigen::Index>(i)] =
-          determinant(type, nodes, corners.transpose() * barycentric);
-    }
-    return (to_bernstein() * values).mean() / 6.0;
-  }
-  // hex20: degree 5 per axis: three Gauss points.
-  const double g = std::sqrt(0.6);
-  const std::array<double, 3> x{-g, 0.0, g};
-  const std::array<double, 3> w{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        volume += w[i] * w[j] * w[k] * determinant(type, nodes, {x[i], x[j], x[k]});
-      }
-    }
+  for (std::size_t f = 0; f < table.size(); ++f) {
+    volume += flux_of_position(face_type(type, f), from_first(table[f], Eigen::all)) / 3.0;
   }
   return volume;
 }

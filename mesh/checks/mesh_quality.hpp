@@ -15,14 +15,14 @@ namespace microslip::mesh {
 struct JacobianRange {
   double least =
       0.0;  ///< smallest value; for tet10 a lower bound (Bernstein coefficients), sharp to
-            ///< 1e-3 of the spread, for hexahedra the smallest of an 11 × 11 × 11 sampling
+            ///< 1e-3 of the spread, for others the smallest of 11 samples per direction
   double largest = 0.0;  ///< largest value sampled
 };
 
 /// @param nodes  coordinates of the nodes of one element, project order, n × 3 [m].
 [[nodiscard]] JacobianRange jacobian_range(ElementType type, const Eigen::MatrixX3d& nodes);
 
-/// ∫dV of one element [m³].
+/// ∫dV of one element [m³], as ⅓ ∮ x·n dA over its faces.
 [[nodiscard]] double element_volume(ElementType type, const Eigen::MatrixX3d& nodes);
 
 /// @throws MeshError  the first kinds of finding, with element numbers or coordinates.

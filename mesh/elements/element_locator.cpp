@@ -13,27 +13,55 @@ namespace {
 constexpr double margin =
     1e-6;  // of an element, far above rounding: a point on a face is in neither
 
-bool is_tetrahedron(ElementType type) { return n_corners(type) == 4; }
-bool is_quadratic(ElementType type) { return n_nodes(type) > n_corners(type); }
-
 /// Places of the nodes of a straight element between its corners, n_nodes × n_corners.
 Eigen::MatrixXd straight_places(ElementType type) {
   const Eigen::MatrixX3d xi = reference_nodes(type);
   Eigen::MatrixXd places(n_nodes(type), n_corners(type));
   for (Eigen::Index a = 0; a < places.rows(); ++a) {
-    const ElementType linear = is_tetrahedron(type) ? ElementType::tet4 : ElementType::hex8;
-    places.row(a) = shapes(linear, xi.row(a).transpose()).values.transpose();
+    places.row(a) = shapes(linear(type), xi.row(a).transpose()).values.transpose();
   }
   return places;
 }
 
 /// Σ|N_a| over the nodes on edges at most: each moves the element off its straight shape by that share.
-double reach_of_edge_nodes(ElementType type) { return is_tetrahedron(type) ? 1.5 : 3.0; }
+double reach_of_edge_nodes(ElementType type) {
+  switch (solid(type)) {
+    case Solid::tetrahedron:
+      return 1.5;
+    case Solid::hexahedron:
+      return 3.0;
+    case Solid::wedge:
+      return 7.0 / 3.0;  // 4/3 of the edges of the triangles, 1 of those between them
+    case Solid::pyramid:
+      return 2.0;
+  }
+  return 0.0;
+}
 
 /// How deep ξ is inside the reference element, in shares of it; negative outside.
 double depth(ElementType type, const Eigen::Vector3d& xi) {
-  if (is_tetrahedron(type)) return std::min(xi.minCoeff(), 1.0 - xi.sum());
-  return 0.5 * (1.0 - xi.cwiseAbs().maxCoeff());
+  switch (solid(type)) {
+    case Solid::tetrahedron:
+      return std::min(xi.minCoeff(), 1.0 - xi.sum());
+    case Solid::hexahedron:
+      return 0.5 * (1.0 - xi.cwiseAbs().maxCoeff());
+    case Solid::wedge:
+      return std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1], 0.5 * (1.0 - std::abs(xi[2]))});
+    case Solid::pyramid:
+      return std::min(xi[2], 0.5 * (1.0 - xi[2] - xi.head<2>().cwiseAbs().maxCoeff()));
+  }
+  return 0.0;
+}
+
+Eigen::Vector3d middle(ElementType type) {
+  return reference_nodes(linear(type)).colwise().mean().transpose();
+}
+
+/// The map of a pyramid has a corner at the apex and is another beyond it: steps stay before it.
+double length_of_step(ElementType type, const Eigen::Vector3d& xi, const Eigen::Vector3d& move) {
+  const double to_apex = 1.0 - xi[2];
+  const bool beyond = solid(type) == Solid::pyramid && move[2] >= to_apex;
+  return beyond ? 0.75 * to_apex / move[2] : 1.0;
 }
 
 /// Sound: ξ inside and x(ξ) = x prove it, whatever path Newton took. A point it loses is called outside.
@@ -41,18 +69,17 @@ bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vec
   constexpr int max_steps = 20;
   constexpr double converged = 1e-9;  // of the element, far below the margin
   constexpr double lost = -2.0;       // that far outside, no step of a valid element comes back
-  Eigen::Vector3d xi =
-      is_tetrahedron(type) ? Eigen::Vector3d::Constant(0.25) : Eigen::Vector3d::Zero();
+  Eigen::Vector3d xi = middle(type);
   for (int step = 0; step < max_steps; ++step) {
     const ElementShapes s = shapes(type, xi);
     const Eigen::Vector3d rest = x - nodes.transpose() * s.values;
     const Eigen::Matrix3d J = nodes.transpose() * s.gradients;
     if (!(J.determinant() > 0.0)) return false;
     const Eigen::Vector3d move = J.inverse() * rest;
-    xi += move;
+    xi += length_of_step(type, xi, move) * move;
     if (depth(type, xi) < lost) return false;
     if (move.cwiseAbs().maxCoeff() < converged) return depth(type, xi) > margin;
-    if (!is_quadratic(type) && is_tetrahedron(type)) return depth(type, xi) > margin;
+    if (type == ElementType::tet4) return depth(type, xi) > margin;
   }
   return false;
 }
@@ -73,9 +100,13 @@ ElementLocator::ElementLocator(const Eigen::MatrixX3d& nodes,
 
 /// Holds the element with its bulges: corners, and the edge nodes' distance from straight edges.
 ElementLocator::Box ElementLocator::box_of(const ElementReference& element) const {
-  static const std::array<Eigen::MatrixXd, 4> places{
-      straight_places(ElementType::tet4), straight_places(ElementType::tet10),
-      straight_places(ElementType::hex8), straight_places(ElementType::hex20)};
+  static const auto places = [] {
+    std::array<Eigen::MatrixXd, all_element_types.size()> all;
+    for (const ElementType type : all_element_types) {
+      all[static_cast<std::size_t>(type)] = straight_places(type);
+    }
+    return all;
+  }();
   const ElementBlock& block = elements_[element.block];
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 20, 3> own(block.connectivity.cols(), 3);
   for (Eigen::Index a = 0; a < own.rows(); ++a)

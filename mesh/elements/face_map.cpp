@@ -76,10 +76,10 @@ FaceMap map_faces(const std::vector<ElementBlock>& elements) {
   FaceMap map;
   for (std::size_t b = 0; b < elements.size(); ++b) {
     const ElementBlock& block = elements[b];
-    const int corners = n_corners(face_type(block.type));
     const auto table = faces(block.type);
     for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
       for (std::size_t f = 0; f < table.size(); ++f) {
+        const int corners = n_corners(face_type(block.type, f));
         std::array<Eigen::Index, 4> nodes{};
         for (std::size_t i = 0; i < static_cast<std::size_t>(corners); ++i) {
           nodes[i] = block.connectivity(e, table[f][i]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -11,13 +12,13 @@ namespace microslip::mesh {
 namespace {
 
 constexpr std::array<GmshType, 21> types{{
-    {1, 1, 2, "line", true},         {2, 2, 3, "tri3", true},         {3, 2, 4, "quad4", true},
-    {4, 3, 4, "tet4", true},         {5, 3, 8, "hex8", true},         {6, 3, 6, "wedge6", false},
-    {7, 3, 5, "pyramid5", false},    {8, 1, 3, "line3", true},        {9, 2, 6, "tri6", true},
-    {10, 2, 9, "quad9", false},      {11, 3, 10, "tet10", true},      {12, 3, 27, "hex27", false},
-    {13, 3, 18, "wedge18", false},   {14, 3, 14, "pyramid14", false}, {15, 0, 1, "point", true},
-    {16, 2, 8, "quad8", true},       {17, 3, 20, "hex20", true},      {18, 3, 15, "wedge15", false},
-    {19, 3, 13, "pyramid13", false}, {20, 2, 9, "tri9", false},       {21, 2, 10, "tri10", false},
+    {1, 1, 2, "line", true},        {2, 2, 3, "tri3", true},         {3, 2, 4, "quad4", true},
+    {4, 3, 4, "tet4", true},        {5, 3, 8, "hex8", true},         {6, 3, 6, "wedge6", true},
+    {7, 3, 5, "pyramid5", true},    {8, 1, 3, "line3", true},        {9, 2, 6, "tri6", true},
+    {10, 2, 9, "quad9", false},     {11, 3, 10, "tet10", true},      {12, 3, 27, "hex27", false},
+    {13, 3, 18, "wedge18", false},  {14, 3, 14, "pyramid14", false}, {15, 0, 1, "point", true},
+    {16, 2, 8, "quad8", true},      {17, 3, 20, "hex20", true},      {18, 3, 15, "wedge15", true},
+    {19, 3, 13, "pyramid13", true}, {20, 2, 9, "tri9", false},       {21, 2, 10, "tri10", false},
 }};
 
 /// Place in gmsh's list of each node of the project's order.
@@ -27,12 +28,19 @@ std::vector<int> gmsh_place(ElementType type) {
       return {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
     case ElementType::hex20:
       return {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+    case ElementType::wedge15:
+      return {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11};
+    case ElementType::pyramid13:
+      return {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12};
     case ElementType::tet4:
-      return {0, 1, 2, 3};
     case ElementType::hex8:
-      return {0, 1, 2, 3, 4, 5, 6, 7};
+    case ElementType::wedge6:
+    case ElementType::pyramid5:
+      break;
   }
-  return {};
+  std::vector<int> corners(static_cast<std::size_t>(n_nodes(type)));
+  std::iota(corners.begin(), corners.end(), 0);
+  return corners;
 }
 
 class MeshMaker {
@@ -47,7 +55,7 @@ class MeshMaker {
       if (!type.supported) {
         if (type.dimension < 3 && element.groups.empty()) continue;
         throw MeshError(file_ + ": element " + std::to_string(element.tag) + " is a " + type.name +
-                        "; this version reads tet4, tet10, hex8 and hex20");
+                        "; " + gmsh_remedy(&type));
       }
       if (type.dimension == 3) {
         add_volume(element);
@@ -94,10 +102,10 @@ class MeshMaker {
   }
 
   void add_volume(const GmshElement& element) {
-    static const std::map<int, ElementType> volume_types{{4, ElementType::tet4},
-                                                         {5, ElementType::hex8},
-                                                         {11, ElementType::tet10},
-                                                         {17, ElementType::hex20}};
+    static const std::map<int, ElementType> volume_types{
+        {4, ElementType::tet4},     {5, ElementType::hex8},      {6, ElementType::wedge6},
+        {7, ElementType::pyramid5}, {11, ElementType::tet10},    {17, ElementType::hex20},
+        {18, ElementType::wedge15}, {19, ElementType::pyramid13}};
     const ElementType type = volume_types.at(element.type);
     VolumeList& list = volumes_[type];
     std::vector<Eigen::Index> nodes;
@@ -180,6 +188,15 @@ const GmshType* gmsh_type(std::int64_t number) {
   const auto found = std::find_if(types.begin(), types.end(),
                                   [&](const GmshType& type) { return type.number == number; });
   return found == types.end() ? nullptr : &*found;
+}
+
+std::string gmsh_remedy(const GmshType* type) {
+  constexpr std::array complete{10, 12, 13, 14};  // with nodes inside faces
+  if (type != nullptr && std::ranges::find(complete, type->number) != complete.end()) {
+    return "nodes in the middle of faces are not read: mesh with Mesh.SecondOrderIncomplete = 1";
+  }
+  return "read are tetrahedra, hexahedra, wedges and pyramids of first or second order "
+         "(Mesh.ElementOrder 1 or 2)";
 }
 
 Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file) {

@@ -23,6 +23,9 @@ struct GmshType {
 /// nullptr: a number gmsh does not define up to second order.
 [[nodiscard]] const GmshType* gmsh_type(std::int64_t number);
 
+/// What to do about an element that is not read. @param type  nullptr: one gmsh_type does not know.
+[[nodiscard]] std::string gmsh_remedy(const GmshType* type);
+
 /// One element as it stands in a file.
 struct GmshElement {
   int type = 0;

@@ -143,12 +143,10 @@ class Reader {
   const GmshType& type_of(std::int64_t number) {
     const GmshType* type = gmsh_type(number);
     if (type == nullptr) {
-      source_.fail("element type " + std::to_string(number) +
-                   " is not read; the volumes may be tet4, tet10, hex8 or hex20");
+      source_.fail("element type " + std::to_string(number) + ": " + gmsh_remedy(type));
     }
     if (type->dimension == 3 && !type->supported) {
-      source_.fail(std::string(type->name) +
-                   " elements are not read; the volumes may be tet4, tet10, hex8 or hex20");
+      source_.fail(std::string(type->name) + " elements: " + gmsh_remedy(type));
     }
     return *type;
   }

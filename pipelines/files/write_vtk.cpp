@@ -1,10 +1,8 @@
 #include "pipelines/files/write_vtk.hpp"
 
-#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -15,8 +13,10 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "mesh/shape_functions.hpp"
 #include "pipelines/files/vtk_file.hpp"
 #include "pipelines/system/output_file.hpp"
 
@@ -35,11 +35,32 @@ int cell_type(mesh::ElementType type) {
       return VTK_HEXAHEDRON;
     case mesh::ElementType::hex20:
       return VTK_QUADRATIC_HEXAHEDRON;
+    case mesh::ElementType::wedge6:
+      return VTK_WEDGE;
+    case mesh::ElementType::wedge15:
+      return VTK_QUADRATIC_WEDGE;
+    case mesh::ElementType::pyramid5:
+      return VTK_PYRAMID;
+    case mesh::ElementType::pyramid13:
+      return VTK_QUADRATIC_PYRAMID;
   }
   throw std::invalid_argument("element type without a VTK cell");
 }
 
-/// The mesh as VTK sees it; the node order is the same (mesh/element_type.hpp).
+/// Nodes of a cell. The first triangle of VTK's linear wedge looks outward; of all else the order is ours
+/// (mesh/element_type.hpp). VTK's headers say the same of the quadratic wedge, but its shape functions and what
+/// reads such files (meshio, gmsh) count that one as we do.
+std::vector<vtkIdType> cell_nodes(
+    mesh::ElementType type, const Eigen::Ref<const Eigen::RowVectorX<Eigen::Index>>& element) {
+  std::vector<vtkIdType> nodes(element.begin(), element.end());
+  if (type == mesh::ElementType::wedge6) {
+    std::swap(nodes[1], nodes[2]);
+    std::swap(nodes[4], nodes[5]);
+  }
+  return nodes;
+}
+
+/// The mesh as VTK sees it.
 vtkSmartPointer<vtkUnstructuredGrid> make_grid(const mesh::Mesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -52,7 +73,7 @@ vtkSmartPointer<vtkUnstructuredGrid> make_grid(const mesh::Mesh& mesh) {
   grid->Allocate(mesh.n_elements());
   for (const mesh::ElementBlock& block : mesh.elements()) {
     for (const auto& element : block.connectivity.rowwise()) {
-      const std::vector<vtkIdType> nodes(element.begin(), element.end());
+      const std::vector<vtkIdType> nodes = cell_nodes(block.type, element);
       grid->InsertNextCell(cell_type(block.type), static_cast<vtkIdType>(nodes.size()),
                            nodes.data());
     }
@@ -76,23 +97,23 @@ Eigen::MatrixX3d per_node(const Eigen::Ref<const Eigen::VectorXd>& dofs) {
 }
 
 /// Corner nodes of the faces that belong to one element only, in the element's outward order.
-std::vector<Face> outer_faces(vtkUnstructuredGrid& grid) {
+std::vector<Face> outer_faces(const mesh::Mesh& mesh) {
   struct Found {
     Face corners;
     int count = 0;
   };
   std::map<Face, Found> found;
-  for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-    vtkCell* element = grid.GetCell(cell);
-    for (int face = 0; face < element->GetNumberOfFaces(); ++face) {
-      vtkCell* side = element->GetFace(face);
-      const vtkIdType* ids = side->GetPointIds()->GetPointer(0);
-      Face corners(ids, ids + side->GetNumberOfEdges());  // corners come first
-      Face key = corners;
-      std::ranges::sort(key);
-      Found& entry = found[key];
-      entry.corners = std::move(corners);
-      ++entry.count;
+  for (const mesh::ElementBlock& block : mesh.elements()) {
+    for (const std::vector<int>& face : mesh::faces(mesh::linear(block.type))) {
+      for (Eigen::Index element = 0; element < block.connectivity.rows(); ++element) {
+        Face corners;
+        for (const int node : face) corners.push_back(block.connectivity(element, node));
+        Face key = corners;
+        std::ranges::sort(key);
+        Found& entry = found[key];
+        entry.corners = std::move(corners);
+        ++entry.count;
+      }
     }
   }
   std::vector<Face> outer;
@@ -113,8 +134,7 @@ Skin make_skin(const mesh::Mesh& mesh) {
   std::map<vtkIdType, vtkIdType> numbers;
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> faces;
-  const auto grid = make_grid(mesh);
-  for (Face& face : outer_faces(*grid)) {
+  for (Face& face : outer_faces(mesh)) {
     for (vtkIdType& node : face) {
       const auto [entry, is_new] =
           numbers.try_emplace(node, static_cast<vtkIdType>(skin.nodes.size()));

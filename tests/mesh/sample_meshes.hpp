@@ -17,9 +17,31 @@ namespace microslip::mesh::tests {
 /// the tests must not take it from the reader.
 inline std::vector<int> file_order(ElementType type) {
   if (type == ElementType::tet10) return {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  // file: edges 01 02 03 12 14 25 34 35 45; project: 01 12 20 34 45 53 03 14 25
+  if (type == ElementType::wedge15) return {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10};
+  // file: edges 01 03 04 12 14 23 24 34; project: 01 12 23 30 04 14 24 34
+  if (type == ElementType::pyramid13) return {0, 1, 2, 3, 4, 5, 8, 9, 6, 10, 7, 11, 12};
   // file: edges 01 03 04 12 15 23 26 37 45 47 56 67; project: 01 12 23 30 45 56 67 74 04 15 26 37
   return {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
 }
+
+inline int file_type(ElementType type) {
+  switch (solid(type)) {
+    case Solid::tetrahedron:
+      return 11;
+    case Solid::hexahedron:
+      return 17;
+    case Solid::wedge:
+      return 18;
+    case Solid::pyramid:
+      return 19;
+  }
+  return 0;
+}
+
+/// Those a file is written of here.
+inline constexpr std::array quadratic_types{ElementType::tet10, ElementType::hex20,
+                                            ElementType::wedge15, ElementType::pyramid13};
 
 /// One curved element: the reference element under x ↦ x + 0.05 (y², z², x²), known volume.
 struct CurvedElement {
@@ -88,12 +110,11 @@ class GmshWriter {
 /// Format 2.2 or 4.1, text or binary: one volume element, its first face as the surface "face one",
 /// its first corner as the point "tip", and a node no element uses.
 inline std::string gmsh_file(const CurvedElement& element, double version, bool binary) {
-  const bool tet = element.type == ElementType::tet10;
   const std::vector<int> order = file_order(element.type);
   const std::vector<int>& face = faces(element.type)[0];
   const auto n = static_cast<std::int64_t>(order.size());
-  const int volume_type = tet ? 11 : 17;
-  const int face_type = tet ? 9 : 16;
+  const int volume_type = file_type(element.type);
+  const int face_type = face.size() == 6 ? 9 : 16;
   const auto tag = [](int node) { return 100 + 7 * node; };  // gaps between the numbers
   GmshWriter w(version, binary);
   w.text("$PhysicalNames\n3\n0 5 \"tip\"\n2 6 \"face one\"\n3 8 \"body\"\n$EndPhysicalNames\n");

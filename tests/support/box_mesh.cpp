@@ -1,52 +1,71 @@
 #include "tests/support/box_mesh.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
+
+#include "mesh/shape_functions.hpp"
 
 namespace microslip::test {
 namespace {
 
 using mesh::ElementType;
 using mesh::FaceType;
+using mesh::Solid;
 
-bool is_tetrahedron(ElementType type) {
-  return type == ElementType::tet4 || type == ElementType::tet10;
-}
-bool is_quadratic(ElementType type) {
-  return type == ElementType::tet10 || type == ElementType::hex20;
-}
+using Nodes = std::vector<Eigen::Index>;
+using Edges = std::vector<std::array<std::size_t, 2>>;
 
 constexpr int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 // Six tetrahedra around the diagonal 0–6 (Kuhn), all positively oriented; neighbours match.
-constexpr int kuhn[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                            {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-constexpr int tet_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-constexpr int hex_edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                                  {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-// Outward faces.
-constexpr int tet_faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-constexpr int hex_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr std::size_t kuhn[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                    {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+constexpr std::size_t halves[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+// Outward faces; the first two begin where Kuhn's diagonals of theirs do.
+constexpr std::size_t hex_faces[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                         {2, 3, 7, 6}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
-using Cells = std::vector<std::vector<Eigen::Index>>;
+/// In the project's order, written down anew.
+Edges edges_of(Solid solid) {
+  switch (solid) {
+    case Solid::tetrahedron:
+      return {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    case Solid::hexahedron:
+      return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+    case Solid::wedge:
+      return {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+    case Solid::pyramid:
+      return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+  }
+  return {};
+}
+
+ElementType element_type(Solid solid, int order) {
+  for (const ElementType type : mesh::all_element_types) {
+    if (mesh::solid(type) == solid && is_quadratic(type) == (order == 2)) return type;
+  }
+  return {};
+}
+
+/// What the cells of a box become: pyramids stand on the faces of a cell, tetrahedra where a neighbour has two
+/// triangles, their apex in its middle.
+using Cut = std::function<Solid(int)>;  // of the place of a cell along x
 
 class Builder {
  public:
-  Builder(ElementType type, const BoxGrid& grid) : type_(type), grid_(grid) {}
+  Builder(Cut cut, int order, const BoxGrid& grid)
+      : cut_(std::move(cut)), order_(order), grid_(grid) {}
 
   mesh::Mesh build(bool straight) {
     make_corners();
     make_cells();
-    Eigen::MatrixX3d on_box = coordinates();  // before the map: tells the sides of the box
-    if (straight) move(corners_);
-    if (is_quadratic(type_)) add_edge_nodes();
-    if (is_quadratic(type_) && straight) on_box = unmoved_with_edges(on_box);
-    if (!straight) {
-      on_box = coordinates();
-      move(corners_);
-    }
+    const std::vector<Eigen::Vector3d> on_box = points_;  // before the map: tells the sides
+    if (straight) move();
+    if (order_ == 2) add_edge_nodes();
+    if (!straight) move();
     return finish(on_box);
   }
 
@@ -59,9 +78,9 @@ class Builder {
     for (int k = 0; k <= grid_.cells[2]; ++k) {
       for (int j = 0; j <= grid_.cells[1]; ++j) {
         for (int i = 0; i <= grid_.cells[0]; ++i) {
-          corners_.emplace_back(grid_.size[0] * i / grid_.cells[0],
-                                grid_.size[1] * j / grid_.cells[1],
-                                grid_.size[2] * k / grid_.cells[2]);
+          points_.emplace_back(grid_.size[0] * i / grid_.cells[0],
+                               grid_.size[1] * j / grid_.cells[1],
+                               grid_.size[2] * k / grid_.cells[2]);
         }
       }
     }
@@ -71,114 +90,121 @@ class Builder {
     for (int k = 0; k < grid_.cells[2]; ++k) {
       for (int j = 0; j < grid_.cells[1]; ++j) {
         for (int i = 0; i < grid_.cells[0]; ++i) {
-          std::vector<Eigen::Index> hex;
+          Nodes hex;
           for (const auto& c : hex_corner) hex.push_back(corner(i + c[0], j + c[1], k + c[2]));
-          if (!is_tetrahedron(type_)) {
-            cells_.push_back(hex);
-            continue;
-          }
-          for (const auto& t : kuhn) {
-            cells_.push_back({hex[std::size_t(t[0])], hex[std::size_t(t[1])],
-                              hex[std::size_t(t[2])], hex[std::size_t(t[3])]});
-          }
+          add_cell(i, hex);
         }
+      }
+    }
+  }
+
+  void add_cell(int i, const Nodes& hex) {
+    switch (cut_(i)) {
+      case Solid::hexahedron:
+        cells_[Solid::hexahedron].push_back(hex);
+        break;
+      case Solid::tetrahedron:
+        for (const auto& local : kuhn) add(Solid::tetrahedron, hex, local);
+        break;
+      case Solid::wedge:
+        for (const auto& local : halves) add(Solid::wedge, hex, local);
+        break;
+      case Solid::pyramid:
+        add_around_middle(i, hex);
+        break;
+    }
+  }
+
+  template <std::size_t n>
+  void add(Solid solid, const Nodes& of, const std::size_t (&local)[n]) {
+    Nodes cell;
+    for (const std::size_t node : local) cell.push_back(of[node]);
+    cells_[solid].push_back(std::move(cell));
+  }
+
+  void add_around_middle(int i, Nodes hex) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Eigen::Index node : hex) middle += points_[std::size_t(node)] / 8.0;
+    hex.push_back(std::ssize(points_));
+    points_.push_back(middle);
+    for (std::size_t f = 0; f < 6; ++f) {
+      const auto& [a, b, c, d] = hex_faces[f];
+      const int neighbour = f == 0 ? i - 1 : f == 1 ? i + 1 : -1;
+      const bool split =
+          neighbour >= 0 && neighbour < grid_.cells[0] && cut_(neighbour) == Solid::tetrahedron;
+      if (split) {
+        add(Solid::tetrahedron, hex, {a, c, b, 8});
+        add(Solid::tetrahedron, hex, {a, d, c, 8});
+      } else {
+        add(Solid::pyramid, hex, {a, d, c, b, 8});
       }
     }
   }
 
   Eigen::Index edge_node(Eigen::Index a, Eigen::Index b) {
     const auto key = std::minmax(a, b);
-    const auto [it, is_new] = edges_.try_emplace({key.first, key.second}, std::ssize(corners_));
-    if (is_new) corners_.push_back(0.5 * (corners_[std::size_t(a)] + corners_[std::size_t(b)]));
+    const auto [it, is_new] = edges_.try_emplace({key.first, key.second}, std::ssize(points_));
+    if (is_new) points_.push_back(0.5 * (points_[std::size_t(a)] + points_[std::size_t(b)]));
     return it->second;
   }
 
   void add_edge_nodes() {
-    for (auto& cell : cells_) {
-      if (is_tetrahedron(type_)) {
-        for (const auto& e : tet_edges)
-          cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
-      } else {
-        for (const auto& e : hex_edges)
-          cell.push_back(edge_node(cell[std::size_t(e[0])], cell[std::size_t(e[1])]));
+    for (auto& [solid, cells] : cells_) {
+      for (Nodes& cell : cells) {
+        for (const auto& [a, b] : edges_of(solid)) cell.push_back(edge_node(cell[a], cell[b]));
       }
     }
   }
 
-  [[nodiscard]] Eigen::MatrixX3d unmoved_with_edges(const Eigen::MatrixX3d& corners) const {
-    Eigen::MatrixX3d all(std::ssize(corners_), 3);
-    all.topRows(corners.rows()) = corners;
-    for (const auto& [ends, node] : edges_)
-      all.row(node) = 0.5 * (corners.row(ends.first) + corners.row(ends.second));
-    return all;
-  }
-
-  [[nodiscard]] Eigen::MatrixX3d coordinates() const {
-    Eigen::MatrixX3d x(std::ssize(corners_), 3);
-    for (Eigen::Index i = 0; i < x.rows(); ++i) x.row(i) = corners_[std::size_t(i)].transpose();
-    return x;
-  }
-
-  void move(std::vector<Eigen::Vector3d>& points) const {
+  void move() {
     if (!grid_.map) return;
-    for (Eigen::Vector3d& x : points) x = grid_.map(x);
+    for (Eigen::Vector3d& x : points_) x = grid_.map(x);
   }
 
-  [[nodiscard]] std::vector<std::vector<Eigen::Index>> faces_of(
-      const std::vector<Eigen::Index>& cell) {
-    std::vector<std::vector<Eigen::Index>> faces;
-    const auto add = [&](const int* local, int n) {
-      std::vector<Eigen::Index> face;
-      for (int i = 0; i < n; ++i) face.push_back(cell[std::size_t(local[i])]);
-      if (is_quadratic(type_)) {
-        for (int i = 0; i < n; ++i) {
-          // tri6 stores edges 01 12 02, quad8 01 12 23 30: both are "i to the next".
-          face.push_back(edge_node(face[std::size_t(i)], face[std::size_t((i + 1) % n)]));
-        }
-      }
-      faces.push_back(face);
-    };
-    if (is_tetrahedron(type_)) {
-      for (const auto& f : tet_faces) add(f, 3);
-    } else {
-      for (const auto& f : hex_faces) add(f, 4);
+  [[nodiscard]] mesh::Mesh finish(const std::vector<Eigen::Vector3d>& on_box) const {
+    std::vector<mesh::ElementBlock> blocks;
+    std::int64_t tag = 0;
+    for (const auto& [solid, cells] : cells_) {
+      mesh::ElementBlock block{element_type(solid, order_), table(cells), {}};
+      for (std::size_t e = 0; e < cells.size(); ++e) block.tags.push_back(++tag);
+      blocks.push_back(std::move(block));
     }
-    return faces;
-  }
-
-  mesh::Mesh finish(const Eigen::MatrixX3d& on_box) {
     std::map<std::string, std::vector<mesh::FaceBlock>> surfaces;
     for (int d = 0; d < 3; ++d) {
       for (int end = 0; end < 2; ++end)
-        surfaces[std::string(1, "xyz"[d]) + "01"[end]] = {side(on_box, d, end)};
+        surfaces[std::string(1, "xyz"[d]) + "01"[end]] = side(blocks, on_box, d, end);
     }
-    mesh::ElementBlock block;
-    block.type = type_;
-    block.connectivity = table(cells_);
-    for (std::size_t e = 0; e < cells_.size(); ++e)
-      block.tags.push_back(static_cast<std::int64_t>(e) + 1);
+    Eigen::MatrixX3d nodes(std::ssize(points_), 3);
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i) nodes.row(i) = points_[std::size_t(i)];
     const Eigen::Index last = corner(grid_.cells[0], grid_.cells[1], grid_.cells[2]);
-    return {coordinates(), {block}, surfaces, {{"corner", {last}}}};
+    return {std::move(nodes), std::move(blocks), surfaces, {{"corner", {last}}}};
   }
 
-  mesh::FaceBlock side(const Eigen::MatrixX3d& on_box, int d, int end) {
+  /// Faces on one side of the box by their corners: the mesh finds the elements they belong to.
+  [[nodiscard]] std::vector<mesh::FaceBlock> side(const std::vector<mesh::ElementBlock>& blocks,
+                                                  const std::vector<Eigen::Vector3d>& on_box, int d,
+                                                  int end) const {
     const double at = end == 0 ? 0.0 : grid_.size[d];
-    std::vector<std::vector<Eigen::Index>> found;
-    for (const auto& cell : cells_) {
-      for (const auto& face : faces_of(cell)) {
-        bool inside = true;
-        for (const Eigen::Index node : face)
-          inside = inside && std::abs(on_box(node, d) - at) < 1e-9 * grid_.size[d];
-        if (inside) found.push_back(face);
+    std::map<std::size_t, std::vector<Nodes>> found;  // by number of corners
+    for (const mesh::ElementBlock& block : blocks) {
+      for (const auto& local : mesh::faces(mesh::linear(block.type))) {
+        for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
+          Nodes face;
+          for (const int node : local) face.push_back(block.connectivity(e, node));
+          const bool inside = std::ranges::all_of(face, [&](Eigen::Index node) {
+            return std::abs(on_box[std::size_t(node)][d] - at) < 1e-9 * grid_.size[d];
+          });
+          if (inside) found[face.size()].push_back(std::move(face));
+        }
       }
     }
-    const bool quadratic = is_quadratic(type_);
-    const FaceType type = is_tetrahedron(type_) ? (quadratic ? FaceType::tri6 : FaceType::tri3)
-                                                : (quadratic ? FaceType::quad8 : FaceType::quad4);
-    return {type, table(found)};
+    std::vector<mesh::FaceBlock> faces;
+    for (const auto& [corners, list] : found)
+      faces.push_back({corners == 3 ? FaceType::tri3 : FaceType::quad4, table(list)});
+    return faces;
   }
 
-  static mesh::Connectivity table(const Cells& rows) {
+  static mesh::Connectivity table(const std::vector<Nodes>& rows) {
     mesh::Connectivity result(std::ssize(rows), rows.empty() ? 0 : std::ssize(rows.front()));
     for (Eigen::Index i = 0; i < result.rows(); ++i) {
       for (Eigen::Index j = 0; j < result.cols(); ++j)
@@ -187,20 +213,38 @@ class Builder {
     return result;
   }
 
-  ElementType type_;
+  Cut cut_;
+  int order_;
   BoxGrid grid_;
-  std::vector<Eigen::Vector3d> corners_;  // edge nodes follow
-  Cells cells_;
+  std::vector<Eigen::Vector3d> points_;  // corners, middles of cells, then edge nodes
+  std::map<Solid, std::vector<Nodes>> cells_;
   std::map<std::pair<Eigen::Index, Eigen::Index>, Eigen::Index> edges_;
 };
+
+Builder of_one_type(ElementType type, const BoxGrid& grid) {
+  return {[solid = mesh::solid(type)](int) { return solid; }, is_quadratic(type) ? 2 : 1, grid};
+}
+
+Builder mixed(int order, const BoxGrid& grid) {
+  constexpr std::array turns{Solid::hexahedron,  Solid::wedge,   Solid::pyramid,
+                             Solid::tetrahedron, Solid::pyramid, Solid::wedge};
+  return {[turns](int i) { return turns[static_cast<std::size_t>(i) % turns.size()]; }, order,
+          grid};
+}
 
 }  // namespace
 
 mesh::Mesh box_mesh(ElementType type, const BoxGrid& grid) {
-  return Builder(type, grid).build(false);
+  return of_one_type(type, grid).build(false);
 }
 mesh::Mesh straight_box_mesh(ElementType type, const BoxGrid& grid) {
-  return Builder(type, grid).build(true);
+  return of_one_type(type, grid).build(true);
+}
+mesh::Mesh mixed_box_mesh(int order, const BoxGrid& grid) {
+  return mixed(order, grid).build(false);
+}
+mesh::Mesh straight_mixed_box_mesh(int order, const BoxGrid& grid) {
+  return mixed(order, grid).build(true);
 }
 
 }  // namespace microslip::test

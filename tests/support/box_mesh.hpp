@@ -14,7 +14,9 @@ namespace microslip::test {
 
 struct BoxGrid {
   Eigen::Vector3d size{1.0, 1.0, 1.0};  ///< edge lengths [m], from the origin
-  std::array<int, 3> cells{1, 1, 1};    ///< hexahedra per direction; each makes six tetrahedra
+  /// Hexahedra per direction; each makes six tetrahedra, two wedges (triangles on z0 and z1) or six pyramids
+  /// around its middle.
+  std::array<int, 3> cells{1, 1, 1};
   /// Moves every node after the edge nodes were placed in the middle of straight edges: distorts
   /// elements, curves their edges where it is not linear. Empty: identity.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> map;
@@ -25,5 +27,11 @@ struct BoxGrid {
 /// The same, with corner nodes moved by `map` and edge nodes in the middle of the moved corners:
 /// distorted elements with straight edges.
 [[nodiscard]] mesh::Mesh straight_box_mesh(mesh::ElementType type, const BoxGrid& grid);
+
+/// Cells along x in turn: hexahedra, wedges, a layer of pyramids and tetrahedra, tetrahedra, and back. Four make a
+/// conforming mesh of all solids; sides y and z then have triangles beside quadrilaterals.
+/// @param order  1 or 2.
+[[nodiscard]] mesh::Mesh mixed_box_mesh(int order, const BoxGrid& grid);
+[[nodiscard]] mesh::Mesh straight_mixed_box_mesh(int order, const BoxGrid& grid);
 
 }  // namespace microslip::test

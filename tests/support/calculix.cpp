@@ -25,8 +25,15 @@ const char* calculix_name(mesh::ElementType type) {
       return "C3D8";
     case mesh::ElementType::hex20:
       return "C3D20";
+    case mesh::ElementType::wedge6:
+      return "C3D6";
+    case mesh::ElementType::wedge15:
+      return "C3D15";
+    case mesh::ElementType::pyramid5:
+    case mesh::ElementType::pyramid13:
+      break;
   }
-  return "";
+  throw std::invalid_argument(std::string("CalculiX has no ") + mesh::name(type));
 }
 
 void write_elements(std::ostream& out, const mesh::Mesh& mesh) {

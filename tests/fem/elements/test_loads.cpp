@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "fem/elements/polynomial_tractions.hpp"
 #include "fem/modal_analysis.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/surface_load.hpp"
@@ -188,6 +189,35 @@ TEST(Loads, ResidualFlexibilityOfAFreeBodyLeavesItsRigidMotionsOut) {
     const ModalBasis basis = structure.solve_modes({.n_modes = n});
     const Eigen::MatrixX3d c = structure.residual_flexibility(basis, tip, some_frame()).row_sums;
     EXPECT_LT(relative(c, omitted_modes(dense, mesh, tip, some_frame(), n)), 1e-8) << n;
+  }
+}
+
+// Side y0 has quadrilaterals, and triangles of the tetrahedra, on a curved surface.
+TEST(Loads, OfASideWithTrianglesBesideQuadrilateralsHaveTheRightResultants) {
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = test::mixed_box_mesh(
+        order, {.size = {0.4, 0.2, 0.1}, .cells = {4, 2, 2}, .map = [](const Eigen::Vector3d& x) {
+                  return Eigen::Vector3d(x[0] + 0.3 * x[0] * x[0], x[1], x[2] + 0.2 * x[0]);
+                }});
+    const mesh::Surface& side = mesh.surface("y0");
+    ASSERT_EQ(side.faces.size(), 2U) << "both kinds";
+    const Eigen::VectorXd areas = nodal_areas(mesh.nodes(), side);
+    const double length = 0.4 + 0.3 * 0.16;
+    const double area = length * 0.1;
+    EXPECT_NEAR(areas.sum(), area, 1e-14);
+    EXPECT_NEAR(areas.sum(), side.area, 1e-14);
+    // Centroid along x: linear fields are in the space of every face. Linear elements map x itself
+    // with chords.
+    EXPECT_NEAR(areas.dot(mesh.nodes().col(0)) / area, 0.5 * length, 1e-14);
+    const Eigen::MatrixXd loads =
+        polynomial_tractions(mesh.nodes(), side, Eigen::Matrix3d::Identity(), 1);
+    ASSERT_EQ(loads.cols(), 9);
+    const Eigen::VectorXd of_x = loads(Eigen::seq(0, Eigen::last, 3), 0);
+    EXPECT_LT((of_x / of_x.sum() - areas / area).norm(), 1e-13) << "degree 0 is uniform";
+    for (const Eigen::Index higher : {3, 6}) {
+      EXPECT_NEAR(loads(Eigen::seq(0, Eigen::last, 3), higher).sum(), 0.0, 1e-13)
+          << "degree 1 has no resultant";
+    }
   }
 }
 

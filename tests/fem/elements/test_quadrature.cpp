@@ -66,15 +66,48 @@ TEST(Quadrature, HexahedronRulesIntegrateEveryDirectionToTwiceTheirPoints) {
   }
 }
 
+double triangle_moment(int a, int b) { return factorial(a) * factorial(b) / factorial(a + b + 2); }
+
+TEST(Quadrature, WedgeRulesIntegrateTheirDegreeOverTriangleAndHeight) {
+  for (int degree = 0; degree <= 8; ++degree) {
+    for (int n = 1; n <= 5; ++n) {
+      const QuadratureRule rule = wedge_rule(degree, n);
+      EXPECT_GT(rule.weights.minCoeff(), 0.0);
+      for (int a = 0; a <= degree; ++a) {
+        for (int b = 0; a + b <= degree; ++b) {
+          for (int c = 0; c < 2 * n; ++c) {
+            EXPECT_NEAR(integrate(rule, a, b, c), triangle_moment(a, b) * line_moment(c), rounding)
+                << degree << n;
+          }
+        }
+      }
+    }
+  }
+}
+
+// ∫ ξ^a η^b ζ^c = m_a m_b ∫ (1 − ζ)^(a + b + 2) ζ^c dζ over the pyramid.
+TEST(Quadrature, PyramidRulesIntegrateTwiceTheirPoints) {
+  for (int n = 1; n <= 5; ++n) {
+    const QuadratureRule rule = pyramid_rule(n);
+    EXPECT_GT(rule.weights.minCoeff(), 0.0);
+    EXPECT_LT(rule.points.col(2).maxCoeff(), 1.0) << "no point at the apex";
+    for_monomials(2 * n - 1, [&](int a, int b, int c) {
+      const double height = factorial(a + b + 2) * factorial(c) / factorial(a + b + c + 3);
+      EXPECT_NEAR(integrate(rule, a, b, c), line_moment(a) * line_moment(b) * height, rounding)
+          << n;
+    });
+  }
+}
+
 TEST(Quadrature, FaceRulesIntegrateTheirDegree) {
-  constexpr int degree = 5;
-  const QuadratureRule triangle = face_rule(mesh::FaceType::tri6, degree);
-  const QuadratureRule square = face_rule(mesh::FaceType::quad8, degree);
-  for (int a = 0; a <= degree; ++a) {
-    for (int b = 0; a + b <= degree; ++b) {
-      const double exact = factorial(a) * factorial(b) / factorial(a + b + 2);
-      EXPECT_NEAR(integrate(triangle, a, b, 0), exact, rounding);
-      EXPECT_NEAR(integrate(square, a, b, 0), line_moment(a) * line_moment(b), 4.0 * rounding);
+  for (int degree = 0; degree <= 9; ++degree) {
+    const QuadratureRule triangle = face_rule(mesh::FaceType::tri6, degree);
+    const QuadratureRule square = face_rule(mesh::FaceType::quad8, degree);
+    for (int a = 0; a <= degree; ++a) {
+      for (int b = 0; a + b <= degree; ++b) {
+        EXPECT_NEAR(integrate(triangle, a, b, 0), triangle_moment(a, b), rounding);
+        EXPECT_NEAR(integrate(square, a, b, 0), line_moment(a) * line_moment(b), 4.0 * rounding);
+      }
     }
   }
 }

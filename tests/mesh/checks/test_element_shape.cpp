@@ -38,6 +38,26 @@ TEST(ElementShape, OfABrickIsItsLongestOverItsShortestEdge) {
   EXPECT_NEAR(shape.largest_angle, 0.5 * pi, rounding);
 }
 
+TEST(ElementShape, OfAWedgeOnAnEquilateralTriangleIsTheKnownOne) {
+  Eigen::MatrixX3d nodes = reference_nodes(ElementType::wedge6);
+  nodes.col(0) += 0.5 * nodes.col(1);
+  nodes.col(1) *= 0.5 * std::sqrt(3.0);
+  const ElementShape shape = element_shape(ElementType::wedge6, nodes);  // edges 1 and 2
+  EXPECT_NEAR(shape.aspect_ratio, 4.0 / std::sqrt(3.0), 10.0 * rounding);
+  EXPECT_NEAR(shape.smallest_angle, pi / 3.0, rounding);
+  EXPECT_NEAR(shape.largest_angle, 0.5 * pi, rounding);
+}
+
+// All edges alike: half an octahedron.
+TEST(ElementShape, OfHalfAnOctahedronIsTheKnownOne) {
+  Eigen::MatrixX3d nodes = reference_nodes(ElementType::pyramid5);
+  nodes(4, 2) = std::sqrt(2.0);
+  const ElementShape shape = element_shape(ElementType::pyramid5, nodes);
+  EXPECT_NEAR(shape.aspect_ratio, std::sqrt(2.0), 10.0 * rounding);
+  EXPECT_NEAR(shape.smallest_angle, std::acos(1.0 / std::sqrt(3.0)), rounding);
+  EXPECT_NEAR(shape.largest_angle, std::acos(-1.0 / 3.0), rounding);
+}
+
 /// Four corners of a square, two of them lifted: every edge is long, the height is small.
 Eigen::MatrixX3d sliver(double lift) {
   Eigen::MatrixX3d nodes(4, 3);

@@ -1,5 +1,6 @@
 #include "mesh/mesh.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -62,6 +63,38 @@ TEST(Mesh, FindsATetrahedronThatIsInsideOutOnlyBetweenGaussPoints) {
             std::string::npos);
   nodes(4, 0) = 0.3;  // 4·0.3 − 1 > 0: valid again
   EXPECT_GT(jacobian_range(ElementType::tet10, nodes).least, 0.0);
+}
+
+// 4·0.2 − 1 < 0 at one corner only, of every quadratic element.
+TEST(Mesh, FindsElementsThatAreInsideOutAtOneCornerOnly) {
+  for (const ElementType type : all_element_types) {
+    if (!is_quadratic(type)) continue;
+    Eigen::MatrixX3d nodes = reference_nodes(type);
+    const int middle = n_corners(type);  // of the edge 01
+    nodes.row(middle) = 0.8 * nodes.row(0) + 0.2 * nodes.row(1);
+    EXPECT_LE(jacobian_range(type, nodes).least, 0.0) << name(type);
+    EXPECT_GT(jacobian_range(type, nodes).largest, 0.0) << name(type);
+    nodes.row(middle) = 0.7 * nodes.row(0) + 0.3 * nodes.row(1);
+    EXPECT_GT(jacobian_range(type, nodes).least, 0.0) << name(type);
+  }
+}
+
+// A re-entrant corner of the base shows in the Jacobian near the apex as well as at the corner.
+TEST(Mesh, FindsAPyramidOnADart) {
+  Eigen::MatrixX3d nodes = reference_nodes(ElementType::pyramid5);
+  nodes.row(2) << -0.2, -0.2, 0.0;
+  EXPECT_LE(jacobian_range(ElementType::pyramid5, nodes).least, 0.0);
+  nodes.row(2) << 0.2, 0.2, 0.0;
+  EXPECT_GT(jacobian_range(ElementType::pyramid5, nodes).least, 0.0);
+}
+
+TEST(Mesh, VolumesOfReferenceElementsAreTheKnownOnes) {
+  constexpr std::array known{1.0 / 6.0, 8.0, 1.0, 4.0 / 3.0};  // by solid
+  for (const ElementType type : all_element_types) {
+    EXPECT_NEAR(element_volume(type, reference_nodes(type)),
+                known[static_cast<std::size_t>(solid(type))], 1e-14)
+        << name(type);
+  }
 }
 
 TEST(Mesh, RefusesFlatElements) {

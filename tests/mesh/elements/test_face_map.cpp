@@ -88,5 +88,32 @@ TEST(FaceMap, RefusesNeighboursOfDifferentOrder) {
   EXPECT_NE(message.find("elements 1, 2"), std::string::npos) << message;
 }
 
+// A wedge has faces of both kinds, a pyramid on one of its quadrilaterals and a tetrahedron on a
+// triangle.
+TEST(FaceMap, JoinsElementsOfDifferentSolids) {
+  Eigen::MatrixX3d nodes(8, 3);
+  nodes << reference_nodes(ElementType::wedge6), -1, 0.5, 0, 0.3, 0.3, 2;
+  const std::vector<ElementBlock> elements{block_of(ElementType::wedge6, {{0, 1, 2, 3, 4, 5}}, 1),
+                                           block_of(ElementType::pyramid5, {{0, 3, 5, 2, 6}}, 2),
+                                           block_of(ElementType::tet4, {{3, 4, 5, 7}}, 3)};
+  const FaceMap map = map_faces(elements);
+  EXPECT_EQ(map.size(), 5U + 5U + 4U - 2U);
+  EXPECT_EQ(map.at(face_key({0, 2, 3, 5}, 4)).count, 2);
+  EXPECT_EQ(map.at(face_key({3, 4, 5, 0}, 3)).count, 2);
+  EXPECT_EQ(Mesh(nodes, elements, {}, {}).n_elements(), 3);
+}
+
+TEST(FaceMap, RefusesAQuadraticWedgeBesideALinearPyramid) {
+  Eigen::MatrixX3d nodes(16, 3);
+  nodes << reference_nodes(ElementType::wedge15), -1, 0.5, 0;
+  const std::string message = message_of([&] {
+    Mesh(nodes,
+         {block_of(ElementType::wedge15, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}}, 1),
+          block_of(ElementType::pyramid5, {{0, 3, 5, 2, 15}}, 2)},
+         {}, {});
+  });
+  EXPECT_NE(message.find("use one element order in the whole body"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace microslip::mesh

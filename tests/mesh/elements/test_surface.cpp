@@ -77,6 +77,32 @@ TEST(Surface, NeighbouringCellsShareTheirVertices) {
   EXPECT_EQ(sampling.vertices.rows(), 25);
 }
 
+/// A square [−1, 1]² of a quadrilateral with a triangle on one side, and what is known of it.
+Surface house(Eigen::MatrixX3d& nodes) {
+  nodes.resize(5, 3);
+  nodes << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 2, 0;
+  Surface surface{"house", {}, {0, 1, 2, 3, 4}, 0.0};
+  FaceBlock triangle{FaceType::tri3, Connectivity(1, 3)};
+  triangle.connectivity << 3, 2, 4;
+  FaceBlock square{FaceType::quad4, Connectivity(1, 4)};
+  square.connectivity << 0, 1, 2, 3;
+  surface.faces = {triangle, square};
+  return surface;
+}
+
+TEST(Surface, SamplesTrianglesBesideQuadrilaterals) {
+  Eigen::MatrixX3d nodes;
+  const Surface surface = house(nodes);
+  const SurfaceSampling sampling = sample_surface(nodes, surface, 18);  // nine cells of each face
+  EXPECT_EQ(sampling.weights.size(), 9 + 2 * 9) << "squares are halved";
+  EXPECT_NEAR(sampling.weights.sum(), 4.0 + 1.0, 1e-14);
+  EXPECT_EQ(sampling.vertices.rows(), 16 + 6) << "the common edge has its four vertices once";
+  EXPECT_LT((sampling.to_centres * nodes - sampling.centres).norm(), 1e-14);
+  const SurfacePlane plane = fit_plane(nodes, surface);
+  EXPECT_LT((plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_NEAR(plane.centroid[1], (1.0 + 1.0 / 3.0) / 5.0, 1e-15);
+}
+
 TEST(Surface, PlaneTellsHowFarAFaceIsFromPlane) {
   PlaneFace face = plane_face(FaceType::quad8, 0.0);
   EXPECT_LT(fit_plane(face.nodes, face.surface).flatness, 1e-15);

@@ -1,6 +1,7 @@
 #include "pipelines/files/write_vtk.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkCell.h>
 #include <vtkCellType.h>
 #include <vtkPointData.h>
 
@@ -9,10 +10,14 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include "pipelines/system/output_file.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 #include "tests/pipelines/vtk_reading.hpp"
+#include "tests/support/box_mesh.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -116,6 +121,92 @@ TEST(WriteVtk, ModesReadBackWithMeshio) {
   const std::string command = "/usr/bin/python3 " + (folder.path() / "check.py").string() + " " +
                               (folder.path() / "modes.vtu").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+/// Linear and quadratic meshes of all solids together, straight.
+mesh::Mesh all_solids(int order) {
+  return test::straight_mixed_box_mesh(
+      order, {.size = {0.4, 0.2, 0.1}, .cells = {4, 1, 1}, .map = [](const Eigen::Vector3d& x) {
+                return Eigen::Vector3d(x[0] + 0.1 * x[1], x[1], x[2] + 0.2 * x[0]);
+              }});
+}
+
+// The volume meshio's corners enclose, signed, and every edge node in the middle of the edge it
+// belongs to.
+TEST(WriteVtk, AllSolidsReadBackWithMeshioInTheirOrderAndVolume) {
+  const synthetic::Folder folder("solids_meshio");
+  write_whole(folder.path() / "check.py", R"(import sys, meshio, numpy
+tets = {'tetra': [(0, 1, 2, 3)], 'pyramid': [(0, 1, 2, 4), (0, 2, 3, 4)],
+        'wedge': [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)],
+        'hexahedron': [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]}
+base = {'tetra10': 'tetra', 'pyramid13': 'pyramid', 'wedge15': 'wedge', 'hexahedron20': 'hexahedron'}
+edges = {'tetra': '01 12 02 03 13 23', 'pyramid': '01 12 23 30 04 14 24 34',
+         'wedge': '01 12 20 34 45 53 03 14 25', 'hexahedron': '01 12 23 30 45 56 67 74 04 15 26 37'}
+for kind in ('wedge15', 'pyramid13'):  # meshio 5.0.0 has their nodes, but forgot their dimension
+    meshio._mesh.topological_dimension.setdefault(kind, 3)
+mesh = meshio.read(sys.argv[1])
+volume, found = 0.0, set()
+for block in mesh.cells:
+    kind = base.get(block.type, block.type)
+    found.add(kind)
+    x = mesh.points[block.data]
+    for a, b, c, d in tets[kind]:
+        part = numpy.einsum('ij,ij->i', x[:, d] - x[:, a], numpy.cross(x[:, b] - x[:, a], x[:, c] - x[:, a])) / 6
+        assert (part > 0).all(), (block.type, part)
+        volume += part.sum()
+    if block.type in base:
+        first = x.shape[1] - len(edges[kind].split())
+        for i, (a, b) in enumerate(edges[kind].split()):
+            assert abs(x[:, first + i] - (x[:, int(a)] + x[:, int(b)]) / 2).max() < 1e-15, (block.type, i)
+assert found == set(tets), found
+assert abs(volume / float(sys.argv[2]) - 1) < 1e-13, volume
+)");
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = all_solids(order);
+    write_modes_vtu(folder.path() / "modes.vtu", mesh, basis_for(mesh));
+    const std::string command = "/usr/bin/python3 " + (folder.path() / "check.py").string() + " " +
+                                (folder.path() / "modes.vtu").string() + " 0.008";
+    EXPECT_EQ(std::system(command.c_str()), 0) << order;
+  }
+}
+
+TEST(WriteVtk, AllSolidsAreCellsOfVtk) {
+  const synthetic::Folder folder("solids_vtu");
+  const std::array<std::vector<int>, 2> expected{
+      std::vector<int>{VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID},
+      std::vector<int>{VTK_QUADRATIC_TETRA, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_WEDGE,
+                       VTK_QUADRATIC_PYRAMID}};
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = all_solids(order);
+    write_modes_vtu(folder.path() / "modes.vtu", mesh, basis_for(mesh));
+    const auto grid = read_vtu(folder.path() / "modes.vtu");
+    std::vector<int> found;
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+      if (found.empty() || found.back() != grid->GetCellType(cell))
+        found.push_back(grid->GetCellType(cell));
+    }
+    EXPECT_EQ(found, expected[static_cast<std::size_t>(order - 1)]);
+  }
+}
+
+// ⅓ Σ x·n A over the polygons drawn: outward all around, of both kinds.
+TEST(WriteVtk, SkinOfAllSolidsEnclosesTheirVolume) {
+  const synthetic::Folder folder("skin");
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = all_solids(order);
+    write_motion(folder.path() / "motion", "peak", mesh, basis_for(mesh), contact::Harmonics(1, 2),
+                 100.0, 4);
+    const auto skin = read_vtp(folder.path() / "motion" / "peak_000.vtp");
+    double volume = 0.0;
+    for (vtkIdType face = 0; face < skin->GetNumberOfCells(); ++face) {
+      const auto corner = [&](int i) {
+        return Eigen::Vector3d(skin->GetPoint(skin->GetCell(face)->GetPointId(i)));
+      };
+      for (int i = 2; i < skin->GetCell(face)->GetNumberOfPoints(); ++i)
+        volume += corner(0).dot(corner(i - 1).cross(corner(i))) / 6.0;
+    }
+    EXPECT_NEAR(volume, mesh.volume(), 1e-6 * mesh.volume()) << "positions in single precision";
+  }
 }
 
 TEST(WriteVtk, MotionIsDrawnOnTheOuterFacesOverOnePeriod) {
