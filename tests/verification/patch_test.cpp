@@ -47,11 +47,7 @@ Split split(const mesh::Mesh& mesh) {
   return result;
 }
 
-class PatchTest : public testing::TestWithParam<ElementType> {};
-
-TEST_P(PatchTest, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
-  const mesh::Mesh mesh = test::straight_box_mesh(
-      GetParam(), {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = distort});
+void expect_linear_motion_inside(const mesh::Mesh& mesh, const char* name) {
   const Eigen::MatrixXd K = test::dense_system(mesh, titanium, {}).K;
   Eigen::Matrix3d A;
   A << 1.0, 0.3, -0.5, 0.2, -0.7, 0.4, 0.6, -0.1, 0.9;
@@ -63,14 +59,30 @@ TEST_P(PatchTest, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
   const Eigen::VectorXd load = -K(dofs.inner, dofs.outer) * u(dofs.outer);
   const Eigen::VectorXd inner = K(dofs.inner, dofs.inner).eval().llt().solve(load);
   const double error = (inner - u(dofs.inner)).norm() / u.norm();
-  std::printf("%-6s %5td inner degrees of freedom, error %.1e\n", mesh::name(GetParam()),
-              std::ssize(dofs.inner), error);
+  std::printf("%-15s %5td inner degrees of freedom, error %.1e\n", name, std::ssize(dofs.inner),
+              error);
   EXPECT_LT(error, 1e-11);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, PatchTest,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
-                                         ElementType::hex20),
+class PatchTest : public testing::TestWithParam<ElementType> {};
+
+TEST_P(PatchTest, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
+  expect_linear_motion_inside(
+      test::straight_box_mesh(GetParam(),
+                              {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = distort}),
+      mesh::name(GetParam()));
+}
+
+TEST(PatchTestOfAllTypes, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
+  const test::BoxGrid grid{.size = {1.0, 1.0, 1.0}, .cells = {4, 3, 3}, .map = distort};
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = test::straight_mixed_box_mesh(order, grid);
+    ASSERT_EQ(mesh.elements().size(), 4U) << "one block for each solid";
+    expect_linear_motion_inside(mesh, order == 1 ? "mixed linear" : "mixed quadratic");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, PatchTest, testing::ValuesIn(mesh::all_element_types),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 }  // namespace

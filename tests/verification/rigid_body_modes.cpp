@@ -2,8 +2,8 @@
 //
 //   K R = 0,   R = [e₁ e₂ e₃, e₁ × x, e₂ × x, e₃ × x],
 //
-// and nothing else does. Boxes of curved and distorted elements of each type, and the default
-// blade.
+// and nothing else does. Boxes of curved and distorted elements of each type and of all together,
+// and the default blade.
 //
 // Source: Géradin & Rixen, Mechanical Vibrations (2015), section 2.2 (free–free systems). Every
 // element type holds R exactly, also where it is curved (isoparametric), so that only rounding is
@@ -87,7 +87,7 @@ void expect_six_rigid_modes(const mesh::Mesh& mesh, const char* name) {
   const fem::ModalBasis basis = structure.solve_modes({.n_modes = 8});
   const double error = distance(basis.shapes.leftCols(6), rigid_motions(mesh));
   std::printf(
-      "%-6s rigid-body modes: %td (6 expected); inertia count up to mode 8: %td (8); mode 7: %.2f "
+      "%-15s rigid-body modes: %td (6 expected); inertia count up to mode 8: %td (8); mode 7: %.2f "
       "Hz; "
       "space against R: %.1e (below 1e-8)\n",
       name, basis.n_rigid_body, basis.inertia_count, basis.frequency[6] / (2.0 * std::numbers::pi),
@@ -109,24 +109,26 @@ TEST_P(RigidBodyModes, AreTheSixZerosOfTheFullMatrices) {
   const Eigen::MatrixXd R = orthonormal(rigid_motions(mesh));
   const double force = (dense.K * R).norm() / dense.K.norm();
   std::printf(
-      "%-6s |lambda_6| / lambda_7: %.1e (below 1e-10); ||K R|| / ||K||: %.1e (below 1e-13)\n",
+      "%-9s |lambda_6| / lambda_7: %.1e (below 1e-10); ||K R|| / ||K||: %.1e (below 1e-13)\n",
       mesh::name(GetParam()), values.head(6).cwiseAbs().maxCoeff() / values[6], force);
   EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-10 * values[6]);
   EXPECT_LT(force, 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, RigidBodyModes,
-                         testing::Values(ElementType::tet4, ElementType::tet10, ElementType::hex8,
-                                         ElementType::hex20),
+INSTANTIATE_TEST_SUITE_P(Types, RigidBodyModes, testing::ValuesIn(mesh::all_element_types),
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 TEST(RigidBodyModes, AreFoundAndSpanTranslationsAndRotations) {
   const mesh::Mesh blade =
       default_blade();              // before PETSc is opened: the mesher is a child process
   const fem::SlepcSession session;  // one per process
-  for (const ElementType type :
-       {ElementType::tet4, ElementType::tet10, ElementType::hex8, ElementType::hex20}) {
+  for (const ElementType type : mesh::all_element_types) {
     expect_six_rigid_modes(distorted_box(type), mesh::name(type));
+  }
+  for (const int order : {1, 2}) {
+    expect_six_rigid_modes(
+        test::mixed_box_mesh(order, {.size = {1.0, 0.6, 0.4}, .cells = {4, 2, 2}, .map = distort}),
+        order == 1 ? "mixed linear" : "mixed quadratic");
   }
   expect_six_rigid_modes(blade, "blade");
 }
