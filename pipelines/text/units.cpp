@@ -52,7 +52,15 @@ std::string dimension_of(const Unit& unit) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + length, factor);
   const auto after = static_cast<std::size_t>(end - text.data());
   const bool scaled = error == std::errc() && after < definition.size() && *end == ' ';
-  return std::string(scaled ? definition.substr(after + 1) : definition);
+  const std::string_view dimension = scaled ? definition.substr(after + 1) : definition;
+  return std::string(dimension.substr(0, dimension.find(" @ ")));  // degC is "K @ 273.15"
+}
+
+/// What to convert a unit to where `unit` is expected: turns and angles per time are frequencies, a turn per second
+/// is one hertz.
+std::string counterpart(const Unit& found, const std::string& unit) {
+  const bool turns = unit == "Hz" && dimension_of(found) == dimension_of(parse_unit("rad/s"));
+  return turns ? "revolution/s" : unit;
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -122,7 +130,7 @@ std::string expected_text(const std::string& unit) {
 
 /// Factor and offset from one unit to another of the same dimension.
 Converter converter_between(const std::string& given, const std::string& unit) {
-  const Unit expected = parse_unit(unit);
+  Unit expected = parse_unit(unit);
   if (!expected || (unit != "1" && has_stray_number(unit))) {  // roots of units are beyond UDUNITS
     throw UnitError(
         fmt::format("unit \"{}\" is not understood here; give a plain number [{}]", given, unit));
@@ -131,9 +139,10 @@ Converter converter_between(const std::string& given, const std::string& unit) {
   if (!found) {
     throw UnitError(fmt::format("unknown unit \"{}\"; expected {}", given, expected_text(unit)));
   }
+  expected = parse_unit(counterpart(found, unit));
   if (dimension_of(found) != dimension_of(expected)) {
-    throw UnitError(fmt::format("unit \"{}\" measures something else; expected {}", given,
-                                expected_text(unit)));
+    throw UnitError(fmt::format("unit \"{}\" measures something else, in {}; expected {}", given,
+                                dimension_of(found), expected_text(unit)));
   }
   Converter converter(ut_get_converter(found.get(), expected.get()));
   if (!converter)

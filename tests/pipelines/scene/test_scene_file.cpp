@@ -379,7 +379,8 @@ TEST(BadScene, FrequenciesMustBeAboveZero) {
   expect_complaint(complaint(modal_text, {"response.frequency=[-5, 5]"}), {"above 0"});
   expect_complaint(complaint(modal_text, {"response.frequency=[1, 2, 3]"}), {"[from, to]"});
   expect_complaint(complaint(modal_text, {"response.frequency=[]"}), {"[from, to]"});
-  expect_complaint(complaint(modal_text, {"response.frequency=[\"60 rpm\", 5]"}), {"rpm", "Hz"});
+  expect_complaint(complaint(modal_text, {"response.frequency=[\"60 s\", 5]"}), {"\"s\"", "Hz"});
+  EXPECT_EQ(complaint(modal_text, {"response.frequency=[\"300 rpm\", \"200 rad/s\"]"}), "");
   EXPECT_EQ(complaint(modal_text, {"response.frequency=[20, 20]"}), "");
   EXPECT_EQ(complaint(modal_text, {"response.frequency=[\"20 Hz\"]"}), "");
 }

@@ -82,15 +82,27 @@ TEST(Units, AnotherDimensionIsRefusedWithBothNames) {
   EXPECT_TRUE(refuses("5 %", "m"));
 }
 
+TEST(Units, AnotherDimensionIsToldByWhatItMeasures) {
+  EXPECT_NE(complaint("20 degC", "m").find("something else, in K"), std::string::npos);
+  expect_close(to_si("20 degC", "K"), 293.15);  // an offset is no dimension
+}
+
 TEST(Units, TheReciprocalIsAnotherDimension) {  // UDUNITS would convert 0.01 s to 100 Hz
   EXPECT_TRUE(refuses("0.01 s", "Hz"));
   EXPECT_TRUE(refuses("5e-12 1/Pa", "Pa"));
   EXPECT_TRUE(refuses("1e13 Pa", "m^2/N"));
 }
 
-TEST(Units, TurnsAreNotPureNumbers) {  // UDUNITS would take 60 rpm for 6.28 Hz
-  for (const char* text : {"60 rpm", "60 rad/s", "60 deg/s"})
-    EXPECT_TRUE(refuses(text, "Hz")) << text;
+TEST(Units, ATurnPerSecondIsAHertz) {  // UDUNITS would take 60 rpm for 6.28 Hz
+  expect_close(to_si("60 rpm", "Hz"), 1.0);
+  expect_close(to_si("3000 revolutions/min", "Hz"), 50.0);
+  expect_close(to_si("3 rad/s", "Hz"), 1.5 / pi);
+  expect_close(to_si("720 deg/s", "Hz"), 2.0);
+  EXPECT_TRUE(refuses("60 rpm", "1"));
+  EXPECT_TRUE(refuses("60 rad", "Hz"));
+}
+
+TEST(Units, TurnsAreNotPureNumbers) {
   EXPECT_TRUE(refuses("60 Hz", "rad/s"));
   EXPECT_TRUE(refuses("10 deg", "1"));
   EXPECT_TRUE(refuses("10 %", "rad"));
