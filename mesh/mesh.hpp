@@ -49,6 +49,8 @@ class Mesh {
   [[nodiscard]] const Surface& surface(const std::string& name) const;
   /// Nodes of a named point, set or surface. @throws MeshError  as above.
   [[nodiscard]] std::vector<Eigen::Index> node_set(const std::string& name) const;
+  /// Names nodes that the source does not. @throws MeshError  the name is taken.
+  void name_nodes(const std::string& name, std::vector<Eigen::Index> nodes);
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] std::vector<std::string> node_set_names() const;
   [[nodiscard]] double volume() const { return volume_; }         ///< [m³]

@@ -213,6 +213,13 @@ std::vector<Eigen::Index> Mesh::node_set(const std::string& name) const {
                   "; points and node sets: " + listed(node_set_names()));
 }
 
+void Mesh::name_nodes(const std::string& name, std::vector<Eigen::Index> nodes) {
+  if (surfaces_.contains(name) || node_sets_.contains(name)) {
+    throw MeshError("the mesh has a \"" + name + "\" already: give it another name");
+  }
+  node_sets_.emplace(name, std::move(nodes));
+}
+
 std::vector<std::string> Mesh::surface_names() const { return keys_of(surfaces_); }
 std::vector<std::string> Mesh::node_set_names() const { return keys_of(node_sets_); }
 
