@@ -12,6 +12,7 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/named_points.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -77,9 +78,7 @@ void require_name(const std::string& place, const LookUp& look_up) {
   }
 }
 
-}  // namespace
-
-mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
     mesh::MesherLimits limits;
     limits.stop = interrupt_requested;
@@ -93,6 +92,14 @@ mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::pat
   }
   const auto& given = std::get<MeshFileModel>(scene.model);
   return mesh::read_gmsh(given.file, given.length_unit);
+}
+
+}  // namespace
+
+mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  mesh::Mesh mesh = mesh_of(scene, mesh_file);
+  name_points(mesh, scene);
+  return mesh;
 }
 
 std::string describe_mesh(const mesh::Mesh& mesh, double density) {

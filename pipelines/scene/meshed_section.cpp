@@ -12,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include "pipelines/scene/modes_section.hpp"
+#include "pipelines/scene/points_section.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
@@ -153,7 +154,7 @@ std::string settle_residual(SectionReader& s, BasisSettings& basis,
       rigid);
 }
 
-std::vector<ForceDescription> read_forces(SectionReader& s) {
+std::vector<ForceDescription> read_forces(SectionReader& s, std::vector<PointDescription>& points) {
   const toml::node& node = *s.node("forces");
   const toml::array* list = node.as_array();
   if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
@@ -166,7 +167,7 @@ std::vector<ForceDescription> read_forces(SectionReader& s) {
     const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces",
                               s.file(), complete);
     ForceDescription description;
-    description.at = force.text("at");
+    description.at = read_place(force, "at", points);
     description.place = force.place("at");
     description.direction = force.direction("direction");
     description.amplitude = force.number("amplitude");

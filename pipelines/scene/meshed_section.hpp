@@ -25,6 +25,8 @@ namespace microslip::pipelines {
 /// @throws SceneError  it says attachment.
 [[nodiscard]] std::string settle_residual(SectionReader& s, BasisSettings& basis,
                                           const ContactDescription& contact);
-[[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s);
+/// @param points  of the scene; coordinates of a force join them.
+[[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s,
+                                                        std::vector<PointDescription>& points);
 
 }  // namespace microslip::pipelines

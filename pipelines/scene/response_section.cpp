@@ -8,17 +8,18 @@
 #include <toml++/toml.h>
 
 #include "pipelines/scene/optimum_section.hpp"
+#include "pipelines/scene/points_section.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-OutputDescription read_output(const SectionReader& s) {
+OutputDescription read_output(const SectionReader& s, std::vector<PointDescription>& points) {
   const toml::node& node = *s.node("output");
   if (!node.is_table()) s.fail("output", "expected { at = …, direction = [x, y, z] }", &node);
   toml::table complete;
   const SectionReader output(node.as_table(), section_spec("output"), "response.output", s.file(),
                              complete);
-  return {output.text("at"), output.direction("direction"), output.place("at")};
+  return {read_place(output, "at", points), output.direction("direction"), output.place("at")};
 }
 
 double frequency_in(const SectionReader& s, const toml::node& node) {
@@ -172,8 +173,9 @@ ResponseDescription read_loads(const SectionReader& s, std::string_view kind) {
   return response;
 }
 
-ResponseDescription read_response(const SectionReader& s, std::string_view kind) {
-  const OutputDescription output = read_output(s);
+ResponseDescription read_response(const SectionReader& s, std::string_view kind,
+                                  std::vector<PointDescription>& points) {
+  const OutputDescription output = read_output(s, points);
   ResponseDescription response = read_loads(s, kind);
   response.output = output;
   return response;

@@ -85,8 +85,16 @@ struct ContactDescription {
   contact::SurfaceRules rules;  ///< friction law and roughness; their local stiffness is that above
 };
 
+/// A point of the scene: an entry of [points], or coordinates that stand where a name is asked for.
+struct PointDescription {
+  std::string
+      name;  ///< of the node set the mesh is given; coordinates as text where they have none
+  std::variant<Eigen::Vector3d, std::string> of;  ///< coordinates [m], or a name of the mesh
+  std::string place;                              ///< "file:line: key", for messages
+};
+
 struct ForceDescription {
-  std::string at;
+  std::string at;  ///< a name of the mesh, or of a point that has coordinates
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< normalised
   double amplitude = 0.0;                                ///< [N], total over the nodes of `at`
   double phase_deg = 0.0;
@@ -94,7 +102,7 @@ struct ForceDescription {
 };
 
 struct OutputDescription {
-  std::string at;
+  std::string at;  ///< as that of a force
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   std::string place;  ///< "file:line: key" of `at`, for messages
 };
@@ -141,6 +149,7 @@ struct ResponseDescription {
 
 struct SceneDescription {
   std::string title;
+  std::string kind;            ///< of its model, as written
   std::filesystem::path file;  ///< the scene file, "" for text
   std::variant<BladeModel, MeshFileModel, ModalModel> model;
   fem::Material material;
@@ -150,6 +159,7 @@ struct SceneDescription {
   std::vector<ContactDescription> contacts;  ///< kinds with a mesh; none: nothing rubs
   contact::SurfaceRules rules;               ///< of modal scenes
   double wear_coefficient = 0.0;             ///< of modal scenes, Archard [m²/N]
+  std::vector<PointDescription> points;      ///< kinds with a mesh
   std::vector<ForceDescription> forces;
   std::optional<ResponseDescription> response;
   /// Why `run` refuses: [response] speaks of a contact the scene does not have. Empty: it does not.

@@ -15,6 +15,7 @@
 #include "pipelines/scene/effects_section.hpp"
 #include "pipelines/scene/meshed_section.hpp"
 #include "pipelines/scene/modal_scene.hpp"
+#include "pipelines/scene/points_section.hpp"
 #include "pipelines/scene/response_section.hpp"
 #include "pipelines/scene/scene_overrides.hpp"
 #include "pipelines/scene/write_scene.hpp"
@@ -156,8 +157,14 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
     scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
   }
   scene.material = read_material(reading.section("material", "material"));
+  if (const toml::table* points = reading.table("points")) {
+    const auto [position, added] = reading.complete.insert_or_assign("points", toml::table{});
+    scene.points = read_points(*points, reading.file, *position->second.as_table());
+  }
   const SectionReader supports = reading.section("supports", "supports");
-  scene.clamped = read_names(supports, "clamped");
+  for (const std::string& name : read_names(supports, "clamped")) {
+    scene.clamped.push_back(name_in_mesh(scene.points, name));
+  }
   scene.clamped_place = supports.place("clamped");
   SectionReader modes = reading.section("modes", "modes");
   BasisSettings& basis = scene.settings.basis;
@@ -171,10 +178,10 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   }
   require_distinct(scene.contacts);
   SectionReader excitation = reading.section("excitation", "excitation");
-  scene.forces = read_forces(excitation);
+  scene.forces = read_forces(excitation, scene.points);
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
-    scene.response = read_response(response, kind);
+    scene.response = read_response(response, kind, scene.points);
     scene.settings.harmonics = read_harmonics(response, *scene.response);
     if (scene.contacts.empty()) scene.without_contact = contact_keys_without_contact(response);
   }
@@ -229,6 +236,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   check_sections(reading, kind);
   complete_harmonics(reading.given);
   SceneDescription scene;
+  scene.kind = kind;
   scene.file = name;
   if (const toml::node* title = reading.given.get("title")) {
     if (!title->is_string()) {

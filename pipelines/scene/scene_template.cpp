@@ -138,6 +138,12 @@ void add_table_keys(std::string& text, std::string_view spec) {
 void add_section(std::string& text, std::string_view name, std::string_view kind) {
   const Examples& values = examples_of(kind);
   text += fmt::format("\n[{}]\n", name);
+  if (name == "points") {
+    text += fmt::format(
+        "# names of your own for `at`: {} [m]; optional\n# mid = [\"10 mm\", \"100 mm\", \"0 "
+        "mm\"]\n",
+        point_key("").meaning);
+  }
   for (const KeySpec& key : section_spec(name, kind).keys) {
     std::string value(key.preset);
     if (name == "model" && key.name == "kind") value = fmt::format("\"{}\"", kind);

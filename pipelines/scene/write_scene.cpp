@@ -1,5 +1,7 @@
 #include "pipelines/scene/write_scene.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -27,6 +29,14 @@ std::string string_text(const std::string& value) {
   // toml++ prefers literal quotes; where nothing needs escaping the usual ones say the same.
   const bool plain = value.find_first_of("\"\\\n\r\t'") == std::string::npos;
   return plain && text.front() == '\'' ? "\"" + value + "\"" : text;
+}
+
+/// A name of the user may need quotes.
+std::string key_text(std::string_view key) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  return bare ? std::string(key) : string_text(std::string(key));
 }
 
 std::string table_text(const toml::table& table) {
@@ -62,6 +72,11 @@ std::string value_text(const toml::node& node) {
 
 std::string keys_text(const toml::table& table, std::string_view section, std::string_view kind) {
   std::string text;
+  if (section == "points") {
+    for (const auto& [name, value] : table) {
+      text += fmt::format("{} = {}\n", key_text(name.str()), value_text(value));
+    }
+  }
   for (const KeySpec& key : section_spec(section, kind).keys) {
     if (const toml::node* value = table.get(key.name)) {
       text += fmt::format("{} = {}\n", key.name, value_text(*value));

@@ -312,7 +312,9 @@ constexpr std::array excitation_keys{
 };
 
 constexpr std::array force_keys{
-    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface"},
+    KeySpec{"at", other, "m", "", -unbounded, unbounded, false,
+            "a name of the mesh (point, set or surface) or of [points], or coordinates [x, y, z]: "
+            "the nearest node"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
     KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false,
             "in all, spread evenly over the nodes"},
@@ -324,7 +326,8 @@ constexpr std::array gap_keys{
 };
 
 constexpr std::array output_keys{
-    KeySpec{"at", text, "", "", 0, 0, false, "named point, set or surface (mean over its nodes)"},
+    KeySpec{"at", other, "m", "", -unbounded, unbounded, false,
+            "as that of a force; of a set or surface the mean"},
     KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
 };
 
@@ -358,13 +361,16 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
-constexpr std::array<SectionSpec, 35> sections{{
+constexpr std::array<KeySpec, 0> named_by_the_user{};
+
+constexpr std::array<SectionSpec, 36> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
     {"material", material_keys},
     {"supports", support_keys},
     {"modes", mode_keys},
+    {"points", named_by_the_user},
     {"contact", contact_keys},
     {"contact.modal", modal_contact_keys},
     {"excitation", excitation_keys},
@@ -396,8 +402,9 @@ constexpr std::array<SectionSpec, 35> sections{{
     {"response.block", block_response_keys},
 }};
 
-constexpr std::array<std::string_view, 8> mesh_sections{
-    "model", "material", "supports", "modes", "contact", "excitation", "response", "effects"};
+constexpr std::array<std::string_view, 9> mesh_sections{"model",      "material", "supports",
+                                                        "modes",      "points",   "contact",
+                                                        "excitation", "response", "effects"};
 constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
                                                          "effects"};
 constexpr std::array<std::string_view, 6> lean_sections{
@@ -418,6 +425,13 @@ SectionSpec section_spec(std::string_view section, std::string_view kind) {
   const bool has_own = std::any_of(sections.begin(), sections.end(),
                                    [&](const SectionSpec& spec) { return spec.name == own; });
   return section_spec(has_own ? std::string_view(own) : section);
+}
+
+KeySpec point_key(std::string_view name) {
+  return {name,       other,
+          "m",        "",
+          -unbounded, unbounded,
+          false,      "coordinates [x, y, z]: the nearest node; or a name of the mesh"};
 }
 
 std::span<const std::string_view> sections_of_kind(std::string_view kind) {

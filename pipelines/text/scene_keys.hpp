@@ -47,6 +47,9 @@ struct SectionSpec {
 /// @throws std::logic_error  as above.
 [[nodiscard]] SectionSpec section_spec(std::string_view section, std::string_view kind);
 
+/// An entry of [points], whose keys are names of the user.
+[[nodiscard]] KeySpec point_key(std::string_view name);
+
 /// Sections a scene of a kind may have, in the order of a template.
 [[nodiscard]] std::span<const std::string_view> sections_of_kind(std::string_view kind);
 
