@@ -52,6 +52,15 @@ void put_out(const Arguments& arguments, const std::string& text) {
   }
 }
 
+void require_picture_name(const std::string& file) {
+  require_file_name(file, "--plot");
+  const std::filesystem::path ending = std::filesystem::path(file).extension();
+  if (ending != ".png" && ending != ".svg" && ending != ".pdf") {
+    throw SceneError(
+        fmt::format("--plot {}: expected a name that ends in .png, .svg or .pdf", file));
+  }
+}
+
 }  // namespace
 
 void refuse_idle_options(const Arguments& arguments) {
@@ -75,8 +84,9 @@ void refuse_idle_options(const Arguments& arguments) {
 /// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
 int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
+  if (arguments.picture) require_picture_name(*arguments.picture);
   watch_for_interrupts();
-  const CheckResult result = check_study(scene, std::cout);
+  const CheckResult result = check_study(scene, arguments.picture.value_or(""), std::cout);
   const Forecast& forecast = result.forecast;
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
   cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},

@@ -22,6 +22,7 @@ struct Arguments {
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::optional<int> harmonics;
   std::optional<std::string> plot_folder;
+  std::optional<std::string> picture;  // of `check`
   std::string tolerance;
   std::string budget;
   bool resume = false;

@@ -12,10 +12,12 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/model_family.hpp"
+#include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/run/questions.hpp"
 #include "pipelines/run/run_record.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -24,15 +26,23 @@
 namespace microslip::pipelines {
 namespace {
 
+template <typename... What>
+void ask(RunRecord& record, const What&... what) {
+  for (const std::string& question : questions(what...)) record.progress().warning(question);
+}
+
 using StructurePointer = std::shared_ptr<const SolvedStructure>;
 
 /// mesh → modes. nullptr: a kind that gives its modes itself.
 StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
+  ask(record, scene);
   if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   record.stage("mesh");
   mesh::Mesh mesh = obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);
   record.keep_mesh(mesh, scene.material.density);
+  for (const std::string& line : describe_places(mesh, scene)) record.progress().info(line);
+  ask(record, scene, mesh);
   record.stage("modes");
   StructureModes modes = solve_structure(mesh, scene);
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
@@ -49,6 +59,7 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   std::vector<std::string> warnings = scene_warnings(scene);
   ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
+  ask(record, scene, model);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
         "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes "
@@ -76,6 +87,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     fem::use_one_blas_thread();
     const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.keep_harmonics(scene);
+    if (structure) ask(record, scene, structure->mesh, curves);
     record.stage("maps");
     draw_maps(model, scene, curves, record);
     if (scene.response->optimum) {

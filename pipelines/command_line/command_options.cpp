@@ -86,11 +86,14 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
       ->default_str("blade");
   with_output(init_command, a, "file to write; it must not exist");
-  with_scene(
-      add_command(app, a, chosen, "check",
-                  "parse, check units and names, show mesh, effects and forecast; solve nothing",
-                  [&] { return check(a); }),
-      a);
+  with_scene(add_command(app, a, chosen, "check",
+                         "parse, check units and names, show mesh, effects and forecast; question "
+                         "what is unusual; solve nothing",
+                         [&] { return check(a); }),
+             a)
+      ->add_option("--plot", a.picture,
+                   "picture of the blade with supports, contacts, forces and output marked, for "
+                   "kinds with a mesh (.png, .svg, .pdf)");
   auto* mesh_command = with_scene(
       add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
   with_output(mesh_command, a, "gmsh file to write (.msh)")->get_option("--output")->required();

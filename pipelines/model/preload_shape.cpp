@@ -61,9 +61,6 @@ Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::Vec
   }
 }
 
-namespace {
-
-/// What each contact carries of a load that presses (contact/patch/patch_load.hpp), sum 1.
 std::vector<double> preload_shares(const mesh::Mesh& mesh, const SceneDescription& scene) {
   std::vector<double> shares;
   double sum = 0.0;
@@ -75,6 +72,8 @@ std::vector<double> preload_shares(const mesh::Mesh& mesh, const SceneDescriptio
   for (double& share : shares) share /= sum;
   return shares;
 }
+
+namespace {
 
 /// @param share  of a load that presses.
 void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene, std::size_t index,
@@ -124,8 +123,9 @@ std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& sce
     const ContactDescription& contact = scene.contacts[i];
     const std::string one = describe_preload(mesh, contact, scene.settings.patches[i].n_points);
     if (one.empty()) continue;
-    text +=
-        (text.empty() ? "" : "\n") + (scene.contacts.size() > 1 ? contact.name + ": " : "") + one;
+    if (!text.empty()) text += '\n';
+    if (scene.contacts.size() > 1) text += contact.name + ": ";
+    text += one;
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -17,6 +18,10 @@ namespace microslip::pipelines {
 [[nodiscard]] Eigen::VectorXd unit_preload(const ContactDescription& contact,
                                            const Eigen::VectorXd& p, const Eigen::VectorXd& r,
                                            const Eigen::VectorXd& weights);
+
+/// What each contact carries of a load that presses (contact/patch/patch_load.hpp), sum 1.
+[[nodiscard]] std::vector<double> preload_shares(const mesh::Mesh& mesh,
+                                                 const SceneDescription& scene);
 
 /// Every preload of the scene against the face it presses.
 /// @throws SceneError    as unit_preload().

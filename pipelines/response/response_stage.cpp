@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -145,6 +146,15 @@ void require_held(const ReducedModel& model, const SceneDescription& scene) {
       has_supports
           ? "name the clamped surfaces in [supports] clamped"
           : "give contact points whose stiffness holds them, or leave the modes of 0 Hz out"));
+}
+
+Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
+  const solver::Scene scene = limit_scene(model);
+  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
+  if (scene.contact) K += scene.contact->stuck_stiffness();
+  const auto squares = contact::symmetric_eigenvalues(K);
+  if (!squares) throw std::runtime_error("the eigenvalues of the stuck structure do not converge");
+  return squares->cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
 void require_loads(const ReducedModel& model, const SceneDescription& scene) {

@@ -20,6 +20,9 @@ namespace microslip::pipelines {
 /// contact.
 [[nodiscard]] solver::Scene limit_scene(ReducedModel model);
 
+/// Natural frequencies with every contact point stuck [Hz], ascending, as many as the model has.
+[[nodiscard]] Eigen::VectorXd stuck_frequencies(const ReducedModel& model);
+
 /// Moments beside the preload can be balanced under all loads the scene asks for.
 /// @throws RefusedError  they cannot; the message names the force they need.
 void require_loads(const ReducedModel& model, const SceneDescription& scene);

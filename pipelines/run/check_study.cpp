@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <ostream>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "contact/dense.hpp"
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/preload_shape.hpp"
+#include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/draw_scene.hpp"
+#include "pipelines/run/questions.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
@@ -97,16 +97,6 @@ void describe(const std::vector<EffectRecord>& effects, std::ostream& out) {
   }
 }
 
-/// Natural frequencies with every contact point stuck [Hz], ascending.
-Eigen::VectorXd stuck_frequencies(const ReducedModel& model) {
-  const solver::Scene scene = limit_scene(model);
-  Eigen::MatrixXd K = model.frequency.array().square().matrix().asDiagonal();
-  if (scene.contact) K += scene.contact->stuck_stiffness();
-  const auto squares = contact::symmetric_eigenvalues(K);
-  if (!squares) throw std::runtime_error("the eigenvalues of the stuck structure do not converge");
-  return squares->cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-}
-
 void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {
   Eigen::VectorXd free = modal.frequency_hz;
   std::sort(free.begin(), free.end());
@@ -156,34 +146,57 @@ ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
   return model;
 }
 
+template <typename... What>
+void ask(CheckResult& result, const What&... what) {
+  for (std::string& question : questions(what...)) result.warnings.push_back(std::move(question));
+}
+
+void check_meshed(const SceneDescription& scene, const std::filesystem::path& picture,
+                  CheckResult& result, std::ostream& out) {
+  const TemporaryFolder folder;
+  const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+  if (interrupt_requested()) throw InterruptedError("interrupted");
+  check_names(mesh, scene);
+  out << describe_mesh(mesh, scene.material.density) << '\n';
+  for (const std::string& line : describe_places(mesh, scene)) out << line << '\n';
+  for (std::string& warning : mesh::shape_warnings(mesh))
+    result.warnings.push_back(std::move(warning));
+  if (scene.clamped.empty() && scene.response) {
+    result.warnings.emplace_back(
+        "nothing is clamped: the structure has rigid-body modes, which only a contact that "
+        "sticks holds");
+  }
+  ask(result, scene, mesh);
+  if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
+  if (!picture.empty()) {
+    const std::string failure = draw_scene(mesh, scene, picture);
+    if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
+  }
+  result.forecast = forecast_of(mesh, scene);
+  describe(result.forecast, scene.response.has_value(), out);
+  result.effects = effects_of(scene, nullptr);
+}
+
 }  // namespace
 
-CheckResult check_study(const SceneDescription& scene, std::ostream& out) {
+CheckResult check_study(const SceneDescription& scene, const std::filesystem::path& picture,
+                        std::ostream& out) {
   if (scene.response) require_response(scene);
   CheckResult result;
   result.warnings = scene_warnings(scene);
+  ask(result, scene);
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    if (!picture.empty()) {
+      throw SceneError(
+          fmt::format("--plot: a scene of kind \"{}\" has no mesh to draw", scene.kind));
+    }
     const ReducedModel model = check_modal(*modal, scene, out);
+    ask(result, scene, model);
     result.effects = effects_of(scene, &model);
     result.forecast.memory_gb = memory_without_a_mesh;
     add_curves(scene, &model, result.forecast);
   } else {
-    const TemporaryFolder folder;
-    const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
-    if (interrupt_requested()) throw InterruptedError("interrupted");
-    check_names(mesh, scene);
-    out << describe_mesh(mesh, scene.material.density) << '\n';
-    for (std::string& warning : mesh::shape_warnings(mesh))
-      result.warnings.push_back(std::move(warning));
-    if (scene.clamped.empty() && scene.response) {
-      result.warnings.emplace_back(
-          "nothing is clamped: the structure has rigid-body modes, which only a contact that "
-          "sticks holds");
-    }
-    if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
-    result.forecast = forecast_of(mesh, scene);
-    describe(result.forecast, scene.response.has_value(), out);
-    result.effects = effects_of(scene, nullptr);
+    check_meshed(scene, picture, result, out);
   }
   for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
   describe(result.effects, out);

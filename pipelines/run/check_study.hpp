@@ -2,6 +2,7 @@
 /// The command `check`: what would be simulated and what it would cost.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -29,7 +30,11 @@ struct CheckResult {
   std::vector<std::string> warnings;
 };
 
-/// `check`: what would be simulated and what it would cost; solves nothing.
-CheckResult check_study(const SceneDescription& scene, std::ostream& out);
+/// `check`: what would be simulated and what it would cost, what of the mesh is used, and what is unusual; solves
+/// nothing.
+/// @param picture  of the blade with its places marked is drawn into this file; empty: none.
+/// @throws SceneError  the scene cannot be used, or has no mesh to draw.
+CheckResult check_study(const SceneDescription& scene, const std::filesystem::path& picture,
+                        std::ostream& out);
 
 }  // namespace microslip::pipelines

@@ -532,6 +532,25 @@ TEST_F(Program, AnUnknownNameIsToldByFileAndLine) {
       1, {"--set supports.clamped", "nothing is named \"foot\""});
 }
 
+TEST_F(Program, APictureOfTheBladeShowsItsPlaces) {
+  write(path("blade.toml"),
+        "[model]\nkind = \"blade\"\nelement_size = \"15 mm\"\n[material]\nyoungs_modulus = 210\n"
+        "poissons_ratio = 0.3\ndensity = 7800\n[supports]\nclamped = [\"root\"]\n[excitation]\n"
+        "forces = [ { at = [0, 0.149, 0], direction = [1, 0, 0], amplitude = 1 } ]\n");
+  const Outcome drawn = run("check blade.toml --plot blade.png", with_plots);
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("point (0, 0.149, 0): the nearest node"), std::string::npos)
+      << drawn.out;
+  EXPECT_NE(drawn.out.find("warning: material.youngs_modulus: Young's modulus is 210 Pa"),
+            std::string::npos)
+      << drawn.out;
+  EXPECT_EQ(drawn.out.find("--plot"), std::string::npos) << drawn.out;
+  EXPECT_EQ(content_of(path("blade.png")).substr(1, 3), "PNG");
+  expect("check blade.toml --plot blade.gif", 1, {"--plot blade.gif", ".png, .svg or .pdf"});
+  write(path("scene.toml"), scene_text);
+  expect("check scene.toml --plot modal.png", 1, {"--plot", "\"modal\"", "no mesh"});
+}
+
 TEST_F(Program, TwoRunsDoNotShareAFolder) {
   write(path("scene.toml"), scene_text);
   ASSERT_EQ(run("run scene.toml -o out").code, 0);

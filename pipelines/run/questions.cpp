@@ -1,0 +1,383 @@
+#include "pipelines/run/questions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "mesh/surface.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/named_points.hpp"
+#include "pipelines/model/scene_places.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/curve_request.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double percent = 100.0;
+constexpr double to_degrees = 180.0 / std::numbers::pi;
+
+/// What is known at a stage; nullptr: later.
+struct Facts {
+  const SceneDescription& scene;
+  const mesh::Mesh* mesh = nullptr;
+  const ReducedModel* model = nullptr;
+  const std::vector<CurveResult>* curves = nullptr;
+};
+
+struct Finding {
+  std::string key;
+  double value = 0.0;   ///< in the unit of its row
+  std::string where{};  ///< what the value is of, in words after it
+};
+using Findings = std::vector<Finding>;
+
+enum class Stage : std::uint8_t { scene, mesh, modes, response };
+
+/// One question: asked where a finding is below `low` or above `high`.
+struct Question {
+  Stage stage;
+  const char* quantity;
+  const char* unit;
+  double low, high;   ///< usual
+  const char* usual;  ///< examples, "": none
+  const char* remedy;
+  Findings (*measure)(const Facts&);
+};
+
+bool is_meshed(const SceneDescription& scene) {
+  return !std::holds_alternative<ModalModel>(scene.model);
+}
+
+// What a scene says ------------------------------------------------------------------------------
+
+template <double fem::Material::*property>
+Findings of_material(const Facts& facts, const char* key) {
+  if (!is_meshed(facts.scene)) return {};
+  return {{key, facts.scene.material.*property}};
+}
+
+Findings youngs_modulus(const Facts& facts) {
+  return of_material<&fem::Material::youngs_modulus>(facts, "material.youngs_modulus");
+}
+Findings poissons_ratio(const Facts& facts) {
+  return of_material<&fem::Material::poissons_ratio>(facts, "material.poissons_ratio");
+}
+Findings density(const Facts& facts) {
+  return of_material<&fem::Material::density>(facts, "material.density");
+}
+
+Findings element_size(const Facts& facts) {
+  const auto* blade = std::get_if<BladeModel>(&facts.scene.model);
+  if (blade == nullptr) return {};
+  const mesh::BladeGeometry& g = blade->geometry;
+  const double height = g.root_height + g.platform_height + g.span;
+  return {{"model.element_size", percent * blade->element_size / height,
+           fmt::format("({:g} m)", blade->element_size)}};
+}
+
+/// Of every contact whose coefficient is a number or a law; of all points of a scene without a mesh the largest.
+Findings friction_coefficient(const Facts& facts) {
+  Findings findings;
+  for (const ContactDescription& contact : facts.scene.contacts) {
+    const auto* number = std::get_if<double>(&contact.friction.value);
+    if (number != nullptr) findings.push_back({contact.key + ".friction_coefficient", *number});
+  }
+  const auto* modal = std::get_if<ModalModel>(&facts.scene.model);
+  if (modal == nullptr || modal->points.empty()) return findings;
+  const auto largest =
+      std::ranges::max_element(modal->points, {}, &contact::PointParameters::friction_coefficient);
+  const bool listed = facts.scene.kind == "modal" || facts.scene.kind == "chain";
+  const char* key = facts.scene.kind == "modal" ? "modal.points" : "contact.points";
+  findings.push_back(
+      {listed ? key : "contact.friction_coefficient", largest->friction_coefficient});
+  return findings;
+}
+
+/// The largest of given ratios. α and β make some ratios large by nature: of them the smallest.
+Findings damping_ratio(const Facts& facts) {
+  if (facts.scene.kind == "modal") {
+    const auto& modal = std::get<ModalModel>(facts.scene.model);
+    return {{"modal.damping_ratio", percent * modal.damping_ratio.maxCoeff()}};
+  }
+  if (const auto* modal = std::get_if<ModalModel>(&facts.scene.model)) {
+    return {{"modes.damping_ratio", percent * modal->damping_ratio.minCoeff()}};
+  }
+  const auto* ratios = std::get_if<std::vector<double>>(&facts.scene.modes.damping);
+  if (ratios == nullptr || ratios->empty()) return {};
+  return {{"modes.damping_ratio", percent * *std::ranges::max_element(*ratios)}};
+}
+
+/// How often each load stands in the list of preloads or scales.
+Findings repeated_preload(const Facts& facts) {
+  Findings findings;
+  if (!facts.scene.response) return findings;
+  std::vector<CurveRequest> loads = curve_requests(facts.scene);
+  while (!loads.empty()) {
+    const CurveRequest first = loads.front();
+    const auto n = std::erase_if(
+        loads, [&](const CurveRequest& other) { return other.preload == first.preload; });
+    findings.push_back(
+        {facts.scene.response->preload.empty() ? "response.preload_scale" : "response.preload",
+         static_cast<double>(n), fmt::format("(curve {})", first.name)});
+  }
+  return findings;
+}
+
+// What it says of its mesh -----------------------------------------------------------------------
+
+double longest_side(const mesh::Mesh& mesh) { return (mesh.upper() - mesh.lower()).maxCoeff(); }
+
+Findings size(const Facts& facts) {
+  const double mass = facts.scene.material.density * facts.mesh->volume();
+  const bool blade = std::holds_alternative<BladeModel>(facts.scene.model);
+  return {{blade ? "model.span" : "model.length_unit", longest_side(*facts.mesh),
+           fmt::format("and the mass {:.3g} kg", mass)}};
+}
+
+/// Share of the nodes of every place in a role that are held.
+Findings held_share(const Facts& facts, PlaceRole role, const char* key) {
+  Findings findings;
+  std::set<Eigen::Index> held;
+  const std::vector<ScenePlace> places = scene_places(*facts.mesh, facts.scene);
+  for (const ScenePlace& place : places) {
+    if (place.role == PlaceRole::clamped) held.insert(place.nodes.begin(), place.nodes.end());
+  }
+  for (const ScenePlace& place : places) {
+    if (place.role != role) continue;
+    const auto n =
+        std::ranges::count_if(place.nodes, [&](Eigen::Index node) { return held.contains(node); });
+    findings.push_back({key,
+                        percent * static_cast<double>(n) / static_cast<double>(place.nodes.size()),
+                        fmt::format("of \"{}\"", place.name)});
+  }
+  return findings;
+}
+
+Findings held_contact(const Facts& facts) {
+  return held_share(facts, PlaceRole::contact, "supports.clamped");
+}
+Findings held_force(const Facts& facts) {
+  return held_share(facts, PlaceRole::force, "excitation.forces");
+}
+Findings held_output(const Facts& facts) {
+  return held_share(facts, PlaceRole::output, "response.output");
+}
+
+/// Angle between the slip direction as given and the face.
+Findings slip_angle(const Facts& facts) {
+  Findings findings;
+  for (const ContactDescription& contact : facts.scene.contacts) {
+    const Eigen::Vector3d q = contact_frame(*facts.mesh, contact).row(1);
+    const double sine = std::min(1.0, std::abs(q.dot(contact.slip_direction)));
+    findings.push_back({contact.key + ".slip_direction", to_degrees * std::asin(sine),
+                        fmt::format("against \"{}\"", contact.surface)});
+  }
+  return findings;
+}
+
+Findings pressure(const Facts& facts) {
+  Findings findings;
+  for (std::size_t i = 0; i < facts.scene.contacts.size(); ++i) {
+    for (const PatchPreload& preload : patch_preloads(*facts.mesh, facts.scene, i)) {
+      findings.push_back(
+          {"response.preload", preload.pressure,
+           fmt::format("on \"{}\" under {}", facts.scene.contacts[i].surface, preload.text)});
+    }
+  }
+  return findings;
+}
+
+Findings distance_of_points(const Facts& facts) {
+  Findings findings;
+  for (const LocatedPoint& point : locate_points(*facts.mesh, facts.scene)) {
+    findings.push_back({point.place, percent * point.distance / point.element_size,
+                        fmt::format("({:.3g} m) from \"{}\"", point.distance, point.name)});
+  }
+  return findings;
+}
+
+// What the modes say -----------------------------------------------------------------------------
+
+/// Natural frequencies of the two linear limits [Hz], ascending, as many of each.
+struct LimitFrequencies {
+  Eigen::VectorXd free, stuck;
+  double last = 0.0;  ///< of the modes, without static shapes
+};
+
+LimitFrequencies limit_frequencies(const ReducedModel& model) {
+  LimitFrequencies limits{.free = model.frequency / (2.0 * std::numbers::pi),
+                          .stuck = stuck_frequencies(model)};
+  limits.last = limits.free.head(limits.free.size() - model.n_attachment).maxCoeff();
+  std::ranges::sort(limits.free);
+  return limits;
+}
+
+std::pair<double, double> range_of(const SceneDescription& scene) {
+  return std::minmax({scene.response->frequency_begin_hz, scene.response->frequency_end_hz});
+}
+
+/// Given modes may be all there are: of them the beginning of the range counts, else its end.
+Findings range_beyond_modes(const Facts& facts) {
+  if (!facts.scene.response) return {};
+  const double last = limit_frequencies(*facts.model).last;
+  const auto [low, high] = range_of(facts.scene);
+  if (!(last > 0.0)) return {};
+  return {{"response.frequency", percent * (is_meshed(facts.scene) ? high : low) / last,
+           fmt::format("of the last natural frequency, {:.6g} Hz", last)}};
+}
+
+/// Modes that have the range, or a part of it, between their free and their stuck frequency.
+Findings modes_in_range(const Facts& facts) {
+  if (!facts.scene.response) return {};
+  const auto [low, high] = range_of(facts.scene);
+  if (low == high) return {};  // one point, not a search for a peak
+  const LimitFrequencies limits = limit_frequencies(*facts.model);
+  constexpr double margin = 0.02;  // damping and excitation move a peak a little
+  int n = 0;
+  Eigen::Index nearest = 0;
+  double distance = unlimited;
+  for (Eigen::Index i = 0; i < limits.free.size(); ++i) {
+    const double from = (1.0 - margin) * limits.free[i];
+    const double to = (1.0 + margin) * std::max(limits.free[i], limits.stuck[i]);
+    if (from <= high && to >= low) ++n;
+    const double away = std::max(from - high, low - to);
+    if (away < distance) nearest = i;
+    distance = std::min(distance, away);
+  }
+  return {{"response.frequency", static_cast<double>(n),
+           fmt::format("between {:g} and {:g} Hz; the nearest has {:.6g} Hz free, {:.6g} Hz stuck",
+                       low, high, limits.free[nearest], limits.stuck[nearest])}};
+}
+
+/// Given modes move as they move; the axes of a face are chosen in the scene.
+Findings motion_along_r(const Facts& facts) {
+  if (facts.scene.contacts.empty()) return {};
+  return {{facts.scene.contacts.front().key + ".slip_direction",
+           percent * facts.model->effects.motion_ratio, "of that along p"}};
+}
+
+// What the curves say ----------------------------------------------------------------------------
+
+Findings amplitude(const Facts& facts) {
+  Finding largest{"excitation.forces", 0.0};
+  for (const CurveResult& result : *facts.curves) {
+    for (const solver::ResponsePoint& point : result.curve.points) {
+      const double share = percent * point.amplitude / longest_side(*facts.mesh);
+      if (share <= largest.value) continue;
+      largest.value = share;
+      largest.where = fmt::format("of the longest side of the mesh ({:.3g} m, curve {})",
+                                  point.amplitude, result.name);
+    }
+  }
+  return {largest};
+}
+
+constexpr std::array table{
+    Question{Stage::scene, "Young's modulus", "Pa", 1e9, 1.3e12,
+             "plastics 3e9, titanium 1.1e11, steel 2.1e11", "is it in MPa or GPa? give the unit",
+             youngs_modulus},
+    Question{Stage::scene, "Poisson's ratio", "", 0.0, 0.495, "metals 0.3",
+             "is it another property?", poissons_ratio},
+    Question{Stage::scene, "the density", "kg/m^3", 300.0, 25000.0,
+             "composites 1600, titanium 4400, steel 7800",
+             "is it in g/cm^3 or t/mm^3? give the unit", density},
+    Question{Stage::scene, "the element size", "% of the blade's height", 0.1, 25.0, "",
+             "is it in millimetres? give the unit", element_size},
+    Question{Stage::scene, "the friction coefficient", "", 0.0, 2.0, "metals 0.1 to 1",
+             "is it in percent? give it so, \"40 %\"", friction_coefficient},
+    Question{Stage::scene, "the damping ratio", "%", 0.0, 20.0, "blades 0.01 to 2",
+             "is it in percent already? then write \"0.2 %\"; is it a quality factor?",
+             damping_ratio},
+    Question{Stage::scene, "a load is given", "×", 1.0, 1.0, "", "each makes the same curve",
+             repeated_preload},
+    Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 6.0, "blades 0.02 to 3",
+             "is the file in another unit than length_unit says?", size},
+    Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 50.0, "",
+             "what is held does not rub", held_contact},
+    Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 99.0, "",
+             "a force on what is held moves nothing", held_force},
+    Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 99.0, "",
+             "what is held does not move", held_output},
+    Question{Stage::mesh, "the slip direction rises", "degrees", 0.0, 60.0, "",
+             "it is nearly the normal, and p is the little of it that lies in the face",
+             slip_angle},
+    Question{Stage::mesh, "the mean pressure", "Pa", 0.0, 3e9, "yield of steels 3e8 to 2e9",
+             "is the preload in newtons, the mesh in its unit?", pressure},
+    Question{Stage::mesh, "the nearest node is", "% of an element", 0.0, 100.0, "",
+             "is the point on the body, and in the axes of the mesh?", distance_of_points},
+    Question{Stage::modes, "the frequency range reaches", "%", 0.0, 150.0, "",
+             "modes beyond the last are left out; raise modes.count or lower the range",
+             range_beyond_modes},
+    Question{Stage::modes, "the number of modes", "", 1.0, unlimited, "",
+             "the curve has no peak of theirs; is the range the right one?", modes_in_range},
+    Question{Stage::modes, "motion along r is", "%", 0.0, 200.0, "",
+             "does the face slide along r rather? turn the slip direction", motion_along_r},
+    Question{Stage::response, "the largest amplitude is", "%", 0.0, 2.0, "",
+             "vibrations are taken as small; are force, damping and units right?", amplitude},
+};
+
+std::string usual_text(const Question& question) {
+  std::string text = question.low == question.high ? fmt::format("{:g}", question.high)
+                     : question.high == unlimited  ? fmt::format("at least {:g}", question.low)
+                     : question.low == 0.0
+                         ? fmt::format("at most {:g}", question.high)
+                         : fmt::format("{:g} to {:g}", question.low, question.high);
+  if (*question.unit != 0) text += fmt::format(" {}", question.unit);
+  if (*question.usual != 0) text += fmt::format(" ({})", question.usual);
+  return text;
+}
+
+/// "is" stands between a quantity and its value unless the quantity brings its verb.
+std::string sentence(const Question& question, const Finding& finding) {
+  const std::string_view quantity = question.quantity;
+  const bool has_verb = quantity.ends_with("is") || quantity.ends_with("given") ||
+                        quantity.ends_with("rises") || quantity.ends_with("reaches");
+  std::string text =
+      fmt::format("{}: {} {}{:.4g}", finding.key, quantity, has_verb ? "" : "is ", finding.value);
+  if (*question.unit != 0) text += fmt::format(" {}", question.unit);
+  if (!finding.where.empty()) text += " " + finding.where;
+  return text + fmt::format("; usual is {}: {}", usual_text(question), question.remedy);
+}
+
+std::vector<std::string> asked(Stage stage, const Facts& facts) {
+  std::vector<std::string> sentences;
+  for (const Question& question : table) {
+    if (question.stage != stage) continue;
+    for (const Finding& finding : question.measure(facts)) {
+      const bool usual = finding.value >= question.low && finding.value <= question.high;
+      if (!usual) sentences.push_back(sentence(question, finding));
+    }
+  }
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> questions(const SceneDescription& scene) {
+  return asked(Stage::scene, {.scene = scene});
+}
+
+std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh) {
+  return asked(Stage::mesh, {.scene = scene, .mesh = &mesh});
+}
+
+std::vector<std::string> questions(const SceneDescription& scene, const ReducedModel& model) {
+  return asked(Stage::modes, {.scene = scene, .model = &model});
+}
+
+std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh,
+                                   const std::vector<CurveResult>& curves) {
+  return asked(Stage::response, {.scene = scene, .mesh = &mesh, .curves = &curves});
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,35 @@
+/// @file
+/// A second pair of eyes: what no blade has is questioned, never refused. Every question is a row of the table in
+/// questions.cpp: a quantity, what is usual, the key that says it, and what may have gone wrong.
+///
+/// A question is one line: "material.youngs_modulus: Young's modulus is 210 Pa; usual is 1e+09 to 1e+12 Pa (…): …".
+/// Scenes without a mesh may be in any units: of them only what has no unit is questioned.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// What a scene says by itself.
+[[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene);
+
+/// What it says of its mesh. @param mesh  that has all names of the scene.
+[[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
+                                                 const mesh::Mesh& mesh);
+
+/// What the modes say of the frequency range and of the contact. @param model  with its effects.
+[[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
+                                                 const ReducedModel& model);
+
+/// What the curves say.
+[[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
+                                                 const mesh::Mesh& mesh,
+                                                 const std::vector<CurveResult>& curves);
+
+}  // namespace microslip::pipelines

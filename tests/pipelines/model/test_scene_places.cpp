@@ -1,0 +1,109 @@
+#include "pipelines/model/scene_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "mesh/outer_faces.hpp"
+#include "pipelines/model/named_points.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "tests/support/box_mesh.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+const char* const text = R"(
+[model]
+kind = "mesh"
+file = "box.msh"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["z0"]
+[[contact]]
+surface = "x1"
+slip_direction = [0, 0, 1]
+friction_coefficient = 0.3
+normal_stiffness = 1e10
+tangential_stiffness = 1e10
+[[contact]]
+surface = "y1"
+slip_direction = [0, 0, 1]
+friction_coefficient = 0.3
+normal_stiffness = 1e10
+tangential_stiffness = 1e10
+[excitation]
+forces = [ { at = "corner", direction = [1, 0, 0], amplitude = 1 } ]
+[response]
+output = { at = [0, 0, 0.4], direction = [0, 1, 0] }
+frequency = [100, 200]
+preload = ["free", 1200, -600, { gap = 2e-6 }, "stuck"]
+)";
+
+/// 0.1 x 0.2 x 0.4 m: x1 has 0.08 m², y1 0.04 m².
+mesh::Mesh box(const SceneDescription& scene) {
+  mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, {{0.1, 0.2, 0.4}, {1, 2, 4}, {}});
+  name_points(mesh, scene);
+  return mesh;
+}
+
+TEST(ScenePlaces, PreloadIsToldAsPressureAndAsGap) {
+  const SceneDescription scene = parse_scene(text, "box.toml", "/", {});
+  for (const std::size_t contact : {0U, 1U}) {  // loads are shared by area: one pressure, one gap
+    const auto preloads = patch_preloads(box(scene), scene, contact);
+    ASSERT_EQ(preloads.size(), 3U);
+    EXPECT_NEAR(preloads[0].pressure, 1200.0 / 0.12, 1e-9);
+    EXPECT_NEAR(preloads[1].gap, 600.0 / (1e10 * 0.12), 1e-20);
+    EXPECT_EQ(preloads[2].gap, 2e-6);
+  }
+  const SceneDescription in_series =
+      parse_scene(text, "box.toml", "/", {"modes.residual=stiffness"});
+  EXPECT_TRUE(patch_preloads(box(in_series), in_series, 0)[1].gap_needs_modes);
+}
+
+TEST(ScenePlaces, EachHasALineWithNodesAreaAndCentre) {
+  const SceneDescription scene = parse_scene(text, "box.toml", "/", {});
+  const std::vector<std::string> lines = describe_places(box(scene), scene);
+  const std::vector<std::string> expected{
+      "clamped z0: 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m",
+      "force corner: along (1, 0, 0), 1 node at (0.1, 0.2, 0.4) m",
+      "output (0, 0, 0.4): along (0, 1, 0), 1 node at (0, 0, 0.4) m",
+      "contact x1: 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m, flat to 0 m",
+      "  p (0, 0, 1) slip, q (1, 0, 0) out of the body, r (0, 1, 0)",
+      "  preload 1200 N: 1e+04 Pa; -600 N: a gap of 5e-07 m; a gap of 2e-06 m",
+      "contact y1: 10 nodes, 0.04 m^2 at (0.05, 0.2, 0.2) m, flat to 0 m",
+      "  p (0, 0, 1) slip, q (0, 1, 0) out of the body, r (-1, 0, 0)",
+      "  preload 1200 N: 1e+04 Pa; -600 N: a gap of 5e-07 m; a gap of 2e-06 m",
+      "point (0, 0, 0.4): the nearest node, at (0, 0, 0.4) m, is 0 m away"};
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(OuterFaces, AreTheSkinOfTheMesh) {
+  const SceneDescription scene = parse_scene(text, "box.toml", "/", {});
+  EXPECT_EQ(mesh::outer_faces(box(scene)).size(), 2U * (2 + 4 + 8)) << "cells on the six sides";
+  const mesh::Mesh tetrahedra =
+      test::box_mesh(mesh::ElementType::tet10, {{1, 1, 1}, {1, 1, 1}, {}});
+  const auto faces = mesh::outer_faces(tetrahedra);
+  EXPECT_EQ(faces.size(), 12U);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of outward areas: they close
+  double volume = 0.0;
+  for (const auto& face : faces) {
+    EXPECT_EQ(face[3], -1);
+    const Eigen::Vector3d a = tetrahedra.nodes().row(face[0]);
+    const Eigen::Vector3d b = tetrahedra.nodes().row(face[1]);
+    const Eigen::Vector3d c = tetrahedra.nodes().row(face[2]);
+    const Eigen::Vector3d area = 0.5 * (b - a).cross(c - a);
+    sum += area;
+    volume += area.dot(a) / 3.0;
+  }
+  EXPECT_NEAR(sum.norm(), 0.0, 1e-15);
+  EXPECT_NEAR(volume, 1.0, 1e-14) << "outward";
+}
+
+}  // namespace
+}  // namespace microslip::pipelines

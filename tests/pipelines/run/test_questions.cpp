@@ -1,0 +1,279 @@
+/// Every question is asked of a scene that was broken for it, and none of a sensible one.
+#include "pipelines/run/questions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/model_family.hpp"
+#include "pipelines/model/named_points.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/temporary_folder.hpp"
+#include "tests/support/box_mesh.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// One question, of this beginning and with these words.
+void expect_question(const Lines& asked, const std::string& begin, const Lines& words) {
+  ASSERT_EQ(asked.size(), 1U) << fmt::format("{}", fmt::join(asked, "\n"));
+  EXPECT_TRUE(asked.front().starts_with(begin)) << asked.front();
+  for (const std::string& word : words) {
+    EXPECT_NE(asked.front().find(word), std::string::npos) << word << " in: " << asked.front();
+  }
+  EXPECT_NE(asked.front().find("usual is"), std::string::npos) << asked.front();
+  EXPECT_EQ(asked.front().find('\n'), std::string::npos) << "one line";
+}
+
+void expect_none(const Lines& asked) { EXPECT_EQ(asked, Lines{}); }
+
+// Scenes as they are, of every kind --------------------------------------------------------------
+
+class OfAScene : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(OfAScene, NothingIsAsked) {
+  Lines overrides;
+  SceneDescription scene = read_scene(GetParam(), overrides);
+  if (scene.kind == "blade") {
+    scene = read_scene(GetParam(), {"model.element_size=10 mm"});  // seconds instead of a minute
+  }
+  expect_none(questions(scene));
+  if (std::holds_alternative<ModalModel>(scene.model)) {
+    ReducedModel model = reduced_model(scene);
+    model.effects = contact_effects(model, scene);
+    expect_none(questions(scene, model));
+    return;
+  }
+  const TemporaryFolder folder;
+  const SolvedStructure structure = solved_structure(scene, folder.path() / "mesh.msh");
+  expect_none(questions(scene, structure.mesh));
+  Lines warnings;
+  expect_none(questions(scene, model_of(scene, &structure, warnings)));
+}
+
+std::vector<std::filesystem::path> scenes() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(MICROSLIP_SCENES)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(Questions, OfAScene, testing::ValuesIn(scenes()),
+                         [](const auto& file) { return file.param.stem().string(); });
+
+// A broken one each ------------------------------------------------------------------------------
+
+const std::string blade = std::string(MICROSLIP_SCENES) + "/blade_to_ground.toml";
+const std::string chain = std::string(MICROSLIP_SCENES) + "/chain_2dof.toml";
+
+Lines of_blade(const std::string& assignment) { return questions(read_scene(blade, {assignment})); }
+Lines of_chain(const std::string& assignment) { return questions(read_scene(chain, {assignment})); }
+
+TEST(Questions, AskForTheMaterial) {
+  expect_question(of_blade("material.youngs_modulus=210"), "material.youngs_modulus:", {"210 Pa"});
+  expect_question(of_blade("material.density=7.8e-9"), "material.density:", {"7.8e-09"});
+  expect_question(of_blade("material.poissons_ratio=-0.3"), "material.poissons_ratio:", {"-0.3"});
+}
+
+TEST(Questions, TakeMaterialsOfBladesAsTheyAre) {
+  struct Named {
+    double modulus, ratio, density;
+  };
+  for (const Named& material :  // titanium, nickel alloy, aluminium, carbon fibre, glass fibre,
+                                // TiAl, alumina
+       {Named{1.14e11, 0.34, 4430}, Named{2.0e11, 0.29, 8200}, Named{7e10, 0.33, 2700},
+        Named{1.4e11, 0.05, 1580}, Named{4e10, 0.28, 1900}, Named{1.6e11, 0.24, 3900},
+        Named{3.9e11, 0.22, 3950}, Named{2.5e9, 0.38, 1040}}) {
+    expect_none(
+        questions(read_scene(blade, {fmt::format("material.youngs_modulus={}", material.modulus),
+                                     fmt::format("material.poissons_ratio={}", material.ratio),
+                                     fmt::format("material.density={}", material.density)})));
+  }
+}
+
+TEST(Questions, AskForSizeFrictionDampingAndLoads) {
+  expect_question(of_blade("model.element_size=4 m"), "model.element_size:", {"2683 %", "4 m"});
+  expect_question(of_blade("contact.friction_coefficient=40"),
+                  "contact.friction_coefficient:", {"is 40"});
+  expect_question(
+      of_blade("contact.friction_coefficient={law=\"hyperbolic\", static=40, rate=\"1 s/m\"}"),
+      "contact.friction_coefficient:", {"is 40"});
+  expect_question(of_blade("modes.damping_ratio=2"), "modes.damping_ratio:", {"200 %"});
+  expect_question(of_blade("response.preload=[100, \"free\", 100, 200]"),
+                  "response.preload:", {"2 ×", "preload_100"});
+  expect_question(of_chain("contact.points[0].friction_coefficient=40"),
+                  "contact.points:", {"is 40"});
+  expect_question(of_chain("modes.damping_ratio=200 %"), "modes.damping_ratio:", {"200 %"});
+}
+
+TEST(Questions, KeepDimensionlessScenesOutOfUnits) {
+  const std::string text = R"(
+[model]
+kind = "modal"
+[modal]
+angular_frequency = [1.0]
+damping_ratio = 0.01
+force_sine = [1.0]
+output = [1.0]
+points = [ { weight = 1, tangential_stiffness = 1, normal_stiffness = 0, friction_coefficient = 1, preload = 1, phi_u_1 = 1 } ]
+[response]
+frequency = [0.1, 0.3]
+)";
+  const auto all = [&](const Lines& overrides) {
+    const SceneDescription scene = parse_scene(text, "modal.toml", "/", overrides);
+    ReducedModel model = reduced_model(scene);
+    model.effects = contact_effects(model, scene);
+    Lines asked = questions(scene);
+    for (std::string& question : questions(scene, model)) asked.push_back(std::move(question));
+    return asked;
+  };
+  expect_none(all({}));
+  expect_question(all({"modal.damping_ratio=2"}), "modal.damping_ratio:", {"200 %"});
+  expect_question(all({"modal.points[0].friction_coefficient=40"}), "modal.points:", {"is 40"});
+  expect_question(all({"response.preload_scale=[1, 1]"}), "response.preload_scale:", {"2 ×"});
+}
+
+// With a mesh ------------------------------------------------------------------------------------
+
+const char* const box_text = R"(
+[model]
+kind = "mesh"
+file = "box.msh"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 7800
+[points]
+P = [0.01, 0.02, 0.1]
+[supports]
+clamped = ["z0"]
+[modes]
+count = 3
+[contact]
+surface = "x1"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.3
+normal_stiffness = 1e11
+tangential_stiffness = 1e11
+[excitation]
+forces = [ { at = "P", direction = [0, 1, 0], amplitude = "0.1 N" } ]
+[response]
+output = { at = "corner", direction = [0, 1, 0] }
+frequency = ["1600 Hz", "1700 Hz"]
+preload = [100]
+harmonics = 1
+)";
+
+SceneDescription box_scene(const Lines& overrides) {
+  return parse_scene(box_text, "box.toml", "/", overrides);
+}
+
+mesh::Mesh box(const SceneDescription& scene, double scale = 1.0) {
+  const Eigen::Vector3d size = scale * Eigen::Vector3d(0.01, 0.02, 0.1);
+  mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex20, {size, {1, 1, 4}, {}});
+  name_points(mesh, scene);
+  return mesh;
+}
+
+Lines of_box(const Lines& overrides, double scale = 1.0) {
+  const SceneDescription scene = box_scene(overrides);
+  return questions(scene, box(scene, scale));
+}
+
+TEST(Questions, TakeASmallCouponAsItIs) { expect_none(of_box({})); }
+
+TEST(Questions, AskForAMeshInAnotherUnit) {
+  expect_question(of_box({"points.P=[10, 20, 100]"}, 1000.0),
+                  "model.length_unit:", {"100 m", "mass 1.56e+08 kg"});
+  expect_question(of_box({"points.P=[1e-5, 2e-5, 1e-4]", "response.preload=[\"free\"]"}, 1e-3),
+                  "model.length_unit:", {"0.0001 m"});
+}
+
+TEST(Questions, AskForWhatIsHeld) {
+  expect_question(
+      of_box({R"(supports.clamped=["x1"])", "excitation.forces[0].at=y0", "response.output.at=y0"}),
+      "supports.clamped:", {"100 %", "\"x1\""});
+  expect_question(of_box({R"(supports.clamped=["z0"])", "excitation.forces[0].at=z0"}),
+                  "excitation.forces:", {"100 %", "\"z0\""});
+  expect_question(of_box({"response.output.at=z0"}), "response.output:", {"100 %", "\"z0\""});
+}
+
+TEST(Questions, AskForSlipAlongTheNormalPressureAndPoints) {
+  expect_question(of_box({"contact.slip_direction=[1, 0, 0.1]"}),
+                  "contact.slip_direction:", {"84.29 degrees"});
+  expect_question(of_box({"response.preload=[1e8]"}), "response.preload:", {"5e+10 Pa", "1e+08 N"});
+  expect_question(of_box({"points.P=[0.01, 0.02, 0.15]"}),
+                  "--set points.P=[0.01, 0.02, 0.15]: points.P:", {"0.05 m", "\"P\""});
+}
+
+/// The box with its modes solved.
+class OfModes : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const SceneDescription scene = box_scene({});
+    mesh::Mesh mesh = box(scene);
+    StructureModes modes = solve_structure(mesh, scene);
+    solved = new SolvedStructure{std::move(mesh), std::move(modes)};
+  }
+  static void TearDownTestSuite() { delete solved; }
+
+  static Lines asked(const Lines& overrides) {
+    const SceneDescription scene = box_scene(overrides);
+    Lines warnings;
+    return questions(scene, model_of(scene, solved, warnings));
+  }
+  static double frequency(Eigen::Index mode) {
+    return solved->modes.basis.frequency[mode] / (2.0 * 3.14159265358979);
+  }
+  static inline SolvedStructure* solved = nullptr;  // a suite is made and ended by hand
+};
+
+std::string range(double from, double to) {
+  return fmt::format("response.frequency=[{:.6g}, {:.6g}]", from, to);
+}
+
+TEST_F(OfModes, AskForARangeWithoutAMode) {
+  expect_none(asked({range(0.9 * frequency(0), 1.1 * frequency(0))}));
+  expect_question(asked({range(0.1 * frequency(0), 0.5 * frequency(0))}),
+                  "response.frequency:", {"number of modes is 0", "at least 1"});
+  expect_none(asked({range(0.5 * frequency(0), 0.5 * frequency(0))}));
+}
+
+TEST_F(OfModes, AskForARangeBeyondTheLastMode) {
+  expect_question(asked({range(0.9 * frequency(0), 3.0 * frequency(2))}),
+                  "response.frequency:", {"300 %", "last natural frequency", "modes.count"});
+}
+
+TEST_F(OfModes, AskForMotionAlongR) {  // the first mode bends along x, where the face approaches;
+                                       // the second along y
+  const auto lines =
+      asked({"contact.slip_direction=[0, 0, 1]", range(0.98 * frequency(1), 1.02 * frequency(1))});
+  expect_question(lines, "contact.slip_direction:", {"motion along r", "of that along p"});
+}
+
+TEST_F(OfModes, AskForLargeAmplitudes) {
+  const SceneDescription scene = box_scene({});
+  CurveResult result;
+  result.name = "free";
+  solver::ResponsePoint point;
+  point.amplitude = 1e-3;  // 1 % of 0.1 m
+  result.curve.points.push_back(point);
+  expect_none(questions(scene, solved->mesh, std::vector{result}));
+  result.curve.points.front().amplitude = 5e-3;
+  expect_question(questions(scene, solved->mesh, std::vector{result}),
+                  "excitation.forces:", {"5 %", "0.005 m", "free"});
+}
+
+}  // namespace
+}  // namespace microslip::pipelines
