@@ -96,19 +96,13 @@ CsvTable inline_points(const SectionReader& section, const toml::array& list) {
 }
 
 std::vector<std::string> known_columns(Eigen::Index n_modes) {
-  std::vector<std::string> names{"id",
-                                 "weight",
-                                 "tangential_stiffness",
-                                 "tangential_stiffness_r",
-                                 "normal_stiffness",
-                                 "friction_coefficient",
-                                 "preload",
-                                 "residual_p",
-                                 "residual_q",
-                                 "residual_r",
-                                 "p",
-                                 "r"};
-  for (const char* shape : {"phi_u_", "phi_v_", "phi_w_"}) {
+  std::vector<std::string> names;
+  for (const KeySpec& column : section_spec("modal.point").keys) {
+    if (!column.name.ends_with("_N")) {
+      names.emplace_back(column.name);
+      continue;
+    }
+    const std::string_view shape = column.name.substr(0, column.name.size() - 1);
     for (Eigen::Index i = 1; i <= n_modes; ++i) names.push_back(fmt::format("{}{}", shape, i));
   }
   return names;

@@ -155,7 +155,8 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
       continue;
     }
     text += '\n';
-    if (kind == "chain" && key.name == "points") add_table_keys(text, "contact.chain.point");
+    if (name == "modal" && key.name == "points") add_table_keys(text, "modal.point");
+    if (kind == "chain" && name == "contact") add_table_keys(text, "contact.chain.point");
     if (kind == "block" && key.name == "forces") add_table_keys(text, "force.block");
     text += fmt::format("{} = {}\n", key.name, value);
   }

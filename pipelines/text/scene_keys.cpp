@@ -343,9 +343,33 @@ constexpr std::array modal_keys{
     KeySpec{"attachment", integer, "", "0", 0, 1000, false,
             "so many of the modes, the last, are static shapes that stand for omitted modes"},
     KeySpec{"points", other, "", "[]", 0, 0, false,
-            "contact points: a CSV file, or a list of tables; residual_p, residual_q, residual_r "
-            "[m^3/N]: flexibility "
-            "of omitted modes in series with the stiffness of a point"},
+            "contact points: a CSV file, or a list of tables, with the columns"},
+};
+
+constexpr KeySpec point_column(std::string_view name, std::string_view unit,
+                               std::string_view meaning, bool optional = true) {
+  return {name, other, unit, "", 0, 0, false, meaning, optional};
+}
+
+constexpr std::array modal_point_keys{
+    point_column("id", "", "number of the point, for its reader"),
+    point_column("weight", "m^2", "area the point stands for; 1: the numbers of a point", false),
+    point_column("tangential_stiffness", "N/m^3", "k_u along p, per weight", false),
+    point_column("tangential_stiffness_r", "N/m^3", "k_w along r, per weight; else that along p"),
+    point_column("normal_stiffness", "N/m^3", "k_v, per weight; 0: constant load", false),
+    point_column("friction_coefficient", "1", "μ; 0: no friction", false),
+    point_column("preload", "Pa", "per weight; negative: a gap of -preload/normal_stiffness",
+                 false),
+    point_column("residual_p", "m^3/N",
+                 "flexibility of omitted modes along p, in series with the stiffness"),
+    point_column("residual_q", "m^3/N", "the same along q"),
+    point_column("residual_r", "m^3/N", "the same along r"),
+    point_column("p", "m", "position along p, for maps"),
+    point_column("r", "m", "position along r, for maps"),
+    point_column("phi_u_N", "1/kg^0.5", "mode N along p: phi_u_1, phi_u_2, … one per mode", false),
+    point_column("phi_v_N", "1/kg^0.5", "mode N along q, positive when it closes; else 0"),
+    point_column("phi_w_N", "1/kg^0.5",
+                 "mode N along r; else 0. Friction along r is simulated where one is not"),
 };
 
 constexpr std::array effect_keys{
@@ -363,7 +387,7 @@ constexpr std::array effect_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 36> sections{{
+constexpr std::array<SectionSpec, 37> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -380,6 +404,7 @@ constexpr std::array<SectionSpec, 36> sections{{
     {"response", response_keys},
     {"response.modal", modal_response_keys},
     {"modal", modal_keys},
+    {"modal.point", modal_point_keys},
     {"effects", effect_keys},
     {"model.bar", bar_model_keys},
     {"modes.bar", bar_mode_keys},

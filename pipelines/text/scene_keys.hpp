@@ -39,7 +39,8 @@ struct SectionSpec {
 };
 
 /// Keys of a section by the name of its table: "material"; "model.blade" and the like where a kind has
-/// keys of its own; "force", "output", "contact.chain.point" and their like the inline tables of that name.
+/// keys of its own; "force", "output", "contact.chain.point" and their like the inline tables of that name;
+/// "modal.point" the columns of contact points, where "phi_u_N" stands for one of every mode.
 /// @throws std::logic_error  no such section: a mistake of the program.
 [[nodiscard]] SectionSpec section_spec(std::string_view name);
 
