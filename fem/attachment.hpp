@@ -51,12 +51,19 @@ struct AttachmentFace {
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();  ///< as in AttachmentOptions
 };
 
+/// The shapes of one degree more, which choosing the degree has solved for anyway.
+struct RicherBasis {
+  ModalBasis basis;
+  Eigen::MatrixXd embedding;  ///< of the coordinates of the leaner basis, N_richer × N
+};
+
 /// Modes with attachment shapes behind them.
 struct AttachedBasis {
   ModalBasis basis;
-  int degree = 0;              ///< of the tractions
-  double missed_share = 0.0;   ///< s of that degree [-]; NaN where the degree was given
-  Eigen::Index n_dropped = 0;  ///< loads whose shapes depend on others
+  int degree = 0;                       ///< of the tractions
+  double missed_share = 0.0;            ///< s of that degree [-]; NaN where the degree was given
+  Eigen::Index n_dropped = 0;           ///< loads whose shapes depend on others
+  std::optional<RicherBasis> richer{};  ///< none where the degree was given
 };
 
 }  // namespace microslip::fem

@@ -85,8 +85,10 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     require_curves(model, scene);
     record.stage("curves");
     fem::use_one_blas_thread();
-    const std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
+    std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
     record.keep_harmonics(scene);
+    record.stage("accuracy");
+    tell_errors(model, scene, structure.get(), options.jobs, curves, record);
     if (structure) ask(record, scene, structure->mesh, curves);
     record.stage("maps");
     draw_maps(model, scene, curves, record);

@@ -5,6 +5,8 @@
 
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "solver/continuation.hpp"
 
 namespace microslip::solver {
@@ -15,7 +17,8 @@ struct RicherPeak {
   /// (amplitude − that of the curve) / amplitude; empty: the peak is not found from that of the curve, which is far
   /// from it then, or on another branch.
   std::optional<double> change;
-  int highest = 0;  ///< harmonic
+  int highest = 0;       ///< harmonic
+  double seconds = 0.0;  ///< that solving it took
 };
 
 /// @param scene    the same with a contact that takes `highest` harmonics.
@@ -26,5 +29,27 @@ struct RicherPeak {
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,
                                                     const ResponseCurve& curve, int highest);
+
+/// The same blade modelled otherwise: finer cells, other shapes, another mesh, friction along r.
+struct OtherModel {
+  const Scene& scene;
+  /// Its modal coordinates from those of the model at hand, N' × N; empty: the same modes.
+  Eigen::MatrixXd embedding{};
+  double frequency_factor = 1.0;  ///< of its resonance, about, over that of the model at hand
+};
+
+/// A peak of two models.
+struct PeakOfBoth {
+  double frequency = 0.0, amplitude = 0.0;              ///< of the curve [rad/s], [m]
+  double other_frequency = 0.0, other_amplitude = 0.0;  ///< solved for in the other model
+};
+
+/// The highest peak of a curve, or end of its range, solved for again in another model with the same harmonics.
+/// @param scene, range  of the curve.
+/// @return empty: the curve has no such point, or the other model has no peak near by.
+[[nodiscard]] std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene,
+                                                       const ContinuationOptions& range,
+                                                       const ResponseCurve& curve,
+                                                       const OtherModel& other);
 
 }  // namespace microslip::solver

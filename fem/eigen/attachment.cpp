@@ -118,8 +118,10 @@ AttachmentSet attachment_set(const ShapesOfDegree& solve, const AttachmentOption
     next.append(solve(set.degree + 1));
     const Eigen::MatrixXd flexibility = inner_products(next.loads, next.shapes);
     set.missed_share = missed_share(flexibility, set.shapes.loads.cols(), next.stiffness);
-    if (set.missed_share <= options.missed_tolerance || set.degree >= options.max_degree)
+    if (set.missed_share <= options.missed_tolerance || set.degree >= options.max_degree) {
+      set.richer = std::move(next);
       return set;
+    }
     set.shapes = std::move(next);
     ++set.degree;
   }

@@ -50,6 +50,7 @@ struct AttachmentSet {
   StaticShapes shapes;
   int degree = 0;
   double missed_share = 0.0;  ///< NaN where the degree was given
+  StaticShapes richer{};      ///< of one degree more; empty where the degree was given
 };
 
 /// All tractions up to the degree given, or up to the lowest that misses little enough.

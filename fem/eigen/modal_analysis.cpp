@@ -76,6 +76,8 @@ struct Structure::Implementation {
   [[nodiscard]] Eigen::MatrixXd elastic_modes(const ModalBasis& basis) const;
   [[nodiscard]] StaticShapes static_shapes(const Eigen::MatrixXd& forces,
                                            const Eigen::MatrixXd& kept) const;
+  [[nodiscard]] ModalBasis with_shapes(const ModalBasis& basis, const RitzShapes& ritz) const;
+  [[nodiscard]] Eigen::MatrixXd embedding(const ModalBasis& leaner, const ModalBasis& richer) const;
   void drop_held_rigid_modes();
   [[nodiscard]] ModalBasis basis_from(const CountedPairs& found, Eigen::Index n_modes) const;
   void check_residuals(const ModalBasis& basis, double tolerance) const;
@@ -181,6 +183,35 @@ Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& 
     u += without_known(factor->solve(rest));
   }
   return u;
+}
+
+/// Attachment shapes behind the free modes of a basis.
+ModalBasis Structure::Implementation::with_shapes(const ModalBasis& basis,
+                                                  const RitzShapes& ritz) const {
+  Eigen::MatrixXd shapes = system.dofs.to_mesh(ritz.shapes);
+  fix_signs(shapes);
+  const Eigen::Index n_free = basis.n_free();
+  ModalBasis result = basis;
+  result.n_attachment = shapes.cols();
+  result.frequency.resize(n_free + shapes.cols());
+  result.frequency << basis.frequency.head(n_free), ritz.frequency;
+  result.shapes.resize(basis.shapes.rows(), n_free + shapes.cols());
+  result.shapes << basis.shapes.leftCols(n_free), shapes;
+  return result;
+}
+
+/// Ψ_richerᵀ M Ψ_leaner, bases M-orthonormal with the same free modes.
+Eigen::MatrixXd Structure::Implementation::embedding(const ModalBasis& leaner,
+                                                     const ModalBasis& richer) const {
+  const Eigen::Index n_free = leaner.n_free();
+  const auto shapes = [&](const ModalBasis& basis) {
+    return Eigen::MatrixXd(system.dofs.to_local(basis.shapes.rightCols(basis.n_attachment)));
+  };
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(richer.frequency.size(), leaner.frequency.size());
+  T.topLeftCorner(n_free, n_free).setIdentity();
+  T.bottomRightCorner(richer.n_attachment, leaner.n_attachment) =
+      inner_products(shapes(richer), multiply(system.mass_matrix.get(), shapes(leaner)));
+  return T;
 }
 
 Eigen::MatrixXd Structure::Implementation::elastic_modes(const ModalBasis& basis) const {
@@ -305,18 +336,21 @@ AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<Attac
     return shapes;
   };
   AttachmentSet set = attachment_set(solve, options);
-  if (forces.cols() > 0) set.shapes.append(self.static_shapes(forces, kept));
+  StaticShapes of_forces;
+  if (forces.cols() > 0) of_forces = self.static_shapes(forces, kept);
   const Eigen::MatrixXd free = self.system.dofs.to_local(basis.shapes.leftCols(basis.n_free()));
-  const RitzShapes ritz = ritz_shapes(self.system, set.shapes, free);
-  Eigen::MatrixXd shapes = self.system.dofs.to_mesh(ritz.shapes);
-  fix_signs(shapes);
-  AttachedBasis result{basis, set.degree, set.missed_share,
-                       set.shapes.shapes.cols() - shapes.cols()};
-  result.basis.n_attachment = shapes.cols();
-  result.basis.frequency.resize(basis.n_free() + shapes.cols());
-  result.basis.frequency << basis.frequency.head(basis.n_free()), ritz.frequency;
-  result.basis.shapes.resize(basis.shapes.rows(), basis.n_free() + shapes.cols());
-  result.basis.shapes << basis.shapes.leftCols(basis.n_free()), shapes;
+  const auto attached = [&](StaticShapes& shapes) {
+    if (forces.cols() > 0) shapes.append(of_forces);
+    return ritz_shapes(self.system, shapes, free);
+  };
+  const RitzShapes ritz = attached(set.shapes);
+  AttachedBasis result{self.with_shapes(basis, ritz), set.degree, set.missed_share,
+                       set.shapes.shapes.cols() - ritz.shapes.cols()};
+  if (set.richer.shapes.cols() > 0) {
+    const RitzShapes more = attached(set.richer);
+    result.richer = RicherBasis{self.with_shapes(basis, more), {}};
+    result.richer->embedding = self.embedding(result.basis, result.richer->basis);
+  }
   return result;
 }
 

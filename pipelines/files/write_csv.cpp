@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 
@@ -26,9 +27,10 @@ std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
 
 }  // namespace
 
-std::string curve_table(const solver::ResponseCurve& curve,
-                        const std::vector<PatchShares>& patches) {
+std::string curve_table(const solver::ResponseCurve& curve, const std::vector<PatchShares>& patches,
+                        std::optional<double> bar) {
   std::string table = header_of(curve_columns());
+  if (bar) table += ",amplitude_low_m,amplitude_high_m";
   for (const PatchShares& patch : patches) {
     for (const auto& column : patch_columns()) {
       table += fmt::format(",{}.{}", patch.patch, column.name);
@@ -37,6 +39,11 @@ std::string curve_table(const solver::ResponseCurve& curve,
   table += "\n";
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     table += row_of(curve_columns(), curve.points[i]);
+    if (bar) {
+      const double amplitude = curve.points[i].amplitude;
+      table += fmt::format(",{},{}", format_number(std::max(0.0, amplitude * (1.0 - *bar))),
+                           format_number(amplitude * (1.0 + *bar)));
+    }
     for (const PatchShares& patch : patches) {
       table.append(",").append(row_of(patch_columns(), patch.reports[i]));
     }
@@ -66,7 +73,8 @@ void write_curve(const std::filesystem::path& folder, const CurveResult& result,
                  Eigen::Index n_modes) {
   const std::filesystem::path curves = folder / "curves";
   make_folder(curves);
-  write_whole(curves / (result.name + ".csv"), curve_table(result.curve, result.patch_shares));
+  write_whole(curves / (result.name + ".csv"),
+              curve_table(result.curve, result.patch_shares, result.bar));
   write_whole(curves / (result.name + ".states.csv"), states_table(result.curve, n_modes));
   int number = 0;
   for (const solver::DetachedBranch& branch : result.curve.detached) {

@@ -60,6 +60,7 @@ Json to_json(const ModeSummary& mode) {
 }
 
 Json to_json(const CurveSummary& curve);
+Json to_json(const ErrorRow& row);
 Json to_json(const EffectRecord& effect);
 Json to_json(const solver::SolverEvent& event) {
   return {{"frequency_Hz", hertz(event.frequency)}, {"remedy", event.remedy}};
@@ -101,6 +102,53 @@ Json to_json(const solver::RicherPeak& peak) {
   return {{"highest", peak.highest},
           {"frequency_Hz", found ? Json(hertz(peak.frequency)) : Json(nullptr)},
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
+}
+
+/// Half widths by goal; null without a budget.
+Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
+  Json bar = Json::object();
+  for (const ErrorRow& row : budget) {
+    if (row.curve == curve.name) bar[row.goal] = bar_of(budget, curve.name, row.goal);
+  }
+  if (bar.empty()) return nullptr;
+  bar["not_known"] = curve.not_in_bar;
+  return bar;
+}
+
+/// Significant digits that a relative half width allows.
+int digits_of(double bar) {
+  constexpr double most = 12.0;
+  return static_cast<int>(bar > 0.0 ? std::clamp(std::floor(1.0 - std::log10(bar)), 1.0, most)
+                                    : most);
+}
+
+Json to_json(const ErrorRow& row) {
+  const double gain = row.seconds > 0.0 ? std::abs(row.effect) / row.seconds : 0.0;
+  return {{"curve", row.curve},
+          {"goal", row.goal},
+          {"source", row.source},
+          {"effect", row.effect},
+          {"kind", row.solved ? "solved" : "estimated"},
+          {"seconds", row.seconds},
+          {"gain_per_second", gain}};
+}
+
+/// Curves, each with its bar and the digits it allows.
+Json curves_json(const RunSummary& summary) {
+  Json curves = to_array(summary.curves);
+  for (std::size_t i = 0; i < summary.curves.size(); ++i) {
+    Json bar = bar_json(summary.curves[i], summary.error_budget);
+    Json digits = nullptr;
+    if (!bar.is_null()) {
+      digits = Json::object();
+      for (const char* goal : {"peak_amplitude", "peak_frequency"}) {
+        digits[goal] = digits_of(bar[goal].get<double>());
+      }
+    }
+    curves[i]["bar"] = std::move(bar);
+    curves[i]["digits"] = std::move(digits);
+  }
+  return curves;
 }
 
 Json to_json(const CurveSummary& curve) {
@@ -200,10 +248,10 @@ std::string summary_json(const RunSummary& summary, int indent) {
                   {"stages", to_array(summary.stages)},
                   {"mesh", summary.mesh ? to_json(*summary.mesh) : Json(nullptr)},
                   {"modes", to_array(summary.modes)},
-                  {"curves", to_array(summary.curves)},
+                  {"curves", curves_json(summary)},
                   {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
                   {"effects", to_array(summary.effects)},
-                  {"error_budget", Json::array()}};
+                  {"error_budget", to_array(summary.error_budget)}};
   constexpr char space = ' ';
   // A name that is not UTF-8 is written with replacement characters rather than lost with the run.
   return json.dump(indent, space, false, Json::error_handler_t::replace);

@@ -66,6 +66,7 @@ void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescri
       result.basis, faces, nonzero_columns(excitation_loads(mesh, scene.forces)), options);
   result.attachment_text = attachment_text(attached);
   result.basis = std::move(attached.basis);
+  result.richer = std::move(attached.richer);
 }
 
 /// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.

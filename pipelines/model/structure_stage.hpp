@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct StructureModes {
   /// How the attachment shapes of `basis` were chosen, "" without them.
   std::string attachment_text;
   fem::ModalTimings timings;
+  std::optional<fem::RicherBasis> richer;  ///< with attachment shapes of one degree more
 };
 
 /// Checks all names of the scene against the mesh before anything is solved.

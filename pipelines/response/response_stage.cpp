@@ -1,6 +1,7 @@
 #include "pipelines/response/response_stage.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -223,6 +224,29 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
 
 namespace {
 
+/// The highest peak of a curve traced with more harmonics about the one that the curve has: where that is too far for
+/// Newton's method.
+void trace_about_peak(const ReducedModel& model, double load, solver::ContinuationOptions options,
+                      CurveResult& result) {
+  constexpr double beside =
+      0.015;  // of the frequency: some resonance widths of a lightly damped blade
+  solver::RicherPeak& richer = *result.richer;
+  const double top = highest_peak(result.curve)->frequency;
+  for (double* end : {&options.frequency_begin, &options.frequency_end}) {
+    *end = std::clamp(*end, (1.0 - beside) * top, (1.0 + beside) * top);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const solver::ResponseCurve curve =
+      solver::trace_response(balanced_scene(model, load, options), options,
+                             [](const auto&) { return !interrupt_requested(); });
+  richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const solver::ResponsePoint* peak = highest_peak(curve);
+  if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
+  richer.frequency = peak->frequency;
+  richer.amplitude = peak->amplitude;
+  richer.change = 1.0 - highest_peak(result.curve)->amplitude / peak->amplitude;
+}
+
 /// The highest peak with more harmonics than were given, where the contact is not proved linear.
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
@@ -234,6 +258,12 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
+  const bool missed = result.richer && !result.richer->change;
+  if (missed && options.frequency_begin != options.frequency_end) {
+    options.n_harmonics = highest;
+    options.orders.clear();
+    trace_about_peak(model, load, options, result);
+  }
 }
 
 }  // namespace

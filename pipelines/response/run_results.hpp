@@ -45,6 +45,7 @@ struct CurveResult {
   std::optional<double> gap{};              ///< the preload was given as this length [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
   std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
+  std::optional<double> bar{};  ///< of the peak's amplitude, relative half width; none: not told
 };
 
 /// The best value when one uncertain number of the contact is multiplied.

@@ -11,6 +11,7 @@
 
 #include "pipelines/model/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/error_row.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/system/machine.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -72,6 +73,7 @@ struct CurveSummary {
   std::string certificate;                   ///< what was proved instead of solved; empty: solved
   std::vector<solver::SolverEvent> remedies;
   std::size_t detached_branches = 0;
+  std::vector<std::string> not_in_bar;  ///< sources of error that could not be told
   int search_starts = 0;
 };
 
@@ -97,6 +99,7 @@ struct RunSummary {
   std::optional<OptimumSummary> optimum;
   std::vector<EffectRecord> effects;
   std::vector<std::string> warnings;
+  std::vector<ErrorRow> error_budget;
 };
 
 [[nodiscard]] CurveSummary summarise(const CurveResult& result);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/in_parallel.hpp"
@@ -55,6 +56,25 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   });
   stop_if_interrupted("points");
   return results;
+}
+
+void tell_errors(const ReducedModel& model, const SceneDescription& scene,
+                 const SolvedStructure* structure, int jobs, std::vector<CurveResult>& curves,
+                 RunRecord& record) {
+  if (!scene.error_budget || model.patches.empty()) return;
+  const RicherModels richer = richer_models(model, scene, structure);
+  std::vector<CurveBudget> budgets(curves.size());
+  in_parallel(curves.size(), jobs, [&](std::size_t i) {
+    stop_if_interrupted("curves");
+    budgets[i] = error_budget(model, scene, richer, curves[i]);
+  });
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const CurveBudget& budget = budgets[i];
+    if (!budget.rows.empty()) {
+      curves[i].bar = bar_of(budget.rows, curves[i].name, budget.rows.front().goal);
+    }
+    record.keep_budget(budget, curves[i], model);
+  }
 }
 
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,

@@ -21,4 +21,10 @@ namespace microslip::pipelines {
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, RunRecord& record);
 
+/// Tells how far every curve can be trusted, unless the scene wants it not; their bars are set.
+/// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+void tell_errors(const ReducedModel& model, const SceneDescription& scene,
+                 const SolvedStructure* structure, int jobs, std::vector<CurveResult>& curves,
+                 RunRecord& record);
+
 }  // namespace microslip::pipelines

@@ -293,6 +293,17 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   write_optimum_csv(folder_, request, optimum);
 }
 
+void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result,
+                            const ReducedModel& model) {
+  if (const std::string text = budget_text(budget); !text.empty()) progress_.info(text);
+  const std::lock_guard lock(mutex_);
+  summary_.error_budget.insert(summary_.error_budget.end(), budget.rows.begin(), budget.rows.end());
+  for (CurveSummary& curve : summary_.curves) {
+    if (curve.name == result.name) curve.not_in_bar = budget.unknown;
+  }
+  if (writes_ && result.bar) write_curve(folder_, result, model.frequency.size());
+}
+
 void RunRecord::keep_bracket(OptimumBracket bracket) {
   for (const OptimumOfFactor& entry : bracket.entries) {
     const solver::Optimum& optimum = entry.optimum;

@@ -12,6 +12,7 @@
 #include <string>
 #include <variant>
 
+#include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
@@ -70,6 +71,8 @@ class RunRecord {
   void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                     const solver::Optimum& optimum);
   void keep_bracket(OptimumBracket bracket);
+  /// The bar joins the curve's CSV. @param result  kept before; its bar is set.
+  void keep_budget(const CurveBudget& budget, const CurveResult& result, const ReducedModel& model);
   void keep_summary();
 
  private:

@@ -167,6 +167,7 @@ struct SceneDescription {
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
   Discretisation settings;
+  bool error_budget = true;  ///< [accuracy] error_budget: each choice is refined at the peaks
 };
 
 /// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.

@@ -255,6 +255,9 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   const SectionReader effects = reading.section("effects", "effects");
   scene.effects = read_effects(effects, scene);
   scene.settings.second_direction = read_second_direction(effects);
+  const SectionReader accuracy = reading.section("accuracy", "accuracy");
+  constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
+  scene.error_budget = accuracy.word("error_budget", budgets) == "auto";
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

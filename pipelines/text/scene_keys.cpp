@@ -385,9 +385,14 @@ constexpr std::array effect_keys{
     KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
 };
 
+constexpr std::array accuracy_keys{
+    KeySpec{"error_budget", text, "", "\"auto\"", 0, 0, false,
+            "what mesh, basis, cells, fit, harmonics … do to every peak: auto or off"},
+};
+
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 37> sections{{
+constexpr std::array<SectionSpec, 38> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
     {"model.modal", modal_model_keys},
@@ -406,6 +411,7 @@ constexpr std::array<SectionSpec, 37> sections{{
     {"modal", modal_keys},
     {"modal.point", modal_point_keys},
     {"effects", effect_keys},
+    {"accuracy", accuracy_keys},
     {"model.bar", bar_model_keys},
     {"modes.bar", bar_mode_keys},
     {"contact.bar", bar_contact_keys},
@@ -427,14 +433,14 @@ constexpr std::array<SectionSpec, 37> sections{{
     {"response.block", block_response_keys},
 }};
 
-constexpr std::array<std::string_view, 9> mesh_sections{"model",      "material", "supports",
-                                                        "modes",      "points",   "contact",
-                                                        "excitation", "response", "effects"};
-constexpr std::array<std::string_view, 5> modal_sections{"model", "modal", "contact", "response",
-                                                         "effects"};
-constexpr std::array<std::string_view, 6> lean_sections{
+constexpr std::array<std::string_view, 10> mesh_sections{
+    "model",   "material",   "supports", "modes",   "points",
+    "contact", "excitation", "response", "effects", "accuracy"};
+constexpr std::array<std::string_view, 6> modal_sections{"model",    "modal",   "contact",
+                                                         "response", "effects", "accuracy"};
+constexpr std::array<std::string_view, 7> lean_sections{
     // bar, chain, block
-    "model", "modes", "contact", "excitation", "response", "effects"};
+    "model", "modes", "contact", "excitation", "response", "effects", "accuracy"};
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "solver/richer_peak.hpp"
 
+#include <chrono>
+#include <utility>
 #include <vector>
 
 #include "solver/enrichment/enrichment.hpp"
@@ -45,34 +47,86 @@ std::optional<LocalPeak> through(const Scene& scene, const ContinuationOptions& 
   return peak;
 }
 
+/// The highest point of a curve, as it was written and with what others start from.
+struct Top {
+  ResponsePoint point;
+  LocalPeak peak;
+};
+
+std::optional<Top> solved_top(const Scene& scene, const HarmonicBalance& balance,
+                              const ContinuationOptions& range, const ResponseCurve& curve) {
+  const std::optional<HighPoint> top = top_of(high_points(scene, curve, range));
+  if (!top) return std::nullopt;
+  std::optional<LocalPeak> peak = top->place == PeakPlace::range_end
+                                      ? local_end(balance, top->point, range)
+                                      : local_peak(balance, top->point);
+  if (!peak) return std::nullopt;
+  return Top{top->point, std::move(*peak)};
+}
+
+/// All harmonics that a point of the curve has: they may be chosen.
+HarmonicSet set_of(const Scene& scene, const ContinuationOptions& range,
+                   const ResponseCurve& curve) {
+  HarmonicSet set = first_harmonics(scene, range);
+  for (const ResponsePoint& point : curve.points) set = set.united(point.orders);
+  return set;
+}
+
+/// Unknowns of one model in the modes of another.
+Eigen::VectorXd in_modes(const HarmonicBalance& from, const HarmonicBalance& to,
+                         const Eigen::VectorXd& x, const Eigen::MatrixXd& embedding) {
+  const Harmonics q = from.harmonics(x);
+  if (embedding.size() == 0) return to.unknowns(q);
+  Harmonics other(q.n_harmonics(), embedding.rows());
+  other.rows() = q.rows() * embedding.transpose();
+  return to.unknowns(other);
+}
+
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
                                       const ResponseCurve& curve, int highest) {
   if (curve.points.empty() || !scene.contact) return std::nullopt;
   const HarmonicBalance coarse(scene, first_harmonics(scene, range));
-  const std::optional<HighPoint> highest_point = top_of(high_points(scene, curve, range));
-  if (!highest_point) return std::nullopt;
-  const HighPoint& top = *highest_point;
-  const std::optional<LocalPeak> peak = top.place == PeakPlace::range_end
-                                            ? local_end(coarse, top.point, range)
-                                            : local_peak(coarse, top.point);
-  if (!peak) return std::nullopt;
-  RicherPeak result{top.point.frequency, top.point.amplitude, std::nullopt, highest};
+  const std::optional<Top> top = solved_top(scene, coarse, range, curve);
+  if (!top) return std::nullopt;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
   const int given = coarse.set().highest();
   const ContinuationOptions wide = widened(range);
-  std::optional<LocalPeak> found = through(scene, wide, coarse.set(), peak, {highest});
+  std::optional<LocalPeak> found = through(scene, wide, coarse.set(), top->peak, {highest});
   // A peak that is far is nearer by steps.
   if (!found) {
-    found = through(scene, wide, coarse.set(), peak, {given + 1, given + 2, given + 4, highest});
+    found =
+        through(scene, wide, coarse.set(), top->peak, {given + 1, given + 2, given + 4, highest});
   }
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!found) return result;
   result.frequency = found->point.parameter;
   result.amplitude = found->amplitude;
   if (found->amplitude > 0.0) {
-    result.change = (found->amplitude - top.point.amplitude) / found->amplitude;
+    result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   }
   return result;
+}
+
+std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationOptions& range,
+                                         const ResponseCurve& curve, const OtherModel& other) {
+  if (curve.points.empty()) return std::nullopt;
+  const HarmonicBalance balance(scene, set_of(scene, range, curve));
+  const std::optional<Top> top = solved_top(scene, balance, range, curve);
+  if (!top) return std::nullopt;
+  const HarmonicBalance elsewhere(other.scene, balance.set());
+  LocalPeak start = top->peak;
+  start.point.x = in_modes(balance, elsewhere, top->peak.point.x, other.embedding);
+  start.point.parameter *= other.frequency_factor;
+  start.tangent.x = in_modes(balance, elsewhere, top->peak.tangent.x, other.embedding);
+  PeakWork work;
+  const auto found = level_point(elsewhere, start, widened(range), work, farthest);
+  if (!found) return std::nullopt;
+  return PeakOfBoth{top->point.frequency, top->point.amplitude, found->point.parameter,
+                    found->amplitude};
 }
 
 }  // namespace microslip::solver

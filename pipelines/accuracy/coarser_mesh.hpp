@@ -1,0 +1,21 @@
+/// @file
+/// The error of the mesh from coarser ones: elements twice and four times as large.
+///
+///   value(h) = exact + C h^p,     2^p = (f(4h) − f(2h)) / (f(2h) − f(h)),     error(h) = (value(2h) − value(h)) / (2^p − 1)
+///
+/// p is observed on the natural frequency of the first mode and kept between 1, which corners and edges of a body may
+/// cost, and the 4 of smooth solutions with quadratic elements (theory 25). Where it cannot be observed it is 1.
+#pragma once
+
+#include <optional>
+
+#include "pipelines/accuracy/richer_models.hpp"
+
+namespace microslip::pipelines {
+
+/// The model on elements twice as large, with `share` = −1 / (2^p − 1).
+/// @return empty: the scene has no element size, or a coarser mesh gives no such model.
+[[nodiscard]] std::optional<RicherModel> coarser_mesh(const ReducedModel& model,
+                                                      const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,138 @@
+#include "pipelines/accuracy/error_budget.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "contact/contact_force.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "solver/richer_peak.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr const char* amplitude = "peak_amplitude";
+constexpr const char* frequency = "peak_frequency";
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Both goals of one source.
+void add_rows(CurveBudget& budget, const std::string& curve, const std::string& source,
+              const std::pair<double, double>& effects, bool solved, double seconds) {
+  budget.rows.push_back({curve, amplitude, source, effects.first, solved, seconds});
+  budget.rows.push_back({curve, frequency, source, effects.second, solved, seconds});
+}
+
+/// Relative change of amplitude and frequency.
+std::pair<double, double> changes(const solver::PeakOfBoth& peak) {
+  return {peak.other_amplitude / peak.amplitude - 1.0, peak.other_frequency / peak.frequency - 1.0};
+}
+
+/// Of the natural frequency nearest to the peak. Models with other modes keep the first of them.
+double frequency_factor(const ReducedModel& model, const ReducedModel& other, double peak) {
+  Eigen::Index nearest = 0;
+  (model.frequency.array() - peak).abs().minCoeff(&nearest);
+  const bool usual = nearest < other.frequency.size() && model.frequency[nearest] > 0.0;
+  return usual ? other.frequency[nearest] / model.frequency[nearest] : 1.0;
+}
+
+void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,
+               const RicherModel& richer, const CurveResult& result, double load) {
+  const auto begin = std::chrono::steady_clock::now();
+  solver::ContinuationOptions options = continuation_options(scene, model);
+  options.search_starts = 0;
+  const solver::Scene own = solver_scene(model, load);
+  const solver::Scene other = solver_scene(richer.model, load);
+  const double factor =
+      frequency_factor(model, richer.model, highest_peak(result.curve)->frequency);
+  const auto peak =
+      solver::peak_elsewhere(own, options, result.curve, {other, richer.embedding, factor});
+  if (!peak || !(peak->amplitude > 0.0)) {
+    budget.unknown.push_back(richer.source);
+    return;
+  }
+  auto [by_amplitude, by_frequency] = changes(*peak);
+  add_rows(budget, result.name, richer.source,
+           {richer.share * by_amplitude, richer.share * by_frequency}, true, seconds_since(begin));
+}
+
+/// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
+void add_harmonics(CurveBudget& budget, const CurveResult& result,
+                   const solver::ResponsePoint& peak) {
+  if (!result.richer) {
+    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
+  } else if (result.richer->change) {
+    add_rows(budget, result.name, "harmonics",
+             {result.richer->amplitude / peak.amplitude - 1.0,
+              result.richer->frequency / peak.frequency - 1.0},
+             true, result.richer->seconds);
+  } else {
+    budget.unknown.emplace_back("harmonics");
+  }
+}
+
+/// What the certificates of the peak tell: the balance of energy of how far Newton's method went, the two counts of
+/// friction's work of how well the cycle is sampled.
+void add_certificates(CurveBudget& budget, const ReducedModel& model, const CurveResult& result,
+                      const solver::ResponsePoint& peak) {
+  add_rows(budget, result.name, "newton", {peak.energy_imbalance, 0.0}, false, 0.0);
+  if (contact::is_sampled(model.patches, model.effects)) {
+    add_rows(budget, result.name, "instants", {peak.dissipation_mismatch, 0.0}, false, 0.0);
+  }
+}
+
+}  // namespace
+
+CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
+                         const RicherModels& richer, const CurveResult& result) {
+  CurveBudget budget;
+  const auto* load = std::get_if<double>(&result.preload);
+  const solver::ResponsePoint* peak = highest_peak(result.curve);
+  if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
+    return budget;
+  }
+  budget.unknown = richer.unknown;
+  add_harmonics(budget, result, *peak);
+  for (const RicherModel& other : richer.models) {
+    add_model(budget, model, scene, other, result, *load);
+  }
+  add_certificates(budget, model, result, *peak);
+  return budget;
+}
+
+std::string budget_text(const CurveBudget& budget) {
+  if (budget.rows.empty()) return {};
+  constexpr double percent = 100.0;
+  const std::string& curve = budget.rows.front().curve;
+  std::vector<ErrorRow> parts;
+  for (const ErrorRow& row : budget.rows) {
+    if (row.goal == amplitude) parts.push_back(row);
+  }
+  std::ranges::stable_sort(parts, [](const ErrorRow& a, const ErrorRow& b) {
+    return std::abs(a.effect) > std::abs(b.effect);
+  });
+  if (std::ranges::find(budget.unknown, "harmonics") != budget.unknown.end()) {
+    return fmt::format("curve {}: its error is not known: more harmonics give another curve",
+                       curve);
+  }
+  std::string text = fmt::format("curve {}: peak ± {:.2g} %, its frequency ± {:.2g} %:", curve,
+                                 percent * bar_of(budget.rows, curve, amplitude),
+                                 percent * bar_of(budget.rows, curve, frequency));
+  constexpr std::size_t most = 3;
+  for (std::size_t i = 0; i < std::min(most, parts.size()); ++i) {
+    text += fmt::format("{} {} {:+.2g} %", i > 0 ? "," : "", parts[i].source,
+                        percent * parts[i].effect);
+  }
+  if (!budget.unknown.empty()) {
+    text += fmt::format("; not known: {}", fmt::join(budget.unknown, ", "));
+  }
+  return text;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,26 @@
+/// @file
+/// How far the numbers of a curve can be trusted: what every choice of the discretisation does to its highest peak,
+/// each told by a model that has it richer, solved from the peak of the curve.
+#pragma once
+
+#include <vector>
+
+#include "pipelines/accuracy/richer_models.hpp"
+#include "pipelines/response/error_row.hpp"
+#include "pipelines/response/run_results.hpp"
+
+namespace microslip::pipelines {
+
+struct CurveBudget {
+  std::vector<ErrorRow> rows;
+  std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
+};
+
+/// @param result  a curve of the model, solved by harmonic balance; a linear limit has no rows.
+[[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
+                                       const RicherModels& richer, const CurveResult& result);
+
+/// One line: the bar and its largest parts. Empty without rows.
+[[nodiscard]] std::string budget_text(const CurveBudget& budget);
+
+}  // namespace microslip::pipelines

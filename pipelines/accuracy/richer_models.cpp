@@ -1,0 +1,103 @@
+#include "pipelines/accuracy/richer_models.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipelines/accuracy/coarser_mesh.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// The model with other settings of its patches; effects as decided for the model at hand.
+RicherModel with_patches(const char* source, const ReducedModel& model,
+                         const SceneDescription& scene, const SolvedStructure& structure,
+                         void (*change)(PatchSettings&)) {
+  Discretisation settings = scene.settings;
+  std::ranges::for_each(settings.patches, change);
+  std::vector<std::string> warnings;  // those of the scene itself are told already
+  RicherModel richer{source, model_with(settings, scene, &structure, warnings)};
+  richer.model.effects = model.effects;
+  return richer;
+}
+
+Eigen::Index n_cells(const ReducedModel& model) {
+  Eigen::Index n = 0;
+  for (const contact::Patch& patch : model.patches) n += patch.cells.size();
+  return n;
+}
+
+/// Four times as many cells: the error falls as their number grows (theory 14), and that of both is told.
+RicherModel with_more_cells(const ReducedModel& model, const SceneDescription& scene,
+                            const SolvedStructure& structure) {
+  RicherModel richer = with_patches("cells", model, scene, structure,
+                                    [](PatchSettings& patch) { patch.n_points *= 4; });
+  const auto more = static_cast<double>(n_cells(richer.model));
+  const auto given = static_cast<double>(n_cells(model));
+  richer.share = more > given ? more / (more - given) : 1.0;
+  return richer;
+}
+
+/// Friction along r beside p. @return empty: it is there, or the contact has no stiffness along r.
+std::optional<RicherModel> with_second_direction(const ReducedModel& model,
+                                                 const SceneDescription& scene,
+                                                 const SolvedStructure& structure) {
+  if (model.effects.second_direction || setting_of(scene, "second_direction") == "off") return {};
+  SceneDescription other = scene;
+  other.settings.second_direction = Discretisation::Choice::on;
+  std::vector<std::string> warnings;
+  try {
+    return RicherModel{"second_direction", model_of(other, &structure, warnings)};
+  } catch (const RefusedError&) {
+    return {};
+  }
+}
+
+RicherModel with_more_shapes(const ReducedModel& model, const SceneDescription& scene,
+                             const SolvedStructure& structure) {
+  const fem::RicherBasis& richer = *structure.modes.richer;
+  std::vector<std::string> warnings;
+  RicherModel result{
+      "basis",
+      reduce_to_contact(structure.mesh, scene, richer.basis, structure.modes.residuals, warnings),
+      richer.embedding};
+  result.model.effects = model.effects;
+  return result;
+}
+
+bool is_fitted(const SceneDescription& scene) {
+  return std::ranges::any_of(scene.settings.patches, [](const PatchSettings& patch) {
+    return patch.fit != PatchSettings::Fit::none;
+  });
+}
+
+}  // namespace
+
+RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,
+                           const SolvedStructure* structure) {
+  RicherModels result;
+  if (structure == nullptr || model.patches.empty()) return result;
+  result.models.push_back(with_more_cells(model, scene, *structure));
+  if (is_fitted(scene)) {
+    result.models.push_back(with_patches("fit", model, scene, *structure, [](PatchSettings& patch) {
+      patch.fit = PatchSettings::Fit::none;
+    }));
+  }
+  if (structure->modes.richer) {
+    result.models.push_back(with_more_shapes(model, scene, *structure));
+  } else {
+    result.unknown.emplace_back("basis");
+  }
+  if (auto both = with_second_direction(model, scene, *structure)) {
+    result.models.push_back(std::move(*both));
+  }
+  if (auto mesh = coarser_mesh(model, scene)) {
+    result.models.push_back(std::move(*mesh));
+  } else {
+    result.unknown.emplace_back("mesh");
+  }
+  return result;
+}
+
+}  // namespace microslip::pipelines

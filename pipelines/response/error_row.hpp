@@ -1,0 +1,31 @@
+/// @file
+/// What one choice of the discretisation does to one number a user reads: a row of the error budget.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace microslip::pipelines {
+
+struct ErrorRow {
+  std::string curve;  ///< its name
+  std::string goal;   ///< peak_amplitude | peak_frequency
+  std::string
+      source;  ///< mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver
+  double effect =
+      0.0;  ///< relative, signed: what would be added with the source refined to its end
+  bool solved = false;   ///< the richer model was solved; else estimated
+  double seconds = 0.0;  ///< of the refined solution
+};
+
+/// All sources of one goal together: Σ |effect|, relative half width.
+[[nodiscard]] inline double bar_of(const std::vector<ErrorRow>& rows, const std::string& curve,
+                                   const std::string& goal) {
+  double bar = 0.0;
+  for (const ErrorRow& row : rows) {
+    if (row.curve == curve && row.goal == goal) bar += row.effect < 0.0 ? -row.effect : row.effect;
+  }
+  return bar;
+}
+
+}  // namespace microslip::pipelines
