@@ -29,7 +29,8 @@ class Mesh {
   /// @param elements   volume elements.
   /// @param surfaces   faces per name as found in the file, any orientation; they are matched to
   ///                   the volume elements and turned outward.
-  /// @param node_sets  named points, edges or sets of nodes.
+  /// @param node_sets  named points, edges or sets of nodes. The outer faces all of whose nodes are in a set are a
+  ///                   surface of its name, unless `surfaces` has one.
   /// @param n_repeated  elements of the source that are there once more and were left out.
   /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
   ///         loose parts, a surface that is not on the boundary.
@@ -45,13 +46,17 @@ class Mesh {
   [[nodiscard]] Eigen::Index n_repeated_elements() const { return n_repeated_elements_; }
   [[nodiscard]] const Eigen::MatrixX3d& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<ElementBlock>& elements() const { return elements_; }
-  /// @throws MeshError  no such surface; the message lists the names there are.
+  /// A surface by its name, or the faces of a node set. @throws MeshError  no such surface; the message lists the
+  /// names there are.
   [[nodiscard]] const Surface& surface(const std::string& name) const;
   /// Nodes of a named point, set or surface. @throws MeshError  as above.
   [[nodiscard]] std::vector<Eigen::Index> node_set(const std::string& name) const;
   /// Names nodes that the source does not. @throws MeshError  the name is taken.
   void name_nodes(const std::string& name, std::vector<Eigen::Index> nodes);
+  /// Surfaces that were given as such.
   [[nodiscard]] std::vector<std::string> surface_names() const;
+  /// Whether surface() gives faces for this name.
+  [[nodiscard]] bool has_faces(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> node_set_names() const;
   [[nodiscard]] double volume() const { return volume_; }         ///< [m³]
   [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
@@ -62,6 +67,7 @@ class Mesh {
   std::vector<ElementBlock> elements_;
   std::map<std::string, Surface> surfaces_;
   NodeSets node_sets_;
+  std::map<std::string, Surface> faces_of_sets_;
   Eigen::Index n_loose_nodes_ = 0;
   Eigen::Index n_repeated_elements_ = 0;
   double volume_ = 0.0;

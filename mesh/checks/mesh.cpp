@@ -47,6 +47,13 @@ class SurfaceBuilder {
     return collect(name);
   }
 
+  /// @param faces  of the boundary.
+  Surface build(const std::string& name, const std::vector<FaceUse>& faces) {
+    lists_ = {};
+    for (const FaceUse& face : faces) put(face);
+    return collect(name);
+  }
+
  private:
   void add(const FaceKey& key) {
     const auto found = owners_.find(key);
@@ -58,7 +65,10 @@ class SurfaceBuilder {
       ++inside_;
       return;
     }
-    const FaceUse& use = found->second.uses.front();
+    put(found->second.uses.front());
+  }
+
+  void put(const FaceUse& use) {
     const FaceType type = face_type(elements_[use.block].type, use.face);
     FacesOfType& list = lists_[static_cast<std::size_t>(type)];
     list.type = type;
@@ -116,6 +126,22 @@ std::vector<Eigen::Index> numbering(Eigen::Index n_nodes,
   return number;
 }
 
+/// Of the faces of the boundary those all of whose nodes are in a set.
+std::vector<FaceUse> faces_within(const std::vector<Eigen::Index>& set,
+                                  const std::vector<FaceUse>& boundary,
+                                  const std::vector<ElementBlock>& elements) {
+  std::vector<FaceUse> found;
+  if (set.size() < 3) return found;
+  const auto is_in_set = [&](Eigen::Index node) {
+    return std::binary_search(set.begin(), set.end(), node);
+  };
+  for (const FaceUse& face : boundary) {
+    const std::vector<Eigen::Index> nodes = face_nodes(elements, face);
+    if (std::all_of(nodes.begin(), nodes.end(), is_in_set)) found.push_back(face);
+  }
+  return found;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   if (names.empty()) return "none";
   std::string text;
@@ -166,6 +192,7 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
     if (!surface.faces.empty()) surface.area = sample_surface(nodes_, surface, 1).weights.sum();
     surfaces_.emplace(name, std::move(surface));
   }
+  const std::vector<FaceUse> boundary = outer_faces(owners);
   for (const auto& [name, set] : node_sets) {
     auto& kept = node_sets_[name];
     for (const Eigen::Index node : set) {
@@ -173,6 +200,10 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
     }
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    const std::vector<FaceUse> faces = faces_within(kept, boundary, elements_);
+    if (faces.empty() || surfaces_.contains(name)) continue;
+    Surface& surface = faces_of_sets_[name] = builder.build(name, faces);
+    surface.area = sample_surface(nodes_, surface, 1).weights.sum();
   }
   for (const ElementBlock& block : elements_) {
     Eigen::MatrixX3d own(block.connectivity.cols(), 3);
@@ -194,12 +225,26 @@ Eigen::Index Mesh::n_elements() const {
 
 const Surface& Mesh::surface(const std::string& name) const {
   const auto found = surfaces_.find(name);
-  if (found == surfaces_.end()) {
-    throw MeshError("no surface is named \"" + name +
-                    "\"; the surfaces are: " + listed(surface_names()));
+  if (found != surfaces_.end()) {
+    if (found->second.faces.empty()) throw MeshError("surface \"" + name + "\" is empty");
+    return found->second;
   }
-  if (found->second.faces.empty()) throw MeshError("surface \"" + name + "\" is empty");
-  return found->second;
+  const auto of_set = faces_of_sets_.find(name);
+  if (of_set != faces_of_sets_.end()) return of_set->second;
+  std::string there = "the surfaces are: " + listed(surface_names());
+  if (!faces_of_sets_.empty()) {
+    there += "; node sets that hold whole faces: " + listed(keys_of(faces_of_sets_));
+  }
+  if (node_sets_.contains(name)) {
+    throw MeshError("\"" + name + "\" is a set of nodes that holds all nodes of no outer face; " +
+                    there);
+  }
+  throw MeshError("no surface is named \"" + name + "\"; " + there);
+}
+
+bool Mesh::has_faces(const std::string& name) const {
+  const auto found = surfaces_.find(name);
+  return found != surfaces_.end() ? !found->second.faces.empty() : faces_of_sets_.contains(name);
 }
 
 std::vector<Eigen::Index> Mesh::node_set(const std::string& name) const {

@@ -103,6 +103,15 @@ std::vector<Eigen::Index> face_nodes(const std::vector<ElementBlock>& elements,
   return nodes;
 }
 
+std::vector<FaceUse> outer_faces(const FaceMap& faces) {
+  std::vector<FaceUse> outer;
+  for (const auto& [key, owners] : faces) {
+    if (owners.count == 1) outer.push_back(owners.uses.front());
+  }
+  std::sort(outer.begin(), outer.end());
+  return outer;
+}
+
 void check_faces(const std::vector<ElementBlock>& elements, const FaceMap& map) {
   Finding crowded;
   Finding one_sided;

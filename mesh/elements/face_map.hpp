@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <unordered_map>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct FaceUse {
   std::size_t block = 0;
   Eigen::Index element = 0;
   std::size_t face = 0;
+  [[nodiscard]] auto operator<=>(const FaceUse&) const = default;
 };
 
 struct FaceOwners {
@@ -48,6 +50,9 @@ using FaceMap = std::unordered_map<FaceKey, FaceOwners, FaceKeyHash>;
 /// Mesh nodes of a face as its element has them: outward, corners, then edges.
 [[nodiscard]] std::vector<Eigen::Index> face_nodes(const std::vector<ElementBlock>& elements,
                                                    const FaceUse& use);
+
+/// Faces that one element has, in the order of the elements.
+[[nodiscard]] std::vector<FaceUse> outer_faces(const FaceMap& faces);
 
 /// @throws MeshError  faces with three or more elements, two elements on one side of a face, or neighbours
 ///         that share the corners of a face but not the nodes on its edges; with element numbers.

@@ -32,8 +32,8 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; 
 
 }  // namespace
 
-GmshSource::GmshSource(const std::filesystem::path& file)
-    : GmshSource(content_of(file), file.string()) {}
+GmshSource::GmshSource(const std::filesystem::path& file, std::string name)
+    : GmshSource(content_of(file), std::move(name)) {}
 
 GmshSource::GmshSource(std::string text, std::string name)
     : text_(std::move(text)), name_(std::move(name)) {}

@@ -12,8 +12,9 @@ namespace microslip::mesh {
 
 class GmshSource {
  public:
+  /// @param name  what messages call it.
   /// @throws MeshError  the file is missing or cannot be read.
-  explicit GmshSource(const std::filesystem::path& file);
+  GmshSource(const std::filesystem::path& file, std::string name);
   /// @param text  content of a file. @param name  what messages call it.
   GmshSource(std::string text, std::string name);
 

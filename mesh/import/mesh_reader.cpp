@@ -211,11 +211,12 @@ class Reader {
 
 }  // namespace
 
-Mesh read_gmsh(const std::filesystem::path& file, double length_unit) {
+Mesh read_gmsh(const std::filesystem::path& file, double length_unit, const std::string& name) {
   if (!(length_unit > 0.0) || !std::isfinite(length_unit)) {
     throw std::invalid_argument("length unit " + std::to_string(length_unit) + "; must be above 0");
   }
-  return make_mesh(Reader(GmshSource(file)).read(), length_unit, file.string());
+  const std::string called = name.empty() ? file.string() : name;
+  return make_mesh(Reader(GmshSource(file, called)).read(), length_unit, called);
 }
 
 Mesh read_gmsh_text(std::string content, const std::string& name, double length_unit) {

@@ -146,6 +146,26 @@ TEST(Mesh, ListsTheNamesThereAre) {
   EXPECT_EQ(mesh.node_set("floor").size(), 3U) << "a surface serves as a node set";
 }
 
+TEST(Mesh, ANodeSetThatHoldsWholeFacesIsASurface) {
+  ElementBlock block{ElementType::hex20, Connectivity(1, 20), {17}};
+  for (Eigen::Index a = 0; a < 20; ++a) block.connectivity(0, a) = a;
+  const Mesh::NodeSets sets{{"floor", {0, 1, 2, 3, 8, 9, 10, 11, 16}},
+                            {"corners", {0, 1, 2, 3}},
+                            {"top", {4, 5, 6, 7, 12, 13, 14, 15}}};
+  const std::map<std::string, std::vector<FaceBlock>> given{
+      {"top", {face_of({0, 1, 5, 4}, FaceType::quad4)}}};
+  const Mesh mesh(reference_nodes(ElementType::hex20), {block}, given, sets);
+  EXPECT_NEAR(mesh.surface("floor").area, 4.0, 1e-14);
+  EXPECT_EQ(mesh.surface("floor").nodes.size(), 8U) << "the ninth is on no face of the set";
+  EXPECT_EQ(mesh.node_set("floor").size(), 9U);
+  EXPECT_FALSE(mesh.has_faces("corners"));
+  EXPECT_NE(message_of([&] { static_cast<void>(mesh.surface("corners")); }).find("\"floor\""),
+            std::string::npos);
+  EXPECT_NEAR(fit_plane(mesh.nodes(), mesh.surface("top")).normal.y(), -1.0, 1e-14)
+      << "a surface of that name comes first";
+  EXPECT_EQ(mesh.surface_names(), std::vector<std::string>{"top"});
+}
+
 TEST(Mesh, RefusesCoordinatesThatAreNoNumbers) {
   Eigen::MatrixX3d nodes = reference_nodes(ElementType::tet4);
   nodes(2, 1) = std::nan("");
