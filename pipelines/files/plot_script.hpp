@@ -8,8 +8,7 @@
 
 namespace microslip::pipelines {
 
-/// Runs a script of share/scripts, found beside the source tree's build, beside an installed program, or
-/// where the program was built.
+/// Runs a script of share/scripts.
 /// @param name  file name, e.g. "plot_run.py".
 /// @return empty when the script succeeded, else "not every plot was made: " and why.
 [[nodiscard]] std::string run_plot_script(const std::string& name,

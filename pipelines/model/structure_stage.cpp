@@ -12,6 +12,7 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/named_points.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
@@ -91,8 +92,7 @@ mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& m
     }
     return mesh::read_gmsh(mesh_file);
   }
-  const auto& given = std::get<MeshFileModel>(scene.model);
-  return mesh::read_gmsh(given.file, given.length_unit);
+  return read_mesh(std::get<MeshFileModel>(scene.model));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "pipelines/scene/modes_section.hpp"
 #include "pipelines/scene/points_section.hpp"
+#include "pipelines/system/mesh_format.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
@@ -40,29 +41,42 @@ BladeModel read_blade(const SectionReader& s) {
   return model;
 }
 
+namespace {
+
+double read_length_unit(const SectionReader& s, const toml::node& unit) {
+  const auto name = unit.value<std::string>();
+  if (!name || !unit.is_string()) return s.number_in(unit, "length_unit");
+  if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
+  try {
+    return to_si("1 " + *name, "m");
+  } catch (const UnitError& error) {
+    s.fail("length_unit", error.what(), &unit);
+  }
+}
+
+}  // namespace
+
 MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
   static_cast<void>(s.integer("order"));
   MeshFileModel model;
   const std::filesystem::path file = s.text("file");
   model.file = file.is_absolute() ? file : folder / file;
-  if (file.extension() != ".msh") {
+  model.place = s.place("file");
+  const MeshFormat format = mesh_format(file);
+  if (format == MeshFormat::unknown) {
     s.fail("file",
-           fmt::format("\"{}\": only gmsh meshes (.msh) are read in this version", file.string()),
+           fmt::format("\"{}\": meshes are read from files that end in {}", file.string(),
+                       mesh_endings()),
            s.node("file"));
   }
   s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
-  const toml::node& unit = *s.node("length_unit");
-  if (const auto name = unit.value<std::string>(); name && unit.is_string()) {
-    if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
-    try {
-      model.length_unit = to_si("1 " + *name, "m");
-    } catch (const UnitError& error) {
-      s.fail("length_unit", error.what(), &unit);
-    }
-  } else {
-    model.length_unit = s.number_in(unit, "length_unit");
+  if (const toml::node* unit = s.node("length_unit")) {
+    model.length_unit = read_length_unit(s, *unit);
+    if (!(*model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", unit);
+  } else if (format == MeshFormat::gmsh) {
+    model.length_unit = 1.0;
+    s.complete("length_unit", "m");
   }
-  if (!(model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", &unit);
   return model;
 }
 

@@ -28,8 +28,9 @@ struct BladeModel {
 };
 
 struct MeshFileModel {
-  std::filesystem::path file;  ///< absolute
-  double length_unit = 1.0;    ///< metres per unit of the file
+  std::filesystem::path file;         ///< absolute
+  std::optional<double> length_unit;  ///< metres per unit of the file; none: as the file says
+  std::string place;                  ///< "file:line: key" of `file`, for messages
 };
 
 using contact::LoadMeasure;

@@ -19,6 +19,7 @@ using Examples = std::map<std::string, std::string, std::less<>>;
 const Examples& mesh_examples() {
   static const Examples values{
       {"model.file", "\"blade.msh\""},
+      {"model.length_unit", "\"m\""},
       {"material.youngs_modulus", "\"210 GPa\""},
       {"material.poissons_ratio", "0.3"},
       {"material.density", "\"7800 kg/m^3\""},

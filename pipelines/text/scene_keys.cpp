@@ -50,10 +50,15 @@ constexpr std::array blade_keys{
 
 constexpr std::array mesh_keys{
     kind_key,
-    KeySpec{"file", text, "", "", 0, 0, false,
-            "gmsh mesh (.msh 2.2 or 4.1), relative to the scene"},
-    KeySpec{"length_unit", other, "m", "\"m\"", 0, 0, false,
-            "unit of the file's coordinates: \"mm\", or metres per unit"},
+    KeySpec{
+        "file", text, "", "", 0, 0, false,
+        "mesh, relative to the scene: gmsh (.msh 2.2 or 4.1), Abaqus or CalculiX (.inp), Nastran "
+        "(.bdf .nas .fem), universal (.unv), MED (.med), VTK (.vtu .vtk), Exodus (.e .exo .ex2)"},
+    KeySpec{"length_unit", other, "m", "", 0, 0, false,
+            "unit of the file's coordinates: \"mm\", or metres per unit; may be left out for .msh "
+            "(then "
+            "m) and for files that tell it",
+            true},
     order_key,
 };
 

@@ -13,7 +13,7 @@ libraries="libeigen3-dev libslepc-real-dev libgmsh-dev libopenblas-pthread-dev l
   libmuparser-dev nlohmann-json3-dev"
 # The build makes the tests as well unless it is told not to, so their libraries belong here.
 testing="libgtest-dev librapidcheck-dev libbenchmark-dev libsundials-dev"
-plots="python3-numpy python3-matplotlib python3-meshio python3-h5py"
+plots="python3-numpy python3-matplotlib python3-meshio python3-h5py python3-netcdf4"
 test_programs="calculix-ccx openmpi-bin clang-format"
 
 wanted="$build $libraries $testing $plots"

@@ -470,8 +470,8 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
     expect_complaint(complaint(modal_text, {std::string("response.harmonics=") + harmonics}),
                      {"response.harmonics"});
   }
-  const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"x.inp\"");
-  expect_complaint(complaint(mesh), {"x.inp", "this version"});
+  const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"x.cas\"");
+  expect_complaint(complaint(mesh), {"x.cas", ".msh, .inp"});
 }
 
 TEST(SceneFile, LawsOfContactAreRead) {
@@ -670,11 +670,21 @@ TEST(BadScene, ALengthUnitMustBeALength) {
   const auto unit = [&](const std::string& value) {
     return std::get<MeshFileModel>(parse(mesh, {"model.length_unit=" + value}).model).length_unit;
   };
-  EXPECT_DOUBLE_EQ(unit("mm"), 1e-3);
-  EXPECT_DOUBLE_EQ(unit("0.0254"), 0.0254);
+  EXPECT_DOUBLE_EQ(unit("mm").value(), 1e-3);
+  EXPECT_DOUBLE_EQ(unit("0.0254").value(), 0.0254);
   for (const char* value : {"", "s", "0", "-1", "1 mm", "nan"}) {
     EXPECT_NE(complaint(mesh, {std::string("model.length_unit=") + value}), "") << value;
   }
+}
+
+TEST(SceneFile, TheLengthUnitIsThatOfTheFileUnlessItIsGmshs) {
+  const auto model = [](const std::string& file) {
+    const std::string mesh = replaced(blade_text, "\"blade\"", "\"mesh\"\nfile = \"" + file + "\"");
+    return std::get<MeshFileModel>(parse(mesh).model);
+  };
+  EXPECT_DOUBLE_EQ(model("x.msh").length_unit.value(), 1.0);
+  EXPECT_FALSE(model("x.INP").length_unit.has_value());
+  EXPECT_NE(model("x.unv").place.find("model.file"), std::string::npos);
 }
 
 // ---- modal scenes

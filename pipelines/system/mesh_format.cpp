@@ -1,0 +1,33 @@
+#include "pipelines/system/mesh_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::string_view gmsh_ending = ".msh";
+constexpr std::array<std::string_view, 11> converted_endings{
+    ".inp", ".bdf", ".nas", ".fem", ".unv", ".med", ".vtu", ".vtk", ".e", ".exo", ".ex2"};
+
+}  // namespace
+
+MeshFormat mesh_format(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == gmsh_ending) return MeshFormat::gmsh;
+  const bool known = std::ranges::find(converted_endings, ending) != converted_endings.end();
+  return known ? MeshFormat::converted : MeshFormat::unknown;
+}
+
+std::string mesh_endings() {
+  return fmt::format("{}, {}", gmsh_ending, fmt::join(converted_endings, ", "));
+}
+
+}  // namespace microslip::pipelines

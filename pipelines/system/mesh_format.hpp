@@ -1,0 +1,19 @@
+/// @file
+/// Mesh files by their ending.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace microslip::pipelines {
+
+/// converted: by share/scripts/convert_mesh.py.
+enum class MeshFormat { gmsh, converted, unknown };
+
+/// By the ending of the name, in capitals or not.
+[[nodiscard]] MeshFormat mesh_format(const std::filesystem::path& file);
+
+/// ".msh, .inp, …", for messages.
+[[nodiscard]] std::string mesh_endings();
+
+}  // namespace microslip::pipelines

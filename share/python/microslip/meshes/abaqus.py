@@ -1,0 +1,359 @@
+"""Decks of Abaqus and CalculiX (.inp): nodes, elements, *NSET, *ELSET, *SURFACE, *INCLUDE, one *INSTANCE.
+
+meshio 5.0 is not used here: it forgets all but the last *NODE block, the numbers of elements, sets made of sets, what
+*NODE and *ELEMENT say of sets, and *SURFACE.
+"""
+import os
+import re
+
+import numpy as np
+
+from .content import TYPES, Block, Content, Refused, boundary_faces, require
+
+_SOLID = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge", "15": "wedge15",
+          "5": "pyramid", "13": "pyramid13"}
+_SHELL = {"3": "triangle", "6": "triangle6", "4": "quad", "8": "quad8"}
+_LINE = {"T3D2": "line", "B31": "line", "B32": "line3", "T3D3": "line3", "T2D2": "line", "T2D3": "line3"}
+_FACES = {"SPOS": 0, "SNEG": 0, **{f"S{i}": i - 1 for i in range(1, 7)}}  # the two sides of a shell are one face here
+_COPIES = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
+_DEEPEST = 20  # *INCLUDE within *INCLUDE
+
+
+def read(path):
+    """A Content. Raises Refused with file and line."""
+    deck = _Deck(path)
+    for card in _cards(_lines(path, os.path.dirname(os.path.abspath(path)), ())):
+        deck.take(card)
+    return deck.content()
+
+
+def _type(name):
+    """Ours for theirs: C3D10MH is a tetra10, S4R a quad; None for what is no plain body, skin or line."""
+    upper = name.upper()
+    solid = re.fullmatch(r"C3D(\d+)[A-Z]*", upper)
+    if solid:
+        return _SOLID.get(solid[1])
+    shell = re.fullmatch(r"(?:S|DS|STRI|CPS|CPE|M3D|SFM3D|R3D)(\d+)[A-Z]*\d?", upper)
+    if shell:
+        return "triangle6" if upper == "STRI65" else _SHELL.get(shell[1])
+    return _LINE.get(upper.rstrip("RH"))
+
+
+def _lines(path, folder, above):
+    """Pairs (place, text) of a file and what it includes, without comments and blank lines."""
+    require(len(above) < _DEEPEST, f"{path}: *INCLUDE goes {_DEEPEST} files deep: does it include itself?")
+    try:
+        file = open(path, encoding="latin-1")
+    except OSError as error:
+        raise Refused(f"{above[-1] if above else path}: {path} cannot be read: {error.strerror}") from None
+    with file:
+        for number, text in enumerate(file, 1):
+            text = text.strip()
+            if not text or text.startswith("**"):
+                continue
+            if text[0] == "*" and re.match(r"\*\s*INCLUDE\b", text, re.I):
+                place = f"{path}:{number}"
+                name = re.search(r"INPUT\s*=\s*(.+)", text, re.I)
+                require(name, f"{place}: *INCLUDE without INPUT=")
+                yield from _lines(os.path.join(folder, name[1].strip().strip('"')), folder, (*above, place))
+            else:
+                yield (path, number), text
+
+
+class _Card:
+    """A keyword with its parameters and data lines."""
+
+    def __init__(self, where, text):
+        words = [word.strip() for word in text[1:].split(",")]
+        self.place = f"{where[0]}:{where[1]}"
+        self.keyword = " ".join(words[0].upper().split())
+        self.parameters = {}
+        for word in filter(None, words[1:]):
+            key, _, value = word.partition("=")
+            self.parameters[key.strip().upper()] = value.strip().strip('"')
+        self.data = []  # (where, text)
+
+    def has(self, key):
+        return key in self.parameters
+
+    def get(self, key, preset=None):
+        return self.parameters.get(key, preset)
+
+    def name(self, key):
+        require(self.get(key), f"{self.place}: *{self.keyword} without {key}=")
+        return self.get(key)
+
+    def rows(self):
+        """Place and words of every data line."""
+        for where, text in self.data:
+            yield f"{where[0]}:{where[1]}", [word.strip() for word in text.rstrip(",").split(",")]
+
+    def numbers(self, convert):
+        """All numbers of the data lines and how many each line has. Raises Refused at the line that holds no number."""
+        texts = [text.rstrip(", \t") for _, text in self.data]
+        try:
+            return np.array(list(map(convert, ",".join(texts).split(",")))), \
+                np.array([text.count(",") + 1 for text in texts])
+        except ValueError:
+            for place, words in self.rows():
+                for word in words:
+                    try:
+                        convert(word)
+                    except ValueError:
+                        raise Refused(f'{place}: *{self.keyword}: expected a number, found "{word[:40]}"') from None
+            raise
+
+
+def _cards(lines):
+    card = None
+    continued = None
+    for where, text in lines:
+        if continued:  # a keyword line that ended with a comma
+            text, where, continued = continued[1] + text, continued[0], None
+        if text[0] != "*":
+            if card:
+                card.data.append((where, text))
+            continue
+        if text.endswith(","):
+            continued = (where, text)
+            continue
+        if card:
+            yield card
+        card = _Card(where, text)
+    if card:
+        yield card
+
+
+class _Sets:
+    """Sets of numbers that may be made of other sets, named without regard to case; the first spelling stays."""
+
+    def __init__(self, kind):
+        self.kind = kind
+        self._parts = {}    # upper-case name → [(place, numbers or a name)]
+        self._spelling = {}
+        self._hidden = set()
+        self._ready = {}
+
+    def add(self, name, place, part, hidden=False):
+        key = name.upper()
+        self._spelling.setdefault(key, name)
+        if hidden:
+            self._hidden.add(key)
+        self._parts.setdefault(key, []).append((place, part))
+
+    def __contains__(self, name):
+        return name.upper() in self._parts
+
+    def get(self, name, place, above=()):
+        key = name.upper()
+        if key not in self._parts:
+            raise Refused(f'{place}: no {self.kind} set is named "{name}"; there are: '
+                          f'{", ".join(self._spelling.values()) or "none"}')
+        require(key not in above, f'{place}: {self.kind} set "{name}" is made of itself')
+        if key not in self._ready:
+            parts = [self.get(part, at, (*above, key)) if isinstance(part, str) else part
+                     for at, part in self._parts[key]]
+            self._ready[key] = np.unique(np.concatenate(parts).astype(np.int64))
+        return self._ready[key]
+
+    def named(self):
+        return {self._spelling[key]: self.get(key, "") for key in self._parts if key not in self._hidden}
+
+
+class _Deck:
+    def __init__(self, path):
+        self.path = path
+        self.nodes, self.coordinates, self.blocks = [], [], []
+        self.node_sets, self.element_sets = _Sets("node"), _Sets("element")
+        self.surfaces = {}   # upper-case name → card
+        self.instances = []
+        self.instanced = None  # part of the instance
+        self.inside = None     # the part or instance a card stands in
+        self.parts = {}        # part → cards, until it is known which of them is used
+        self.later = []        # cards of the assembly: they speak of its parts
+
+    def take(self, card):
+        if card.keyword in ("PART", "INSTANCE"):
+            self._open(card)
+        elif card.keyword in ("END PART", "END INSTANCE"):
+            self.inside = None
+        elif self.inside is not None:
+            self.parts[self.inside].append(card)
+        elif self.parts:
+            self.later.append(card)
+        else:
+            self._take(card)
+
+    def _open(self, card):
+        self.inside = f"{card.keyword} {card.name('NAME').upper()}"
+        require(self.inside not in self.parts, f"{card.place}: *{card.keyword} {card.get('NAME')} stands twice")
+        self.parts[self.inside] = []
+        if card.keyword == "INSTANCE":
+            self._place_instance(card)
+
+    def _place_instance(self, card):
+        """Only one, where its part is."""
+        self.instances.append(card)
+        first = self.instances[0]
+        require(len(self.instances) == 1,
+                f"{card.place}: instance \"{card.get('NAME')}\" beside \"{first.get('NAME')}\": a body of one instance is "
+                "read; merge them, or write the part out alone")
+        for place, words in card.rows():
+            require(not any(float(word or 0) for word in words[:3]),
+                    f"{place}: instance \"{card.get('NAME')}\" is moved or turned; write the part out alone, or where it lies")
+        for part in (f"INSTANCE {card.name('NAME').upper()}", f"PART {card.get('PART', '').upper()}"):
+            self.instanced = (self.instanced or []) + [part]
+
+    def _take(self, card):
+        if card.keyword in _COPIES:
+            raise Refused(f"{card.place}: *{card.keyword} is not followed; write the mesh out node by node")
+        if card.keyword == "NODE":
+            self._take_nodes(card)
+        elif card.keyword == "ELEMENT":
+            self._take_elements(card)
+        elif card.keyword == "NSET":
+            self._take_set(card, self.node_sets, "NSET")
+        elif card.keyword == "ELSET":
+            self._take_set(card, self.element_sets, "ELSET")
+        elif card.keyword == "SURFACE":
+            self._take_surface(card)
+
+    def _take_nodes(self, card):
+        require(card.get("SYSTEM", "R").upper() == "R",
+                f"{card.place}: *NODE, SYSTEM={card.get('SYSTEM')}: only rectangular coordinates are read")
+        if not card.data:
+            return
+        require(not card.has("INPUT"), f"{card.place}: *NODE, INPUT=: use *INCLUDE")
+        values, counts = card.numbers(float)
+        for (place, words), count in zip(card.rows(), counts):
+            require(2 <= count <= 7, f"{place}: *NODE: expected a number and three coordinates, found {len(words)} numbers")
+        starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        places = np.zeros((len(counts), 3))
+        for axis in range(3):
+            has = counts > axis + 1
+            places[has, axis] = values[starts[has] + axis + 1]
+        numbers = values[starts].astype(np.int64)
+        self.nodes.append(numbers)
+        self.coordinates.append(places)
+        if card.get("NSET"):
+            self.node_sets.add(card.get("NSET"), card.place, numbers)
+
+    def _take_elements(self, card):
+        given = card.name("TYPE")
+        own = _type(given)
+        require(own, f"{card.place}: elements of type {given} are not read; bodies may be C3D4, C3D10, C3D8, C3D20, C3D6, "
+                     "C3D15, C3D5, C3D13 with any letters behind")
+        if not card.data:
+            return
+        require(not card.has("INPUT"), f"{card.place}: *ELEMENT, INPUT=: use *INCLUDE")
+        values, counts = card.numbers(int)
+        width = TYPES[own].n_nodes + 1
+        ends = np.cumsum(counts)
+        wanted = np.arange(width, ends[-1] + width, width)
+        wrong = np.flatnonzero(~np.isin(wanted, ends))
+        if len(wrong):
+            begin = width * wrong[0]
+            line = np.searchsorted(ends, begin, side="right")
+            where = card.data[line][0]
+            raise Refused(f"{where[0]}:{where[1]}: element {values[begin]} does not have the {width - 1} nodes of a "
+                          f"{given}: the lines hold fewer or more")
+        table = values.reshape(-1, width)
+        self.blocks.append(Block(own, table[:, 0], table[:, 1:]))
+        if card.get("ELSET"):
+            self.element_sets.add(card.get("ELSET"), card.place, table[:, 0])
+
+    def _take_set(self, card, sets, key):
+        name, hidden = card.name(key), card.has("INTERNAL")
+        sets.add(name, card.place, np.empty(0, dtype=np.int64), hidden)
+        if card.has("GENERATE"):
+            for place, words in card.rows():
+                sets.add(name, place, _generated(place, words), hidden)
+            return
+        if key == "NSET" and card.get("ELSET"):
+            sets.add(name, card.place, self._nodes_of(card.get("ELSET"), card.place))
+        numbers = []
+        for place, words in card.rows():
+            for word in filter(None, words):
+                if word.isdigit():
+                    numbers.append(int(word))
+                else:
+                    sets.add(name, place, self._own_name(word), hidden)
+        sets.add(name, card.place, np.array(numbers, dtype=np.int64), hidden)
+
+    def _nodes_of(self, element_set, place):
+        elements = self.element_sets.get(element_set, place)
+        return np.concatenate([block.nodes[np.isin(block.numbers, elements)].ravel() for block in self.blocks])
+
+    def _own_name(self, word):
+        """A name, or a number, said with the instance before it."""
+        word = word.strip('"')
+        for instance in self.instances:
+            if word.upper().startswith(instance.name("NAME").upper() + "."):
+                word = word[len(instance.name("NAME")) + 1:]
+        return np.array([int(word)]) if word.isdigit() else word
+
+    def _take_surface(self, card):
+        name = card.name("NAME")
+        before = self.surfaces.setdefault(name.upper(), card)
+        require(before is card, f'{card.place}: surface "{name}" is there already, at {before.place}')
+        require(not card.has("COMBINE"), f'{card.place}: surface "{name}": COMBINE is not followed')
+
+    def content(self):
+        self._settle_parts()
+        require(self.nodes, f"{self.path}: no *NODE with coordinates in it: is it a deck of Abaqus or CalculiX?")
+        require(self.blocks, f"{self.path}: no *ELEMENT with data in it")
+        content = Content(np.concatenate(self.nodes), np.concatenate(self.coordinates), self.blocks)
+        outer = None
+        for card in self.surfaces.values():
+            if card.get("TYPE", "ELEMENT").upper() == "NODE":
+                self._add_node_surface(card)
+                continue
+            if outer is None:
+                outer = boundary_faces(content)
+            if not card.has("INTERNAL"):
+                content.surfaces[card.name("NAME")] = self._faces(card, content, outer)
+        content.node_sets = self.node_sets.named()
+        content.element_sets = self.element_sets.named()
+        return content
+
+    def _settle_parts(self):
+        """Of several parts the one that the instance is of."""
+        used = self.instanced or [name for name in self.parts if name.startswith("PART ")]
+        require(self.instanced or len(used) <= 1,
+                f"{self.path}: {len(used)} parts and no *INSTANCE that tells which of them is meant")
+        for card in [*(card for part in used for card in self.parts.get(part, [])), *self.later]:
+            self._take(card)
+
+    def _add_node_surface(self, card):
+        name = card.name("NAME")
+        for place, words in card.rows():
+            part = self._own_name(words[0])
+            if not (isinstance(part, str) and part.upper() == name.upper()):
+                require(name not in self.node_sets or not isinstance(part, str)
+                        or np.array_equal(self.node_sets.get(name, place), self.node_sets.get(part, place)),
+                        f'{place}: surface "{name}" and a node set of that name hold other nodes; rename one')
+                self.node_sets.add(name, place, part)
+
+    def _faces(self, card, content, outer):
+        """Elements and faces of *SURFACE, TYPE=ELEMENT: lines "elements, S3", or "elements" for what is free of them."""
+        found = [np.empty((0, 2), dtype=np.int64)]
+        for place, words in card.rows():
+            part = self._own_name(words[0])
+            elements = self.element_sets.get(part, place) if isinstance(part, str) else part
+            face = words[1].upper() if len(words) > 1 else ""
+            if not face:
+                found.append(outer[np.isin(outer[:, 0], elements)])
+            else:
+                require(face in _FACES, f'{place}: surface "{card.name("NAME")}": face "{words[1]}" is not read; expected S1 '
+                                        "to S6, SPOS, SNEG, or nothing for all free faces")
+                found.append(np.column_stack([elements, np.full(len(elements), _FACES[face])]))
+        return np.unique(np.concatenate(found), axis=0)
+
+
+def _generated(place, words):
+    try:
+        first, last, step = [int(word) for word in words + ["1"] * (3 - len(words))]
+    except ValueError:
+        raise Refused(f"{place}: GENERATE: expected first, last and step, found {', '.join(words)[:40]}") from None
+    require(step > 0 and 0 <= last - first <= 10**8, f"{place}: GENERATE: from {first} to {last} by {step}")
+    return np.arange(first, last + 1, step)

@@ -1,0 +1,97 @@
+"""What meshio reads as it should: MED of Salome and Code_Aster (.med), VTK (.vtu, .vtk). Names are ours to find."""
+import contextlib
+import io
+
+import numpy as np
+
+from .content import TYPES, Block, Content, Refused, require
+
+_MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it numbers things
+
+
+def read_med(path):
+    """A Content. Families become groups: a family of nodes or elements is in each group it names."""
+    import h5py
+    require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5; files of MED before version 3 must be converted")
+    content, mesh = _read(path, "med")
+    for name, numbers in _families(getattr(mesh, "point_tags", {}), mesh.point_data.get("point_tags"), content.node_numbers):
+        content.node_sets[name] = numbers
+    tags = mesh.cell_data.get("cell_tags")
+    if tags is not None:
+        elements = np.concatenate([block.numbers for block in content.blocks])
+        content.element_sets = dict(_families(mesh.cell_tags, np.concatenate(tags), elements))
+    content.length_unit = _med_unit(path)
+    return content
+
+
+def _families(groups_of, tags, numbers):
+    """Pairs (group, its numbers)."""
+    names = {name for groups in groups_of.values() for name in groups if name}
+    for name in sorted(names) if tags is not None else ():
+        yield name, numbers[np.isin(tags, [family for family, groups in groups_of.items() if name in groups])]
+
+
+def _med_unit(path):
+    """Metres, where the file names a unit of its coordinates that we know."""
+    import h5py
+    with h5py.File(path, "r") as file:
+        mesh = next(iter(file["ENS_MAA"].values()))
+        unit = mesh.attrs.get("UNI", b"")
+    words = (unit.decode("latin-1") if isinstance(unit, bytes) else str(unit)).replace("\\0", " ").split()
+    return {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254}.get(words[0].lower()) if words else None
+
+
+def read_vtk(path):
+    """A Content. An array of whole numbers names a set for each of its values: "material 3", and just "held" for an
+    array of 0 and 1."""
+    content, mesh = _read(path, "vtu" if path.lower().endswith(".vtu") else "vtk")
+    for name, values in mesh.point_data.items():
+        content.node_sets.update(_valued_sets(name, values, content.node_numbers))
+    elements = np.concatenate([block.numbers for block in content.blocks])
+    for name, values in mesh.cell_data.items():
+        content.element_sets.update(_valued_sets(name, np.concatenate(values), elements))
+    return content
+
+
+def _valued_sets(name, values, numbers):
+    values = np.asarray(values)
+    if values.ndim != 1 or not np.issubdtype(values.dtype, np.integer):
+        return {}
+    found = np.unique(values)
+    if len(found) > _MOST_VALUES or len(found) == len(values) > 1:
+        return {}
+    if found.tolist() in ([0, 1], [1]):
+        return {name: numbers[values == 1]}
+    return {f"{name} {value}": numbers[values == value] for value in found if value != 0}
+
+
+def _read(path, file_format):
+    import meshio
+    said = io.StringIO()
+    # Without these meshio 5.0 ends on elements that it knows how to read.
+    meshio._mesh.topological_dimension.update(wedge15=3, pyramid13=3)
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):  # where it warns
+            mesh = getattr(meshio, file_format).read(path)
+    except (MemoryError, ImportError):
+        raise
+    except (SystemExit, Exception) as error:  # it may leave by either
+        raise Refused(f"{path}: no {file_format} file that meshio can read: {_told(error, said)}") from error
+    content = Content(np.arange(1, len(mesh.points) + 1), np.asarray(mesh.points, dtype=float), [],
+                      either_hand=True)
+    require(content.coordinates.ndim == 2 and content.coordinates.shape[1] == 3,
+            f"{path}: the mesh is not three-dimensional")
+    first = 1
+    for cells in mesh.cells:
+        require(cells.type in TYPES, f"{path}: {len(cells.data)} elements of type {cells.type} are not read; bodies may be "
+                                     f"{', '.join(name for name, own in TYPES.items() if own.dimension == 3)}")
+        content.blocks.append(Block(cells.type, np.arange(first, first + len(cells.data)),
+                                    np.asarray(cells.data, dtype=np.int64) + 1))
+        first += len(cells.data)
+    require(content.blocks, f"{path}: there are no elements in it")
+    return content, mesh
+
+
+def _told(error, said):
+    text = " ".join(f"{said.getvalue()} {'' if isinstance(error, SystemExit) else error}".split())
+    return text or f"meshio gave up without a word ({type(error).__name__})"

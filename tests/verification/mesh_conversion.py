@@ -1,0 +1,361 @@
+#!/usr/bin/env python3
+"""share/scripts/convert_mesh.py: node orders, names, bad input.
+
+Files are written by tests/support/mesh_files.py, from the manuals of the codes; what comes out is put in order by
+meshio's table of gmsh's orders, which knows nothing of ours. Node orders: one curved element of every type, so that an edge node
+in another's place is 0.01 or more away.
+
+usage: mesh_conversion.py SOURCE
+"""
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import meshio
+import meshio.gmsh.common as gmsh_tables
+import numpy as np
+
+SOURCE = sys.argv.pop(1)
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+import mesh_files
+
+SCRIPT = os.path.join(SOURCE, "share", "scripts", "convert_mesh.py")
+spec = importlib.util.spec_from_file_location("convert_mesh", SCRIPT)
+convert_mesh = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(convert_mesh)
+meshio._mesh.topological_dimension.update(wedge15=3, pyramid13=3)  # or meshio 5.0 ends on them
+ALL = ("tetra", "tetra10", "hexahedron", "hexahedron20", "wedge", "wedge15", "pyramid", "pyramid13")
+WITHOUT_PYRAMIDS = ALL[:6]
+FORMATS = {".inp": (mesh_files.write_inp, ALL), ".bdf": (mesh_files.write_bdf, ALL), ".unv": (mesh_files.write_unv, WITHOUT_PYRAMIDS),
+           ".med": (mesh_files.write_med, ALL), ".vtu": (mesh_files.write_vtk, ALL), ".vtk": (mesh_files.write_vtk, ALL),
+           ".e": (mesh_files.write_exodus, ALL)}
+TOLERANCE = {".bdf": 1e-9}  # ten digits in a field; the others hold doubles
+NEEDS = {".e": "netCDF4", ".med": "h5py"}
+
+# A bar of two bricks along x, 1 x 1 each.
+BAR = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+*NODE
+11, 0, 0, 1
+12, 1, 0, 1
+13, 2, 0, 1
+14, 0, 1, 1
+15, 1, 1, 1
+16, 2, 1, 1
+*ELEMENT, TYPE=C3D8, ELSET=left
+7, 1, 2, 5, 4, 11, 12, 15, 14
+*ELEMENT, TYPE=C3D8, ELSET=right
+8, 2, 3, 6, 5, 12,
+13, 16, 15
+"""
+
+
+class Converted:
+    """What the script makes of a file, or says; without a process of its own, which takes a second to start."""
+
+    def __init__(self, path):
+        with tempfile.TemporaryDirectory() as folder:
+            output, facts = os.path.join(folder, "mesh.msh"), os.path.join(folder, "facts.json")
+            self.code, self.message = 0, ""
+            try:
+                convert_mesh.convert(path, output, facts)
+            except Exception as error:  # as main() does
+                self.code, self.message = 1, convert_mesh.problem_of(path, error)
+                return
+            with open(facts, encoding="utf-8") as file:
+                self.length_unit = json.load(file)["length_unit"]
+            self._read(output)
+
+    def _read(self, path):
+        """gmsh 2.2, binary. meshio's reader of it wants nodes numbered without gaps; its tables of types and node orders
+        are right."""
+        with open(path, "rb") as file:
+            lines, names = iter(file.readline, b""), {}
+            while next(lines) != b"$PhysicalNames\n":
+                pass
+            for _ in range(int(next(lines))):
+                dimension, tag, name = next(lines).decode().strip().split(" ", 2)
+                names[int(tag), int(dimension)] = name.strip('"')
+            while next(lines) != b"$Nodes\n":
+                pass
+            nodes = np.fromfile(file, np.dtype([("number", "<i4"), ("place", "<f8", 3)]), int(next(lines)))
+            places = dict(zip(nodes["number"].tolist(), nodes["place"]))
+            while next(lines) != b"$Elements\n":
+                pass
+            self.elements, self.surfaces, self.sets = [], {name: [] for (_, dim), name in names.items() if dim == 2}, {}
+            left = int(next(lines))
+            while left:
+                number, n, n_tags = np.fromfile(file, "<i4", 3)
+                kind = gmsh_tables._gmsh_to_meshio_type[number]
+                rows = np.fromfile(file, "<i4", n * (1 + n_tags + meshio._mesh.num_nodes_per_cell[kind])).reshape(n, -1)
+                for tag, row in zip(rows[:, 1], gmsh_tables._gmsh_to_meshio_order(kind, rows[:, 1 + n_tags:])):
+                    self._take(kind, names, int(tag), np.array([places[node] for node in row]))
+                left -= n
+
+    def _take(self, kind, names, tag, row):
+        if kind in ("triangle", "quad"):
+            self.surfaces[names[tag, 2]].append(_places(row))
+        elif kind == "vertex":
+            self.sets.setdefault(names[tag, 0], []).append(tuple(row[0]))
+        else:
+            self.elements.append((kind, row))
+
+
+def _places(rows):
+    return {tuple(float(x) for x in row) for row in rows}
+
+
+class Conversion(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def deck(self, text, name="deck.inp"):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return Converted(self.path(name))
+
+    def refused(self, text, *words, name="deck.inp"):
+        result = self.deck(text, name)
+        self.assertEqual(result.code, 1, "read without complaint")
+        for word in words:
+            self.assertIn(word, result.message)
+
+    def assert_names(self, result, surfaces, sets):
+        self.assertEqual(result.code, 0, result.message)
+        self.assertEqual({name: len(rows) for name, rows in result.surfaces.items()}, surfaces)
+        self.assertEqual({name: len(rows) for name, rows in result.sets.items()}, sets)
+
+
+class NodeOrders(Conversion):
+    def check(self, ending):
+        if ending in NEEDS and importlib.util.find_spec(NEEDS[ending]) is None:
+            self.skipTest(f"{NEEDS[ending]} is not installed: {ending} cannot be read")
+        write, types = FORMATS[ending]
+        for kind in types:
+            with self.subTest(type=kind):
+                mesh = mesh_files.curved_element(kind)
+                write(mesh, self.path("one" + ending))
+                result = Converted(self.path("one" + ending))
+                self.assertEqual(result.code, 0, result.message)
+                (found, nodes), = result.elements
+                self.assertEqual(found, kind)
+                np.testing.assert_allclose(nodes, mesh.nodes, rtol=0, atol=TOLERANCE.get(ending, 0))
+
+
+for ending in FORMATS:
+    setattr(NodeOrders, f"test_curved_elements_{ending[1:]}", lambda self, ending=ending: self.check(ending))
+
+
+class AbaqusDecks(Conversion):
+    def test_several_blocks_of_nodes_and_elements(self):
+        result = self.deck(BAR)
+        self.assert_names(result, {}, {"left": 8, "right": 8})
+        self.assertEqual(len(result.elements), 2)
+
+    def test_sets_of_sets_generated_sets_and_overlapping_names(self):
+        result = self.deck(BAR + "*NSET, NSET=foot, GENERATE\n1, 11, 10\n4, 14, 10\n*nset, nset=both\nfoot, 13\n"
+                           "*NSET, NSET=Foot\n2\n*ELSET, ELSET=foot\nleft\n*SURFACE, NAME=foot\nRIGHT, S4\n")
+        self.assert_names(result, {"foot": 1}, {"foot": 5, "both": 6, "left": 8, "right": 8})
+        self.assertEqual(result.surfaces["foot"], [_places([(2, 0, 0), (2, 1, 0), (2, 1, 1), (2, 0, 1)])])
+
+    def test_surfaces_of_elements_faces_and_nodes(self):
+        result = self.deck(BAR + "*SURFACE, NAME=top, TYPE=ELEMENT\nleft, S2\n8, S2\n*SURFACE, NAME=skin\nright,\n"
+                           "*SURFACE, NAME=end, TYPE=NODE\n3, 1.\n6\n13\n16\n")
+        self.assert_names(result, {"top": 2, "skin": 5}, {"end": 4, "left": 8, "right": 8})
+
+    def test_every_face_of_every_element(self):
+        for kind in ALL:
+            mesh = mesh_files.curved_element(kind)
+            corners = [[int(digit) - 1 for digit in face] for face in mesh_files.ABAQUS_FACES[kind.rstrip("0123456789")]]
+            mesh.surfaces = {f"face {i}": [face] for i, face in enumerate(corners, 1)}
+            mesh_files.write_inp(mesh, self.path("faces.inp"))
+            result = Converted(self.path("faces.inp"))
+            for i, face in enumerate(corners, 1):
+                with self.subTest(type=kind, face=i):
+                    self.assertEqual(result.surfaces[f"face {i}"], [_places(mesh.nodes[face])])
+
+    def test_included_files(self):
+        with open(self.path("mesh of it.inp"), "w", encoding="utf-8") as file:
+            file.write(BAR)
+        result = self.deck("*HEADING\n*INCLUDE, INPUT=mesh of it.inp\n*NSET, NSET=a\n1\n")
+        self.assert_names(result, {}, {"a": 1, "left": 8, "right": 8})
+        self.refused("*INCLUDE, INPUT=gone.inp\n", "deck.inp:1", "gone.inp cannot be read")
+        self.refused("*INCLUDE, INPUT=deck.inp\n", "include itself")
+
+    def test_an_instance_where_its_part_lies(self):
+        assembly = ("*PART, NAME=Blade\n" + BAR + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Blade-1, PART=Blade\n{}"
+                    "*END INSTANCE\n*NSET, NSET=tip, INSTANCE=Blade-1\n3, 6\n*ELSET, ELSET=_f, INTERNAL, INSTANCE=Blade-1\n 8,\n"
+                    "*SURFACE, NAME=end\n_f, S4\n*NSET, NSET=same\nBlade-1.13\n*SURFACE, NAME=free\nBlade-1.left\n*END ASSEMBLY\n")
+        self.assert_names(self.deck(assembly.format("")), {"end": 1, "free": 5}, {"tip": 2, "same": 1, "left": 8, "right": 8})
+        self.refused(assembly.format("0., 0., 5.\n"), "deck.inp:24", "moved or turned")
+        self.refused(assembly.format("*END INSTANCE\n*INSTANCE, NAME=Blade-2, PART=Blade\n"), "deck.inp:25", "one instance")
+
+    def test_what_is_wrong_is_told_by_its_line(self):
+        self.refused("solid cube", "deck.inp: no *NODE")
+        self.refused(BAR.replace("C3D8, ELSET=right", "C3D27, ELSET=right"), "deck.inp:17", "C3D27")
+        self.refused(BAR.replace("13, 16, 15\n", "13, 16\n"), "deck.inp:18", "element 8")
+        self.refused(BAR.replace("13, 16, 15\n", "13, 16, 99\n"), "element 8 uses node 99")
+        self.refused(BAR.replace("6, 2, 1, 0", "5, 2, 1, 0"), "node 5 stands twice")
+        self.refused(BAR.replace("\n8, 2", "\n7, 2"), "element 7 stands twice")
+        self.refused(BAR.replace("6, 2, 1, 0", "6, two, 1, 0"), "deck.inp:7", '"two"')
+        self.refused(BAR.replace("6, 2, 1, 0", "6, nan, 1, 0"), "node 6", "finite")
+        self.refused(BAR + "*NSET, NSET=a\nfeet\n", "deck.inp:21", '"feet"')
+        self.refused(BAR + "*NSET, NSET=a\n77\n", '"a" holds node 77')
+        self.refused(BAR + "*NSET, NSET=a\nb\n*NSET, NSET=b\na\n", "made of itself")
+        self.refused(BAR + "*SURFACE, NAME=s\nleft, S7\n", "deck.inp:21", "S7")
+        self.refused(BAR + "*SURFACE, NAME=s\nup, S1\n", "deck.inp:21", '"up"', "left, right")
+        self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n*SURFACE, NAME=S\nleft, S2\n", "deck.inp:22", "deck.inp:20")
+        self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
+        self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
+
+
+NASTRAN = """SOL 103
+CEND
+SET 4 = 1 THRU 4,
+ 11
+BEGIN BULK
+$HMSET        4        1 "tip nodes"
+$HMNAME PROP                   3"steel" 4
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID    4               0.      1.      0.
+GRID*                 11                              0.              0.*
+*                    1.0
+GRID,3,,.2-1,-1.+0,0.
+CTETRA  8       3       1       2       4       11
+CTETRA,9,7,1,3,2,
+,11
+SPC1,1,123,1,THRU,4,EXCEPT,3
+PLOAD4,6,8,1.,,,,1,11
+ENDDATA
+"""
+
+
+class NastranDecks(Conversion):
+    def test_fields_free_and_fixed_and_names(self):
+        result = self.deck(NASTRAN, "deck.bdf")
+        self.assert_names(result, {"PLOAD4 6": 1}, {"SPC 1": 3, "steel": 4, "PID 7": 4})
+        self.assertIn((0.02, -1.0, 0.0), {tuple(node) for _, nodes in result.elements for node in nodes})
+        self.assertEqual(result.surfaces["PLOAD4 6"], [_places([(0, 0, 0), (1, 0, 0), (0, 1, 0)])])
+
+    def test_bulk_data_alone(self):
+        self.assertEqual(self.deck(NASTRAN.split("BULK\n")[1], "deck.nas").code, 0)
+
+    def test_what_is_wrong_is_told_by_its_line(self):
+        self.refused("solid cube", "deck.bdf: no GRID", name="deck.bdf")
+        self.refused(NASTRAN.replace("GRID,1,,", "GRID,1,5,"), "deck.bdf:8", "coordinate system 5", name="deck.bdf")
+        self.refused(NASTRAN.replace(",9,7,1,3,2,", ",9,7,1,3,"), "deck.bdf:15", "has 3 nodes", name="deck.bdf")
+        self.refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,one"), "deck.bdf:9", '"one"', name="deck.bdf")
+        self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2"), "deck.bdf:19", "CBAR", name="deck.bdf")
+        self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
+
+
+class UniversalFiles(Conversion):
+    def write(self, change=lambda text: text, **options):
+        mesh_files.write_unv(mesh_files.curved_element("tetra10"), self.path("one.unv"), **options)
+        with open(self.path("one.unv"), encoding="utf-8") as file:
+            return self.deck(change(file.read()), "one.unv")
+
+    def test_groups_and_units(self):
+        self.assert_names(self.write(), {}, {"tip": 1, "bottom": 6})
+        self.assertEqual(self.write(millimetres=True).length_unit, 1e-3)
+        self.assertIsNone(self.write().length_unit)
+
+    def test_what_is_wrong_is_told_by_its_line(self):
+        for change, words in ((lambda text: "solid cube", ("no line of -1",)),
+                              (lambda text: text[:400], ("cut off",)),
+                              (lambda text: text.replace("       118", "       199"), ("one.unv:26", "element 1", "199")),
+                              (lambda text: text.replace("\ntip\n", "\nbottom\n"), ("bottom", "already")),
+                              (lambda text: text.replace("D+00", "X+00", 1), ("one.unv:4",))):
+            result = self.write(change)
+            self.assertEqual(result.code, 1)
+            for word in words:
+                self.assertIn(word, result.message)
+
+
+class OtherFiles(Conversion):
+    def test_a_file_that_is_not_what_its_ending_says(self):
+        for ending in (".med", ".vtu", ".vtk", ".e"):
+            if ending in NEEDS and importlib.util.find_spec(NEEDS[ending]) is None:
+                continue
+            with self.subTest(ending=ending):
+                self.refused(BAR, "deck" + ending + ": no ", name="deck" + ending)
+                self.refused("", "deck" + ending + ": no ", name="deck" + ending)
+
+    def test_truncated_files(self):
+        """A message of the file, or a mesh: never a traceback."""
+        for ending, (write, _) in FORMATS.items():
+            if ending in NEEDS and importlib.util.find_spec(NEEDS[ending]) is None:
+                continue
+            write(mesh_files.curved_element("tetra10"), self.path("whole" + ending))
+            with open(self.path("whole" + ending), "rb") as file:
+                content = file.read()
+            for share in (0.3, 0.6, 0.9):
+                with open(self.path("part" + ending), "wb") as file:
+                    file.write(content[:int(share * len(content))])
+                result = Converted(self.path("part" + ending))
+                with self.subTest(ending=ending, share=share):
+                    self.assertTrue(result.code == 0 or result.message.startswith(self.path("part" + ending)), result.message)
+
+    def test_exodus_side_sets(self):
+        if importlib.util.find_spec("netCDF4") is None:
+            self.skipTest("netCDF4 is not installed: Exodus files cannot be read")
+        for kind in ALL:
+            mesh = mesh_files.curved_element(kind)
+            corners = [[int(digit) - 1 for digit in face] for face in mesh_files.EXODUS_FACES[kind.rstrip("0123456789")]]
+            mesh.surfaces = {f"side {i}": [face] for i, face in enumerate(corners, 1)}
+            mesh_files.write_exodus(mesh, self.path("sides.e"))
+            result = Converted(self.path("sides.e"))
+            for i, face in enumerate(corners, 1):
+                with self.subTest(type=kind, side=i):
+                    self.assertEqual(result.surfaces[f"side {i}"], [_places(mesh.nodes[face])])
+
+
+class Limits(Conversion):
+    """The script with a meshio that misbehaves in place of the real one."""
+
+    def run_with(self, body, seconds=20, megabytes=3000):
+        mesh_files.write_vtk(mesh_files.curved_element("tetra"), self.path("one.vtu"))
+        with open(self.path("stub.py"), "w", encoding="utf-8") as file:
+            file.write(f"import runpy, sys, types\nmeshio = types.ModuleType('meshio')\n"
+                       f"def read(_):\n    {body}\nmeshio.vtu = types.SimpleNamespace(read=read)\nmeshio._mesh = types.SimpleNamespace("
+                       f"topological_dimension={{}})\nsys.modules['meshio'] = meshio\n"
+                       f"sys.argv[0] = {SCRIPT!r}\nrunpy.run_path({SCRIPT!r}, run_name='__main__')\n")
+        command = ["/usr/bin/python3", "-I", self.path("stub.py"), self.path("one.vtu"), self.path("mesh.msh"),
+                   self.path("facts.json"), str(seconds), str(megabytes)]
+        finished = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        return finished.returncode, finished.stderr.strip().split("\n")[-1]
+
+    def test_memory(self):
+        code, message = self.run_with("return bytearray(10**10)")
+        self.assertEqual(code, 1)
+        self.assertIn("memory", message)
+
+    def test_time(self):
+        self.assertLess(self.run_with("while True: pass", seconds=1)[0], 0, "ended by a signal")
+
+    def test_a_reader_that_leaves(self):
+        code, message = self.run_with("sys.exit(1)")
+        self.assertEqual(code, 1)
+        self.assertIn("one.vtu: no vtu file", message)
+
+    def test_a_missing_package_is_named(self):
+        self.assertIn("python3-h5py", self.run_with("raise ModuleNotFoundError(name='h5py')")[1])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

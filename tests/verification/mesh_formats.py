@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""The same blade in every mesh format gives the same frequencies and the same peak.
+
+The parametric blade is meshed once, coarsely; its mesh is written as .inp (faces, and node sets in place of faces),
+.bdf, .unv (with units), .med, .vtu, .vtk and Exodus by tests/support/mesh_files.py. Coordinates are doubles in every
+format but Nastran's, which has ten digits: frequencies differ by rounding there and by 1e-9 here. Newton's method ends
+at residuals of 1e-10 or less of the force, so that a peak agrees to 1e-6 by a wide margin.
+
+usage: mesh_formats.py MICROSLIP SOURCE WORK_FOLDER
+"""
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+from program_run import run_scene, without_plots
+
+PROGRAM, SOURCE, WORK = sys.argv[1:4]
+del sys.argv[1:]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+import mesh_files
+
+TOLERANCE = 1e-6
+SCENE = """
+[model]
+kind = "mesh"
+file = "{file}"
+{unit}
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["{root}"]
+[modes]
+count = 4
+damping_ratio = 0.005
+residual = "none"
+[contact]
+surface = "{contact}"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = "1e11 N/m^3"
+tangential_stiffness = "1e11 N/m^3"
+points = 40
+[excitation]
+forces = [ {{ at = "{B}", direction = [1, 0, 0], amplitude = "0.5 N" }} ]
+[response]
+output = {{ at = "{A}", direction = [1, 0, 0] }}
+frequency = ["290 Hz", "350 Hz"]
+harmonics = 1
+preload = [100]
+[effects]
+second_direction = "off"
+"""
+PLAIN = {"root": "root", "contact": "contact", "A": "A", "B": "B"}
+
+
+def result_of(file, names, unit="m"):
+    """Frequencies and the peak of a run with this mesh."""
+    scene = os.path.join(WORK, "scene.toml")
+    with open(scene, "w", encoding="utf-8") as stream:
+        stream.write(SCENE.format(file=file, unit=f'length_unit = "{unit}"' if unit else "", **names))
+    folder = os.path.join(WORK, file + ".run")
+    run_scene(PROGRAM, scene, folder)
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as stream:
+        summary = json.load(stream)
+    peak = summary["curves"][0]["peak"]
+    return [mode["frequency_Hz"] for mode in summary["modes"]] + [peak["frequency_Hz"], peak["amplitude_m"]]
+
+
+class Formats(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        os.makedirs(WORK)
+        subprocess.run([PROGRAM, "mesh", os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml"), "-q",
+                        "--set", 'model.element_size="20 mm"', "-o", cls.path("blade.msh")], check=True, env=without_plots())
+        cls.mesh = mesh_files.from_gmsh(cls.path("blade.msh"))
+        cls.expected = result_of("blade.msh", PLAIN, unit=None)
+
+    @staticmethod
+    def path(name):
+        return os.path.join(WORK, name)
+
+    def check(self, file, names=None, unit="m"):
+        found = result_of(file, names or PLAIN, unit)
+        worst = max(abs(a / b - 1.0) for a, b in zip(found, self.expected, strict=True))
+        print(f"{file}: frequencies and peak differ by {worst:.1e} from those of the .msh file")
+        self.assertLess(worst, TOLERANCE)
+
+    def test_abaqus_surfaces(self):
+        mesh_files.write_inp(self.mesh, self.path("faces.inp"))
+        self.check("faces.inp")
+
+    def test_abaqus_node_sets(self):
+        mesh_files.write_inp(self.mesh, self.path("sets.inp"), node_surfaces=("root", "contact"))
+        self.check("sets.inp")
+
+    def test_nastran(self):
+        mesh_files.write_bdf(self.mesh, self.path("blade.bdf"), held=("root",), pressed=("contact",))
+        points = list(self.mesh.points)
+        self.check("blade.bdf", {"root": "SPC 1", "contact": "PLOAD4 1", "A": f"SET {points.index('A') + 1}",
+                                 "B": f"SET {points.index('B') + 1}"})
+
+    def test_universal_with_units(self):
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks, self.mesh.surfaces, self.mesh.points)
+        mesh_files.write_unv(in_millimetres, self.path("blade.unv"), millimetres=True)
+        self.check("blade.unv", unit=None)
+
+    def test_vtk(self):
+        for file in ("blade.vtu", "blade.vtk"):
+            mesh_files.write_vtk(self.mesh, self.path(file))
+            self.check(file)
+
+    def test_med(self):
+        if importlib.util.find_spec("h5py") is None:
+            self.skipTest("h5py is not installed: .med cannot be read")
+        mesh_files.write_med(self.mesh, self.path("blade.med"))
+        self.check("blade.med")
+
+    def test_exodus(self):
+        if importlib.util.find_spec("netCDF4") is None:
+            self.skipTest("netCDF4 is not installed: Exodus files cannot be read")
+        mesh_files.write_exodus(self.mesh, self.path("blade.e"))
+        self.check("blade.e")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
