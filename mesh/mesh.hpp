@@ -58,6 +58,7 @@ class Mesh {
   /// Whether surface() gives faces for this name.
   [[nodiscard]] bool has_faces(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> node_set_names() const;
+  [[nodiscard]] const NodeSets& node_sets() const { return node_sets_; }
   [[nodiscard]] double volume() const { return volume_; }         ///< [m³]
   [[nodiscard]] Eigen::Vector3d lower() const { return lower_; }  ///< bounding box [m]
   [[nodiscard]] Eigen::Vector3d upper() const { return upper_; }

@@ -1,5 +1,6 @@
 #include "pipelines/commands.hpp"
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -13,10 +14,13 @@
 #include "pipelines/cycle/cycle_plot.hpp"
 #include "pipelines/cycle/cycle_table.hpp"
 #include "pipelines/files/columns.hpp"
+#include "pipelines/model/mesh_file.hpp"
+#include "pipelines/model/mesh_names.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/output_file.hpp"
 
 namespace microslip::pipelines {
@@ -71,12 +75,13 @@ void refuse_idle_options(const Arguments& arguments) {
   refuse_later(!arguments.tolerance.empty(), "--tolerance");
   refuse_later(!arguments.budget.empty(), "--budget");
   const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
-                           arguments.command != "report" && arguments.command != "columns";
+                           arguments.command != "report" && arguments.command != "columns" &&
+                           arguments.command != "surfaces";
   if (!reads_scene && !arguments.overrides.empty()) {
     throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
   }
   if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report" ||
-                            arguments.command == "columns")) {
+                            arguments.command == "columns" || arguments.command == "surfaces")) {
     throw SceneError(fmt::format("--dry-run: {} has nothing to leave out", arguments.command));
   }
 }
@@ -140,6 +145,34 @@ int mesh(Arguments& arguments) {
   require_writable(file.parent_path());  // before the mesher works for nothing
   watch_for_interrupts();
   return mesh_study(scene, options_of(arguments, arguments.output));
+}
+
+int surfaces(Arguments& arguments) {
+  if (mesh_format(arguments.input) == MeshFormat::unknown) {
+    throw SceneError(fmt::format("{}: meshes are read from files that end in {}", arguments.input,
+                                 mesh_endings()));
+  }
+  watch_for_interrupts();
+  const MeshOfFile read = read_mesh(arguments.input, std::nullopt);
+  std::cout << describe_names(read.mesh, read.length_unit);
+  nlohmann::ordered_json& list = arguments.findings["surfaces"] = nlohmann::ordered_json::array();
+  for (const MeshName& name : mesh_names(read.mesh)) {
+    const auto array = [](const Eigen::Vector3d& x) {
+      return std::array<double, 3>{x.x(), x.y(), x.z()};
+    };
+    nlohmann::ordered_json entry{{"name", name.name},
+                                 {"kind", kind_name(name.kind)},
+                                 {"faces", name.n_faces},
+                                 {"nodes", name.n_nodes},
+                                 {"area", name.area},
+                                 {"centre", array(name.centre)},
+                                 {"normal", array(name.normal)},
+                                 {"flatness", name.flatness}};
+    list.push_back(std::move(entry));
+  }
+  nlohmann::ordered_json& unit = arguments.findings["length_unit"];
+  if (read.length_unit) unit = *read.length_unit;
+  return static_cast<int>(ExitCode::complete);
 }
 
 int columns(const Arguments& arguments) {

@@ -43,6 +43,8 @@ int check(Arguments& arguments);
 /// `run` and `modes`, by the study.
 int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&));
 int mesh(Arguments& arguments);
+/// What names a mesh file has.
+int surfaces(Arguments& arguments);
 int init(const Arguments& arguments);
 /// Every column and array of the files, as Markdown.
 int columns(const Arguments& arguments);

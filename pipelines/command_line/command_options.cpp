@@ -94,6 +94,13 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       ->add_option("--plot", a.picture,
                    "picture of the blade with supports, contacts, forces and output marked, for "
                    "kinds with a mesh (.png, .svg, .pdf)");
+  add_command(
+      app, a, chosen, "surfaces",
+      "names of a mesh file: surfaces, node sets and points, with area, centre, normal, flatness",
+      [&] { return surfaces(a); })
+      ->add_option("file", a.input,
+                   "mesh: .msh, .inp, .bdf, .nas, .fem, .unv, .med, .vtu, .vtk, .e, .exo, .ex2")
+      ->required();
   auto* mesh_command = with_scene(
       add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
   with_output(mesh_command, a, "gmsh file to write (.msh)")->get_option("--output")->required();

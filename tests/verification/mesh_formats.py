@@ -100,6 +100,25 @@ class Formats(unittest.TestCase):
         mesh_files.write_inp(self.mesh, self.path("sets.inp"), node_surfaces=("root", "contact"))
         self.check("sets.inp")
 
+    def test_surfaces_command(self):
+        mesh_files.write_inp(self.mesh, self.path("names.inp"), node_surfaces=("contact",))
+        listed = self.surfaces("names.inp")
+        self.assertIsNone(listed["length_unit"])
+        by_name = {entry["name"]: entry for entry in listed["surfaces"]}
+        for name, kind, area, normal in (("root", "surface", 0.0066 * 0.05, (0, -1, 0)),
+                                         ("contact", "node set", 0.01 * 0.06, (1, 0, 0))):
+            entry = by_name[name]
+            self.assertEqual((entry["kind"], entry["faces"]), (kind, len(self.mesh.surfaces[name])))
+            self.assertAlmostEqual(entry["area"], area, delta=1e-12)
+            self.assertLess(max(abs(a - b) for a, b in zip(entry["normal"], normal)), 1e-9)
+            self.assertLess(entry["flatness"], 1e-9)
+        self.assertAlmostEqual(by_name["contact"]["centre"][0], 0.03, delta=1e-12)
+        self.assertEqual((by_name["A"]["kind"], by_name["A"]["faces"]), ("point", 0))
+
+    def surfaces(self, file):
+        finished = subprocess.run([PROGRAM, "surfaces", self.path(file), "--json"], capture_output=True, text=True, check=True)
+        return json.loads(finished.stdout.splitlines()[-1])
+
     def test_nastran(self):
         mesh_files.write_bdf(self.mesh, self.path("blade.bdf"), held=("root",), pressed=("contact",))
         points = list(self.mesh.points)
