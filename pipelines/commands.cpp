@@ -16,6 +16,7 @@
 #include "pipelines/files/columns.hpp"
 #include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/mesh_names.hpp"
+#include "pipelines/model/mesh_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/exit_code.hpp"
@@ -63,6 +64,12 @@ void require_picture_name(const std::string& file) {
     throw SceneError(
         fmt::format("--plot {}: expected a name that ends in .png, .svg or .pdf", file));
   }
+}
+
+void require_mesh_format(const std::string& file) {
+  if (mesh_format(file) != MeshFormat::unknown) return;
+  throw SceneError(
+      fmt::format("{}: meshes are read from files that end in {}", file, mesh_endings()));
 }
 
 }  // namespace
@@ -148,10 +155,7 @@ int mesh(Arguments& arguments) {
 }
 
 int surfaces(Arguments& arguments) {
-  if (mesh_format(arguments.input) == MeshFormat::unknown) {
-    throw SceneError(fmt::format("{}: meshes are read from files that end in {}", arguments.input,
-                                 mesh_endings()));
-  }
+  require_mesh_format(arguments.input);
   watch_for_interrupts();
   const MeshOfFile read = read_mesh(arguments.input, std::nullopt);
   std::cout << describe_names(read.mesh, read.length_unit);
@@ -180,12 +184,31 @@ int columns(const Arguments& arguments) {
   return static_cast<int>(ExitCode::complete);
 }
 
+namespace {
+
+/// `init KIND`, or `init mesh FILE`.
+std::string new_scene(const Arguments& arguments) {
+  const std::string kind = arguments.input.empty() ? "blade" : arguments.input;
+  if (arguments.mesh_file.empty()) return scene_template(kind);
+  if (kind != "mesh") {
+    throw SceneError(
+        fmt::format("init {} {}: a file goes with init mesh alone", kind, arguments.mesh_file));
+  }
+  require_mesh_format(arguments.mesh_file);
+  watch_for_interrupts();
+  const auto folder = std::filesystem::absolute(arguments.output).parent_path();
+  return scene_of_mesh(arguments.mesh_file,
+                       arguments.output.empty() ? std::filesystem::current_path() : folder);
+}
+
+}  // namespace
+
 int init(const Arguments& arguments) {
-  const std::string text = scene_template(arguments.input.empty() ? "blade" : arguments.input);
   std::error_code ignored;  // a path that cannot be looked at cannot be written either: said there
   if (!arguments.output.empty() && std::filesystem::exists(arguments.output, ignored)) {
     throw SceneError(arguments.output + ": exists; init overwrites nothing");
   }
+  const std::string text = new_scene(arguments);
   if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
   put_out(arguments, text);
   return 0;

@@ -16,7 +16,8 @@ namespace microslip::pipelines {
 
 struct Arguments {
   std::string command;
-  std::string input;  // scene, table, kind or folder
+  std::string input;      // scene, table, kind or folder
+  std::string mesh_file;  // of `init mesh`
   std::string output;
   std::vector<std::string> overrides;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

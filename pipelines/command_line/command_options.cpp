@@ -85,6 +85,9 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                                    [&] { return init(a); });
   init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
       ->default_str("blade");
+  init_command->add_option(
+      "file", a.mesh_file,
+      "with kind mesh: a mesh whose names, size and unit the scene begins with");
   with_output(init_command, a, "file to write; it must not exist");
   with_scene(add_command(app, a, chosen, "check",
                          "parse, check units and names, show mesh, effects and forecast; question "

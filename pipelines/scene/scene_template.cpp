@@ -14,7 +14,7 @@ namespace microslip::pipelines {
 namespace {
 
 /// Values for keys without a default: an example that runs.
-using Examples = std::map<std::string, std::string, std::less<>>;
+using Examples = TemplateTexts;
 
 const Examples& mesh_examples() {
   static const Examples values{
@@ -136,8 +136,8 @@ void add_table_keys(std::string& text, std::string_view spec) {
   }
 }
 
-void add_section(std::string& text, std::string_view name, std::string_view kind) {
-  const Examples& values = examples_of(kind);
+void add_section(std::string& text, std::string_view name, std::string_view kind,
+                 const TemplateTexts& values, const TemplateTexts& remarks) {
   text += fmt::format("\n[{}]\n", name);
   if (name == "points") {
     text += fmt::format(
@@ -150,6 +150,10 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
     if (name == "model" && key.name == "kind") value = fmt::format("\"{}\"", kind);
     const auto example = values.find(fmt::format("{}.{}", name, key.name));
     if (example != values.end()) value = example->second;
+    if (const auto remark = remarks.find(fmt::format("{}.{}", name, key.name));
+        remark != remarks.end()) {
+      text += fmt::format("# {}\n", remark->second);
+    }
     text += "# " + description(key, value);
     if (value.empty()) {
       text += fmt::format("; optional\n# {} =\n", key.name);
@@ -165,7 +169,8 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
 
 }  // namespace
 
-std::string scene_template(std::string_view kind) {
+std::string scene_template(std::string_view kind, const TemplateTexts& values,
+                           const TemplateTexts& remarks) {
   constexpr std::array<std::string_view, 6> kinds{"blade", "mesh",  "modal",
                                                   "bar",   "chain", "block"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
@@ -176,7 +181,11 @@ std::string scene_template(std::string_view kind) {
       "# A scene of kind \"{0}\". Values are SI, or texts with a unit: \"210 GPa\", \"2.5 mm\", "
       "\"0.2 %\".\ntitle = \"A {0} scene\"\n",
       kind);
-  for (const std::string_view section : sections_of_kind(kind)) add_section(text, section, kind);
+  TemplateTexts all = values;
+  all.insert(examples_of(kind).begin(), examples_of(kind).end());
+  for (const std::string_view section : sections_of_kind(kind)) {
+    add_section(text, section, kind, all, remarks);
+  }
   return text;
 }
 

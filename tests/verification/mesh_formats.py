@@ -119,6 +119,32 @@ class Formats(unittest.TestCase):
         finished = subprocess.run([PROGRAM, "surfaces", self.path(file), "--json"], capture_output=True, text=True, check=True)
         return json.loads(finished.stdout.splitlines()[-1])
 
+    def scene_of(self, file):
+        """What init makes of it, after check found it complete."""
+        scene = self.path(file + ".toml")
+        subprocess.run([PROGRAM, "init", "mesh", self.path(file), "-o", scene], check=True)
+        checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
+        self.assertIn("complete and consistent", checked.stdout, checked.stderr)
+        with open(scene, encoding="utf-8") as stream:
+            return stream.read()
+
+    def test_init_takes_names_size_and_unit_of_the_file(self):
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks, self.mesh.surfaces, self.mesh.points)
+        mesh_files.write_inp(in_millimetres, self.path("begin.inp"))
+        scene = self.scene_of("begin.inp")
+        for line in ('file = "begin.inp"', 'length_unit = "mm"', 'clamped = ["root"]', 'surface = "contact"',
+                     "slip_direction = [0, 1, 0]", 'output = { at = "tip"'):
+            self.assertIn("\n" + line, scene)
+        mesh_files.write_unv(in_millimetres, self.path("begin.unv"), millimetres=True)
+        self.assertNotIn("\nlength_unit", self.scene_of("begin.unv"))
+
+    def test_init_leaves_open_what_cannot_be_known(self):
+        nameless = mesh_files.Mesh(self.mesh.nodes, self.mesh.blocks, {}, {"P1": self.mesh.points["A"]})
+        mesh_files.write_inp(nameless, self.path("nameless.inp"))
+        scene = self.scene_of("nameless.inp")
+        for line in ("clamped = []", "# [contact]", '# surface = "contact"', '# preload =', "# CHOOSE what is held"):
+            self.assertIn("\n" + line, scene)
+
     def test_nastran(self):
         mesh_files.write_bdf(self.mesh, self.path("blade.bdf"), held=("root",), pressed=("contact",))
         points = list(self.mesh.points)
