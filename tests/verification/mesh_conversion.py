@@ -275,6 +275,13 @@ class UniversalFiles(Conversion):
         self.assertEqual(self.write(millimetres=True).length_unit, 1e-3)
         self.assertIsNone(self.write().length_unit)
 
+    def test_groups_as_gmsh_writes_them(self):
+        """One member per line; points are elements of theirs that the file does not have."""
+        member = "         7         4         0         0"
+        self.assert_names(self.write(lambda text: text.replace(
+            "         1\ntip\n" + member, "         2\ntip\n" + member + "\n" + member.replace("7", "8").replace("4", "9"))),
+            {}, {"tip": 1, "bottom": 6})
+
     def test_what_is_wrong_is_told_by_its_line(self):
         for change, words in ((lambda text: "solid cube", ("no line of -1",)),
                               (lambda text: text[:400], ("cut off",)),

@@ -99,11 +99,12 @@ class _Reader:
             head = self._numbers(line)
             require(len(head) >= 8, f"{self.path}:{line + 1}: expected the eight numbers of a group")
             name = self.lines[line + 1].strip() or f"group {head[0]}"
-            last = line + 2 + -(-head[7] * width // 8)
-            require(last <= end, f'{self.path}:{line + 1}: group "{name}" has less than its {head[7]} members')
-            members = np.array([n for at in range(line + 2, last) for n in self._numbers(at)], dtype=np.int64)
+            members, last = [], line + 2
+            while len(members) < head[7] * width and last < end:  # gmsh writes one member per line, others two
+                members += self._numbers(last)
+                last += 1
             require(len(members) == head[7] * width, f'{self.path}:{line + 1}: group "{name}": expected {head[7]} members')
-            members = members.reshape(-1, width)
+            members = np.array(members, dtype=np.int64).reshape(-1, width)
             for kind, sets in ((_NODE, self.node_sets), (_ELEMENT, self.element_sets)):
                 own = members[members[:, 0] == kind, 1]
                 require(not (len(own) and name in sets), f'{self.path}:{line + 2}: group "{name}" is there already')
@@ -119,5 +120,8 @@ class _Reader:
     def content(self):
         require(self.node_numbers, f"{self.path}: no nodes (data set 2411) in it")
         require(self.rows, f"{self.path}: no elements (data set 2412) in it")
+        elements = [row[0] for rows in self.rows.values() for row in rows]
+        for name, members in self.element_sets.items():  # groups may hold what is no element here: gmsh's points
+            self.element_sets[name] = members[np.isin(members, elements)]
         return Content(np.array(self.node_numbers), np.array(self.coordinates), blocks_of(self.rows), self.node_sets, self.element_sets,
                        length_unit=self.length_unit)
