@@ -196,9 +196,8 @@ std::string new_scene(const Arguments& arguments) {
   }
   require_mesh_format(arguments.mesh_file);
   watch_for_interrupts();
-  const auto folder = std::filesystem::absolute(arguments.output).parent_path();
-  return scene_of_mesh(arguments.mesh_file,
-                       arguments.output.empty() ? std::filesystem::current_path() : folder);
+  const auto here = std::filesystem::current_path();
+  return scene_of_mesh(arguments.mesh_file, (here / arguments.output).parent_path());
 }
 
 }  // namespace

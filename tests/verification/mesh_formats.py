@@ -138,6 +138,11 @@ class Formats(unittest.TestCase):
         mesh_files.write_unv(in_millimetres, self.path("begin.unv"), millimetres=True)
         self.assertNotIn("\nlength_unit", self.scene_of("begin.unv"))
 
+    def test_init_prints_a_scene_for_the_working_folder(self):
+        mesh_files.write_inp(self.mesh, self.path("printed.inp"))
+        printed = subprocess.run([PROGRAM, "init", "mesh", "printed.inp"], cwd=WORK, capture_output=True, text=True)
+        self.assertIn('\nfile = "printed.inp"', printed.stdout, printed.stderr)
+
     def test_init_leaves_open_what_cannot_be_known(self):
         nameless = mesh_files.Mesh(self.mesh.nodes, self.mesh.blocks, {}, {"P1": self.mesh.points["A"]})
         mesh_files.write_inp(nameless, self.path("nameless.inp"))
