@@ -96,6 +96,15 @@ constexpr std::array patch_table{
                         [](const auto& r) { return format_number(r.separated_share); }},
 };
 
+constexpr std::array trust_table{
+    Column<TrustedAmplitude>{
+        "amplitude_low_m", "m", "`amplitude_m` less the error of the curve's highest peak",
+        [](const auto& a) { return format_number(std::max(0.0, a.amplitude * (1.0 - a.bar))); }},
+    Column<TrustedAmplitude>{
+        "amplitude_high_m", "m", "the same added",
+        [](const auto& a) { return format_number(a.amplitude * (1.0 + a.bar)); }},
+};
+
 constexpr std::array mode_table{
     Column<ModeRow>{"mode", "1", "number, from 1",
                     [](const auto& m) { return fmt::format("{}", m.mode); }},
@@ -211,6 +220,7 @@ void add_table(std::string& text, const std::string& title, const Rows& rows,
 
 std::span<const Column<ResponsePoint>> curve_columns() { return curve_table; }
 std::span<const Column<CycleReport>> patch_columns() { return patch_table; }
+std::span<const Column<TrustedAmplitude>> trust_columns() { return trust_table; }
 std::span<const Column<ModeRow>> mode_columns() { return mode_table; }
 std::span<const Column<OptimumRow>> optimum_columns(bool of_preload) {
   return of_preload ? std::span<const Column<OptimumRow>>(preload_table) : parameter_table;
@@ -237,6 +247,7 @@ std::string columns_text() {
       "Printed by `microslip columns` from the tables the files are written from "
       "(`pipelines/files/columns.cpp`); a test keeps the two the same.\n";
   add_table(text, "curves/NAME.csv", curve_table);
+  add_table(text, "curves/NAME.csv, where its error is told ([accuracy])", trust_table);
   add_table(text, "curves/NAME.csv, for each of several contacts", patch_table, "CONTACT.");
   add_table(text, "modes.csv", mode_table);
   add_table(text, "peak_against_preload.csv (peak_against_parameter.csv: `value` in front)",

@@ -33,6 +33,13 @@ struct Column {
 /// Further columns of curves/NAME.csv for each of several patches: PATCH.NAME.
 [[nodiscard]] std::span<const Column<contact::CycleReport>> patch_columns();
 
+/// Further columns of curves/NAME.csv where the error of the curve is told.
+struct TrustedAmplitude {
+  double amplitude = 0.0;  ///< [m]
+  double bar = 0.0;        ///< relative half width
+};
+[[nodiscard]] std::span<const Column<TrustedAmplitude>> trust_columns();
+
 /// modes.csv, a row per mode.
 struct ModeRow {
   Eigen::Index mode = 1;

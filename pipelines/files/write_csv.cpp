@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <numbers>
 #include <optional>
 
@@ -30,7 +29,7 @@ std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
 std::string curve_table(const solver::ResponseCurve& curve, const std::vector<PatchShares>& patches,
                         std::optional<double> bar) {
   std::string table = header_of(curve_columns());
-  if (bar) table += ",amplitude_low_m,amplitude_high_m";
+  if (bar) table += "," + header_of(trust_columns());
   for (const PatchShares& patch : patches) {
     for (const auto& column : patch_columns()) {
       table += fmt::format(",{}.{}", patch.patch, column.name);
@@ -39,11 +38,7 @@ std::string curve_table(const solver::ResponseCurve& curve, const std::vector<Pa
   table += "\n";
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     table += row_of(curve_columns(), curve.points[i]);
-    if (bar) {
-      const double amplitude = curve.points[i].amplitude;
-      table += fmt::format(",{},{}", format_number(std::max(0.0, amplitude * (1.0 - *bar))),
-                           format_number(amplitude * (1.0 + *bar)));
-    }
+    if (bar) table += "," + row_of(trust_columns(), {curve.points[i].amplitude, *bar});
     for (const PatchShares& patch : patches) {
       table.append(",").append(row_of(patch_columns(), patch.reports[i]));
     }

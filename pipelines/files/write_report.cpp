@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <system_error>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -210,6 +212,57 @@ std::string curves_text(const JsonEntry& run) {
   return text;
 }
 
+/// Effects of one goal on one curve, the largest first: "harmonics +50 %, mesh +5.5 %".
+std::string effects_text(const JsonEntry& run, const std::string& curve, const std::string& goal) {
+  constexpr double percent = 100.0;
+  constexpr double least = 1e-5;  // of the goal: what no table needs
+  std::vector<std::pair<double, std::string>> parts;
+  for (const JsonEntry& row : run.list("error_budget")) {
+    if (row.text("curve") != curve || row.text("goal") != goal) continue;
+    if (std::abs(row.number("effect")) < least) continue;
+    parts.emplace_back(row.number("effect"), row.text("source"));
+  }
+  std::ranges::stable_sort(
+      parts, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::string text;
+  for (const auto& [effect, source] : parts) {
+    text += fmt::format("{}{} {:+.2g} %", text.empty() ? "" : ", ", source, percent * effect);
+  }
+  return text.empty() ? "–" : text;
+}
+
+/// What the bar of a curve leaves out, in words.
+std::string not_known_text(const JsonEntry& bar) {
+  std::string text;
+  for (const JsonEntry& source : bar.list("not_known")) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", source.as_text());
+  }
+  return text.empty() ? "–" : text;
+}
+
+/// How far the peaks can be trusted; empty without a budget.
+std::string budget_text(const JsonEntry& run) {
+  if (!run.has("error_budget") || run.list("error_budget").empty()) return {};
+  constexpr double percent = 100.0;
+  std::string text =
+      "\n## How far the peaks can be trusted\n\n"
+      "What would be added to the amplitude of the highest peak if one choice were refined to its "
+      "end, solved for each; all of them together are the half width.\n\n"
+      "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | not known |\n"
+      "|---|---:|---:|---:|---|---|\n";
+  for (const JsonEntry& curve : run.list("curves")) {
+    if (!curve.has("bar") || !curve.has("peak")) continue;
+    const JsonEntry bar = curve.at("bar");
+    const int digits = static_cast<int>(curve.at("digits").integer("peak_amplitude"));
+    text +=
+        fmt::format("| {} | {:.{}g} | {:.2g} % | {:.2g} % | {} | {} |\n", curve.text("name"),
+                    curve.at("peak").number("amplitude_m"), digits,
+                    percent * bar.number("peak_amplitude"), percent * bar.number("peak_frequency"),
+                    effects_text(run, curve.text("name"), "peak_amplitude"), not_known_text(bar));
+  }
+  return text;
+}
+
 std::string cost_text(const JsonEntry& run) {
   std::string text = "| stage | seconds | memory [MB] |\n|---|---:|---:|\n";
   for (const JsonEntry& stage : run.list("stages")) {
@@ -249,7 +302,8 @@ std::string report_text(const std::string& summary_json, const std::vector<std::
   }
   text += "\n## Structure\n\n" + structure_text(run);
   if (!run.list("curves").empty()) text += "\n## Response\n\n" + curves_text(run);
-  return text.append("\n## Plots\n\n")
+  return text.append(budget_text(run))
+      .append("\n## Plots\n\n")
       .append(plots_text(plots))
       .append("\n## Cost\n\n")
       .append(cost_text(run));

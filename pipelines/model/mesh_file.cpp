@@ -98,20 +98,4 @@ std::string size_readings(const mesh::Mesh& mesh) {
                      extents(mesh, 0.0254));
 }
 
-std::string size_warning(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  constexpr double longest = 3.0;     // m: blades of the last stage of a turbine have 1.5
-  constexpr double shortest = 0.003;  // m
-  const auto* model = std::get_if<MeshFileModel>(&scene.model);
-  const double length = (mesh.upper() - mesh.lower()).maxCoeff();
-  if (model == nullptr || (length < longest && length > shortest)) return {};
-  const double mass = scene.material.density * mesh.volume();
-  const double factor = length > longest ? 1e-3 : 1e3;
-  return fmt::format(
-      "the mesh is {} m large and weighs {:.3g} kg; a blade has 3 mm to 3 m. With a "
-      "model.length_unit "
-      "of {:.3g} m instead of {:.3g} it would be {} m and {:.3g} kg",
-      extents(mesh, 1.0), mass, factor * model->length_unit.value_or(1.0),
-      model->length_unit.value_or(1.0), extents(mesh, factor), mass * factor * factor * factor);
-}
-
 }  // namespace microslip::pipelines

@@ -34,9 +34,6 @@ struct MeshOfFile {
 /// The mesh of a scene. @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
 [[nodiscard]] mesh::Mesh read_mesh(const MeshFileModel& model);
 
-/// A sentence about a mesh that is a thousand times as large as a blade, or as small; empty otherwise.
-[[nodiscard]] std::string size_warning(const mesh::Mesh& mesh, const SceneDescription& scene);
-
 /// "60 x 149 x 60 m, 60 x 149 x 60 mm or 1.52 x 3.79 x 1.52 m (inches)": a size without a unit.
 [[nodiscard]] std::string size_readings(const mesh::Mesh& mesh);
 

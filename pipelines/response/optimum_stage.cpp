@@ -19,10 +19,6 @@
 namespace microslip::pipelines {
 namespace {
 
-// Of the best value with another friction coefficient or stiffness: how far it moves is asked, by
-// per cent.
-constexpr double in_bracket = 2e-3;
-
 solver::OptimumOptions options_of(const SceneDescription& scene) {
   solver::OptimumOptions options;
   if (scene.response->optimum->range) {
@@ -77,10 +73,7 @@ solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
 
 solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const {
   solver::OptimumOptions options = options_;
-  if (factors.friction != 1.0 || factors.stiffness != 1.0) {
-    options.relative_tolerance = in_bracket;
-    options.search_starts = 0;
-  }
+  if (factors.friction != 1.0 || factors.stiffness != 1.0) options.search_starts = 0;
   if (request_.of_preload()) {
     // Friction acts through μ n: the best preload moves by up to 1/factor, less where the normal
     // load varies with the motion.

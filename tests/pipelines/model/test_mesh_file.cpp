@@ -82,19 +82,6 @@ TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
                 "1.52 x 1.52 x 1.52 m"});
 }
 
-TEST_F(MeshFile, ASizeThatNoBladeHasIsQuestioned) {
-  const std::filesystem::path file = write("blade.inp", deck);
-  SceneDescription scene;
-  scene.material.density = 7800.0;
-  const auto warning = [&](double unit) {
-    scene.model = MeshFileModel{file, unit, ""};
-    return size_warning(read_mesh(file, unit).mesh, scene);
-  };
-  EXPECT_EQ(warning(1e-3), "");
-  expect_words(warning(1.0), {"60 x 60 x 60 m", "2.81e+08 kg", "length_unit of 0.001", "0.281 kg"});
-  expect_words(warning(1e-6), {"length_unit of 0.001"});
-}
-
 TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   EXPECT_EQ(refusal("no/such.inp"), "no/such.inp: no such file");
   expect_words(refusal(write("cut.inp", std::string(deck).substr(0, 30))),

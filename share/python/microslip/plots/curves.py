@@ -50,6 +50,17 @@ def draw_richer(axes, run, curve):
                  linewidth=0.8, zorder=5)
 
 
+def draw_bar(axes, run, curve):
+    """How far the highest peak can be trusted, where the run tells it: a cross of both half widths."""
+    bar, peak = curve.get("bar"), curve.get("peak")
+    if not bar or not peak:
+        return
+    frequency, amplitude = peak["frequency_Hz"], peak["amplitude_m"] / run.size
+    up = amplitude * bar["peak_amplitude"]
+    axes.errorbar(frequency, amplitude, [[min(up, 0.9 * amplitude)], [up]], frequency * bar["peak_frequency"],
+                  fmt="none", ecolor=run.colour(load_of(curve)), elinewidth=0.7, capsize=1.5, alpha=0.7, zorder=3.4)
+
+
 def draw_curve(axes, run, curve, table):
     load = load_of(curve)
     colour = run.colour(load)
@@ -64,6 +75,7 @@ def draw_curve(axes, run, curve, table):
         chosen = marks == mark
         axes.scatter(frequency[chosen], amplitude[chosen], color=face, edgecolor=colour,
                      linewidth=0.8, zorder=4, **style)
+    draw_bar(axes, run, curve)
     draw_richer(axes, run, curve)
     if not curve["complete"]:
         axes.scatter(frequency[-1], amplitude[-1], marker="x", s=22, color=ACCENT, zorder=5)
@@ -90,6 +102,8 @@ def legend_of_marks(figure, run):
     if highest:
         kinds.append(Line2D([], [], marker="*", markersize=7, linestyle="", markerfacecolor="white",
                             label=f"peak with {highest[-1]} harmonics", **grey))
+    if any(curve.get("bar") for curve, _ in run.curves):
+        kinds.append(Line2D([], [], linewidth=0.8, marker="+", markersize=8, label="error of the peak", color="0.5"))
     if any(not curve["complete"] for curve, _ in run.curves):
         kinds.append(Line2D([], [], color=ACCENT, marker="x", markersize=5, linestyle="",
                             label="ends here (incomplete)"))

@@ -5,6 +5,7 @@ import sys
 
 from microslip.files import shown
 from microslip.plots.curves import plot_curves
+from microslip.plots.error_budget import plot_error_budget
 from microslip.plots.maps import map_tasks, maps_of
 from microslip.plots.output import run_shared
 from microslip.plots.peaks import plot_parameter, plot_peaks
@@ -31,7 +32,7 @@ def plot_run(run_folder):
     """Curves, peaks and maps into RUN_FOLDER/plots. Whether all was there and is drawn; if not, stderr says what."""
     run = Run(run_folder)
     folder = plots_folder(run)
-    figures = [lambda plot=plot: plot(run, folder) for plot in (plot_peaks, plot_parameter, plot_curves)]
+    figures = [lambda plot=plot: plot(run, folder) for plot in (plot_peaks, plot_parameter, plot_curves, plot_error_budget)]
     drawn = run_shared(figures + map_tasks(run, folder))
     missing = missing_files(run)
     if missing:  # what is there is drawn: maps are large, and may have been removed
