@@ -271,6 +271,7 @@ Findings motion_along_r(const Facts& facts) {
 Findings amplitude(const Facts& facts) {
   Finding largest{"excitation.forces", 0.0};
   for (const CurveResult& result : *facts.curves) {
+    if (std::holds_alternative<LimitName>(result.preload)) continue;  // no blade moves like that
     for (const solver::ResponsePoint& point : result.curve.points) {
       const double share = percent * point.amplitude / longest_side(*facts.mesh);
       if (share <= largest.value) continue;
