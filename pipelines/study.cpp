@@ -8,6 +8,9 @@
 
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
+#include "pipelines/accuracy/convergence.hpp"
+#include "pipelines/files/plot_script.hpp"
+#include "pipelines/files/write_ladder.hpp"
 #include "pipelines/files/write_report.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
@@ -21,6 +24,7 @@
 #include "pipelines/run/run_record.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -123,6 +127,29 @@ int mesh_study(const SceneDescription& scene, const RunOptions& options) {
     std::cerr << "warning: " << warning << '\n';
   if (options.verbosity != Verbosity::quiet)
     std::cout << "written: " << options.output.string() << '\n';
+  return static_cast<int>(ExitCode::complete);
+}
+
+int converge_study(const SceneDescription& scene, const RunOptions& options) {
+  require_response(scene);
+  const std::filesystem::path folder = options.output / "converge";
+  make_folder(folder);
+  require_writable(folder);
+  const auto say = [&](const std::string& sentence) {
+    if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::endl;
+  };
+  const TimedStructure base = timed_structure(scene);
+  say(fmt::format("mesh and modes: {:.1f} s", base.seconds));
+  fem::use_one_blas_thread();
+  for (const Ladder& ladder : ladders(scene)) {
+    const std::vector<RungResult> rungs = climb(ladder, base, say);
+    write_ladder_csv(folder / (ladder.knob + ".csv"), rungs);
+    say(ladder_text(ladder.knob, rungs));
+  }
+  const std::string failure =
+      run_plot_script("plot_converge.py", {folder.string()}, std::chrono::seconds(120));
+  if (!failure.empty()) std::cerr << "warning: " << failure << '\n';
+  say("written: " + folder.string());
   return static_cast<int>(ExitCode::complete);
 }
 

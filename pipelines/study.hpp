@@ -17,6 +17,8 @@ int run_study(const SceneDescription& scene, const RunOptions& options);
 int modes_study(const SceneDescription& scene, const RunOptions& options);
 /// `mesh`: geometry → mesh file.
 int mesh_study(const SceneDescription& scene, const RunOptions& options);
+/// `converge`: every ladder of the discretisation, tables in converge/ and plots.
+int converge_study(const SceneDescription& scene, const RunOptions& options);
 /// `report`: plots and report from a run folder.
 int report_study(const std::filesystem::path& folder);
 

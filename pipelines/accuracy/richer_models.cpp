@@ -54,8 +54,11 @@ std::optional<RicherModel> with_second_direction(const ReducedModel& model,
   }
 }
 
-RicherModel with_more_shapes(const ReducedModel& model, const SceneDescription& scene,
-                             const SolvedStructure& structure) {
+/// @return empty: the degree was given, so that no more shapes are at hand.
+std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
+                                            const SceneDescription& scene,
+                                            const SolvedStructure& structure) {
+  if (!structure.modes.richer) return std::nullopt;
   const fem::RicherBasis& richer = *structure.modes.richer;
   std::vector<std::string> warnings;
   RicherModel result{
@@ -75,28 +78,33 @@ bool is_fitted(const SceneDescription& scene) {
 }  // namespace
 
 RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,
-                           const SolvedStructure* structure) {
+                           const SolvedStructure* structure,
+                           const std::vector<std::string>& sources) {
   RicherModels result;
   if (structure == nullptr || model.patches.empty()) return result;
-  result.models.push_back(with_more_cells(model, scene, *structure));
-  if (is_fitted(scene)) {
+  const auto asked = [&](const char* source) {
+    return sources.empty() || std::ranges::find(sources, source) != sources.end();
+  };
+  const auto keep = [&](const char* source, std::optional<RicherModel> richer) {
+    if (richer) {
+      result.models.push_back(std::move(*richer));
+    } else {
+      result.unknown.emplace_back(source);
+    }
+  };
+  if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
+  if (asked("fit") && is_fitted(scene)) {
     result.models.push_back(with_patches("fit", model, scene, *structure, [](PatchSettings& patch) {
       patch.fit = PatchSettings::Fit::none;
     }));
   }
-  if (structure->modes.richer) {
-    result.models.push_back(with_more_shapes(model, scene, *structure));
-  } else {
-    result.unknown.emplace_back("basis");
+  if (asked("basis")) keep("basis", with_more_shapes(model, scene, *structure));
+  if (asked("second_direction")) {
+    if (auto both = with_second_direction(model, scene, *structure)) {
+      result.models.push_back(std::move(*both));
+    }
   }
-  if (auto both = with_second_direction(model, scene, *structure)) {
-    result.models.push_back(std::move(*both));
-  }
-  if (auto mesh = coarser_mesh(model, scene)) {
-    result.models.push_back(std::move(*mesh));
-  } else {
-    result.unknown.emplace_back("mesh");
-  }
+  if (asked("mesh")) keep("mesh", coarser_mesh(model, scene));
   return result;
 }
 

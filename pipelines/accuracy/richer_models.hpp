@@ -32,7 +32,9 @@ struct RicherModels {
 /// Cells (four times as many), fit (the finite elements' own shapes), basis (tractions of one degree more),
 /// second_direction (friction along r) and mesh (coarser_mesh.hpp): those the scene has.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
+/// @param sources    the only ones asked for; empty: all.
 [[nodiscard]] RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,
-                                         const SolvedStructure* structure);
+                                         const SolvedStructure* structure,
+                                         const std::vector<std::string>& sources = {});
 
 }  // namespace microslip::pipelines

@@ -118,14 +118,12 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                  a);
   with_output(run_command, a, "run folder; default runs/SCENE");
   add_cycle(app, a, chosen);
-  with_scene(
-      add_command(app, a, chosen, "converge", "what accuracy costs (not available in this version)",
-                  []() -> int {
-                    throw SceneError(
-                        "converge is not available in this version; "
-                        "share/scripts/mesh_convergence.py varies the mesh");
-                  }),
+  auto* converge_command = with_scene(
+      add_command(app, a, chosen, "converge",
+                  "what accuracy costs: every choice of the discretisation from coarse to fine",
+                  [&] { return run_scene(a, converge_study); }),
       a);
+  with_output(converge_command, a, "folder for converge/; default runs/SCENE");
   with_output(add_command(app, a, chosen, "columns",
                           "print every column and array of the files a run writes, with units",
                           [&] { return columns(a); }),

@@ -105,6 +105,30 @@ constexpr std::array trust_table{
         [](const auto& a) { return format_number(a.amplitude * (1.0 + a.bar)); }},
 };
 
+std::string number_or_nothing(const std::optional<double>& number) {
+  return number ? format_number(*number) : "";
+}
+
+constexpr std::array ladder_table{
+    Column<RungResult>{"value", "", "of the knob; sizes in m",
+                       [](const auto& r) { return r.value; }},
+    Column<RungResult>{"seconds", "s", "mesh, modes and this curve, wall time",
+                       [](const auto& r) { return format_number(r.seconds); }},
+    Column<RungResult>{"cpu_seconds", "s", "the same, processor time",
+                       [](const auto& r) { return format_number(r.cpu_seconds); }},
+    Column<RungResult>{"peak_amplitude_m", "m", "highest peak",
+                       [](const auto& r) { return format_number(r.amplitude); }},
+    Column<RungResult>{"peak_frequency_Hz", "Hz", "where it is",
+                       [](const auto& r) { return format_number(r.frequency / two_pi); }},
+    Column<RungResult>{"true_error", "1", "amplitude over that of the finest value, less 1",
+                       [](const auto& r) { return number_or_nothing(r.true_error); }},
+    Column<RungResult>{"estimated_error", "1", "the same as the error budget tells it",
+                       [](const auto& r) { return number_or_nothing(r.estimated_error); }},
+    Column<RungResult>{"order", "1", "of the true error in the size, from the value before",
+                       [](const auto& r) { return number_or_nothing(r.order); }},
+    Column<RungResult>{"curve", "", "its name", [](const auto& r) { return r.curve; }},
+};
+
 constexpr std::array mode_table{
     Column<ModeRow>{"mode", "1", "number, from 1",
                     [](const auto& m) { return fmt::format("{}", m.mode); }},
@@ -221,6 +245,7 @@ void add_table(std::string& text, const std::string& title, const Rows& rows,
 std::span<const Column<ResponsePoint>> curve_columns() { return curve_table; }
 std::span<const Column<CycleReport>> patch_columns() { return patch_table; }
 std::span<const Column<TrustedAmplitude>> trust_columns() { return trust_table; }
+std::span<const Column<RungResult>> ladder_columns() { return ladder_table; }
 std::span<const Column<ModeRow>> mode_columns() { return mode_table; }
 std::span<const Column<OptimumRow>> optimum_columns(bool of_preload) {
   return of_preload ? std::span<const Column<OptimumRow>>(preload_table) : parameter_table;
@@ -249,6 +274,7 @@ std::string columns_text() {
   add_table(text, "curves/NAME.csv", curve_table);
   add_table(text, "curves/NAME.csv, where its error is told ([accuracy])", trust_table);
   add_table(text, "curves/NAME.csv, for each of several contacts", patch_table, "CONTACT.");
+  add_table(text, "converge/KNOB.csv", ladder_table);
   add_table(text, "modes.csv", mode_table);
   add_table(text, "peak_against_preload.csv (peak_against_parameter.csv: `value` in front)",
             preload_table);

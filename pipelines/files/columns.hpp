@@ -13,6 +13,7 @@
 #include "contact/contact_map.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/patch.hpp"
+#include "pipelines/accuracy/convergence.hpp"
 #include "solver/peak.hpp"
 #include "solver/response_curve.hpp"
 
@@ -39,6 +40,9 @@ struct TrustedAmplitude {
   double bar = 0.0;        ///< relative half width
 };
 [[nodiscard]] std::span<const Column<TrustedAmplitude>> trust_columns();
+
+/// converge/KNOB.csv, a row per rung and curve.
+[[nodiscard]] std::span<const Column<RungResult>> ladder_columns();
 
 /// modes.csv, a row per mode.
 struct ModeRow {

@@ -215,7 +215,7 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
   constexpr int more = 8;
   constexpr int most_harmonics = 99;   // of a scene
   constexpr int most_unknowns = 1500;  // seconds a step beyond
-  if (harmonics.chosen() || model.patches.empty()) return 0;
+  if (harmonics.chosen() || !harmonics.checked || model.patches.empty()) return 0;
   const int highest = std::min(harmonics.highest + more, most_harmonics);
   if (highest <= harmonics.highest + more / 2) return 0;
   return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
@@ -247,7 +247,8 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
   richer.change = 1.0 - highest_peak(result.curve)->amplitude / peak->amplitude;
 }
 
-/// The highest peak with more harmonics than were given, where the contact is not proved linear.
+}  // namespace
+
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
@@ -265,8 +266,6 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
     trace_about_peak(model, load, options, result);
   }
 }
-
-}  // namespace
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe) {

@@ -52,6 +52,10 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
                                       const CurveRequest& request,
                                       const solver::PointObserver& observe);
 
+/// Solves the highest peak with more harmonics than were given, where the contact is not proved linear: result.richer.
+void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
+                     CurveResult& result);
+
 /// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions of
 /// the branch at given frequencies (numbered in branch order).
 [[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,

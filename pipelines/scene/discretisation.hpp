@@ -31,6 +31,7 @@ struct HarmonicSettings {
   int highest = 1;            ///< with a tolerance the highest that may be added
   std::vector<int> orders{};  ///< the only ones; empty: 1 … highest
   double tolerance = 0.0;     ///< above 0: chosen, see solver::ContinuationOptions
+  bool checked = true;        ///< given ones are checked with more at the peaks
   [[nodiscard]] bool chosen() const { return tolerance > 0.0; }
 };
 

@@ -1,0 +1,45 @@
+/// @file
+/// What accuracy costs: the highest peak of every curve on every rung of a ladder, its error against the finest rung,
+/// the error that a run would have told there, and the time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/accuracy/ladders.hpp"
+#include "pipelines/model/model_family.hpp"
+
+namespace microslip::pipelines {
+
+/// One curve on one rung.
+struct RungResult {
+  std::string curve;
+  std::string value;
+  double seconds = 0.0;      ///< wall time: mesh, modes and this curve
+  double cpu_seconds = 0.0;  ///< processor time of the same
+  double amplitude = 0.0;    ///< of its highest peak [m]
+  double frequency = 0.0;    ///< [rad/s]
+  std::optional<double>
+      true_error{};  ///< relative, signed: amplitude / that of the finest rung − 1
+  std::optional<double> estimated_error{};  ///< the same as the error budget of that rung tells it
+  std::optional<double> order{};  ///< d log|true error| / d log(size), from the rung before
+};
+
+/// Mesh and modes of a scene, and what they took.
+struct TimedStructure {
+  std::shared_ptr<const SolvedStructure> solved;
+  double mesh_seconds = 0.0, mesh_cpu_seconds = 0.0;  ///< of the mesh alone
+  double seconds = 0.0, cpu_seconds = 0.0;            ///< of both
+};
+
+/// @return  nothing solved for kinds without a mesh. @throws as solved_structure().
+[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene);
+
+/// Curves are traced one after the other, so that times are those of one core. A rung that is refused is left out.
+/// @param base  of the scene, for rungs that share it.
+/// @param say   a sentence for every rung.
+[[nodiscard]] std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,
+                                            const std::function<void(const std::string&)>& say);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,125 @@
+#include "pipelines/accuracy/ladders.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace microslip::pipelines {
+namespace {
+
+/// The scene with one thing changed, its harmonics as they are and not checked: what is timed is the curve.
+template <typename Change>
+Rung rung(const SceneDescription& scene, std::string value, double size, const Change& change) {
+  Rung result{std::move(value), size, scene};
+  result.scene.settings.harmonics.checked = false;
+  change(result.scene);
+  return result;
+}
+
+Ladder of_element_size(const SceneDescription& scene) {
+  Ladder ladder{"element_size", "mesh", {}};
+  const double given = std::get<BladeModel>(scene.model).element_size;
+  for (const double factor : {4.0, 2.0, 1.0, 2.0 / 3.0}) {
+    const double size = factor * given;
+    ladder.rungs.push_back(rung(scene, fmt::format("{:.4g}", size), size, [&](auto& other) {
+      std::get<BladeModel>(other.model).element_size = size;
+    }));
+    ladder.rungs.back().same_mesh = factor == 1.0;
+    ladder.rungs.back().same_basis = factor == 1.0;
+  }
+  return ladder;
+}
+
+Ladder of_modes(const SceneDescription& scene) {
+  Ladder ladder{"modes", "basis", {}};
+  const int given = scene.settings.basis.n_modes;
+  for (const int n :
+       {std::max(1, given / 4), std::max(1, given / 2), given, 2 * given, 4 * given}) {
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 0.0,
+                                [&](auto& other) { other.settings.basis.n_modes = n; }));
+    ladder.rungs.back().same_basis = n == given;
+  }
+  return ladder;
+}
+
+Ladder of_attachment_degree(const SceneDescription& scene) {
+  Ladder ladder{"attachment_degree", "basis", {}};
+  for (const int degree : {0, 1, 2}) {
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", degree), 0.0, [&](auto& other) {
+      other.settings.basis.attachment_degree = degree;
+    }));
+    ladder.rungs.back().same_basis = scene.settings.basis.attachment_degree == degree;
+  }
+  return ladder;
+}
+
+Ladder of_cells(const SceneDescription& scene) {
+  Ladder ladder{"cells", "cells", {}};
+  const int given = scene.settings.patches.front().n_points;
+  for (const int n : {given / 16, given / 4, given, 4 * given, 16 * given}) {
+    if (n < 1) continue;
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 1.0 / n, [&](auto& other) {
+      for (PatchSettings& patch : other.settings.patches) patch.n_points = n;
+    }));
+  }
+  return ladder;
+}
+
+Ladder of_fit(const SceneDescription& scene) {
+  Ladder ladder{"fit", "fit", {}};
+  for (const int degree : {1, 2, 3, 4}) {
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", degree), 0.0, [&](auto& other) {
+      for (PatchSettings& patch : other.settings.patches) {
+        patch.fit = PatchSettings::Fit::degree;
+        patch.fit_degree = degree;
+      }
+    }));
+  }
+  ladder.rungs.push_back(rung(scene, "none", 0.0, [](auto& other) {
+    for (PatchSettings& patch : other.settings.patches) patch.fit = PatchSettings::Fit::none;
+  }));
+  return ladder;
+}
+
+Ladder of_harmonics(const SceneDescription& scene) {
+  Ladder ladder{"harmonics", "harmonics", {}};
+  for (const int highest : {1, 3, 5, 9, 17}) {
+    ladder.rungs.push_back(rung(scene, fmt::format("{}", highest), 0.0, [&](auto& other) {
+      other.settings.harmonics = {.highest = highest, .orders = {}, .tolerance = 0.0};
+    }));
+  }
+  return ladder;
+}
+
+Ladder of_second_direction(const SceneDescription& scene) {
+  Ladder ladder{"second_direction", "second_direction", {}};
+  using enum Discretisation::Choice;
+  for (const auto& [name, choice] : {std::pair{"off", off}, std::pair{"on", on}}) {
+    ladder.rungs.push_back(rung(scene, name, 0.0, [choice = choice](auto& other) {
+      other.settings.second_direction = choice;
+    }));
+  }
+  return ladder;
+}
+
+}  // namespace
+
+std::vector<Ladder> ladders(const SceneDescription& scene) {
+  std::vector<Ladder> result;
+  if (std::holds_alternative<BladeModel>(scene.model)) result.push_back(of_element_size(scene));
+  if (!std::holds_alternative<ModalModel>(scene.model) && !scene.contacts.empty()) {
+    result.push_back(of_modes(scene));
+    if (scene.settings.basis.residual == ResidualKind::attachment) {
+      result.push_back(of_attachment_degree(scene));
+    }
+    result.push_back(of_cells(scene));
+    result.push_back(of_fit(scene));
+    result.push_back(of_second_direction(scene));
+  }
+  result.push_back(of_harmonics(scene));
+  return result;
+}
+
+}  // namespace microslip::pipelines
