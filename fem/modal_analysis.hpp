@@ -12,6 +12,7 @@
 
 #include "fem/attachment.hpp"
 #include "fem/elements/element_matrices.hpp"
+#include "fem/given_matrices.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
 #include "mesh/mesh.hpp"
@@ -40,6 +41,8 @@ class Structure {
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
   Structure(const mesh::Mesh& mesh, const Material& material,
             const std::vector<std::string>& clamped, Tet10Rule rule = Tet10Rule::accurate);
+  /// Takes K and M from elsewhere. @throws mesh::MeshError, std::invalid_argument  see GivenMatrices.
+  Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/assembly/given_system.hpp"
 #include "fem/assembly/surface_springs.hpp"
 #include "fem/eigen/attachment.hpp"
 #include "fem/eigen/mode_search.hpp"
@@ -245,6 +246,14 @@ Structure::Structure(const mesh::Mesh& mesh, const Material& material,
       Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
   self_->timings.assembly =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices) {
+  FeSystem system = given_system(mesh, matrices);
+  Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
+  self_ = std::make_unique<Implementation>(
+      Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
+  self_->drop_held_rigid_modes();  // springs to ground and single supports are in K alone
 }
 
 Structure::~Structure() = default;
