@@ -8,15 +8,10 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "pipelines/model/conversion.hpp"
 #include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
-
-/// Of the converter. Beside these it has a second and 40 MB more for every megabyte of the file.
-struct ConverterLimits {
-  double seconds = 60.0;      ///< wall time and processor time
-  double memory_mb = 4000.0;  ///< address space
-};
 
 struct MeshOfFile {
   mesh::Mesh mesh;

@@ -1,0 +1,30 @@
+"""What the converters of share/scripts have in common: limits, and a sentence for whatever a damaged file does."""
+import resource
+import sys
+
+PACKAGES = {"numpy": "python3-numpy", "meshio": "python3-meshio", "h5py": "python3-h5py", "netCDF4": "python3-netcdf4"}
+
+
+def problem_of(source, error):
+    """A sentence for the user."""
+    if isinstance(error, MemoryError):
+        return f"{source}: reading it needs more memory than is allowed"
+    if isinstance(error, ModuleNotFoundError) and error.name in PACKAGES:
+        package = PACKAGES[error.name]
+        return f"{source}: this format needs the Debian package {package}: apt-get install {package}"
+    if type(error).__name__ == "Refused":
+        return str(error)
+    return f"{source}: reading it failed: {type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def run(convert, source, output, facts, seconds, megabytes):
+    """convert(source, output, facts) within limits of processor time and address space. Returns 0, or 1 after the last
+    line of standard error told what is wrong."""
+    resource.setrlimit(resource.RLIMIT_CPU, (int(float(seconds)) + 1,) * 2)
+    resource.setrlimit(resource.RLIMIT_AS, (int(float(megabytes) * 1e6),) * 2)
+    try:
+        convert(source, output, facts)
+    except Exception as error:  # whatever a library throws at a damaged file
+        print(problem_of(source, error), file=sys.stderr)
+        return 1
+    return 0
