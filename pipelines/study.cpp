@@ -49,6 +49,7 @@ StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
   ask(record, scene, mesh);
   record.stage("modes");
   StructureModes modes = solve_structure(mesh, scene);
+  for (const std::string& warning : modes.warnings) record.progress().warning(warning);
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
   record.keep_modes(mesh, modes,
                     damping_ratios(scene.modes, modes.basis.frequency, modes.basis.n_attachment));

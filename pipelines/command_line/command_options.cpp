@@ -83,7 +83,7 @@ void add_global_options(CLI::App& app, Arguments& a) {
 void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
-  init_command->add_option("kind", a.input, "blade, mesh, modal, bar, chain or block")
+  init_command->add_option("kind", a.input, "blade, mesh, modes, modal, bar, chain or block")
       ->default_str("blade");
   init_command->add_option(
       "file", a.mesh_file,

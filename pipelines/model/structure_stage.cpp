@@ -12,6 +12,8 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/given_matrices.hpp"
+#include "pipelines/model/given_modes.hpp"
 #include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/named_points.hpp"
 #include "pipelines/model/nodal_load.hpp"
@@ -107,10 +109,11 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
   const Eigen::Vector3d lower = mesh.lower();
   const Eigen::Vector3d upper = mesh.upper();
   std::string text = fmt::format(
-      "mesh: {} nodes, {} elements, volume {:.6g} m^3, mass {:.6g} kg\n"
+      "mesh: {} nodes, {} elements, volume {:.6g} m^3{}\n"
       "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
       "surfaces: {}",
-      mesh.n_nodes(), mesh.n_elements(), mesh.volume(), density * mesh.volume(), lower.x(),
+      mesh.n_nodes(), mesh.n_elements(), mesh.volume(),
+      density > 0.0 ? fmt::format(", mass {:.6g} kg", density * mesh.volume()) : "", lower.x(),
       upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
   const auto sets = mesh.node_set_names();
   if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
@@ -140,7 +143,10 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
 }
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  fem::Structure structure(mesh, scene.material, scene.clamped);
+  if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
+  fem::Structure structure = given_matrices(scene) != nullptr
+                                 ? fem::Structure(mesh, matrices_of(mesh, scene))
+                                 : fem::Structure(mesh, scene.material, scene.clamped);
   StructureModes result;
   result.n_dofs = structure.n_dofs();
   result.mass = structure.mass();

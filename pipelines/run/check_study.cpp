@@ -13,6 +13,7 @@
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
+#include "pipelines/model/given_matrices.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/structure_stage.hpp"
@@ -161,7 +162,13 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
   for (const std::string& line : describe_places(mesh, scene)) out << line << '\n';
   for (std::string& warning : mesh::shape_warnings(mesh))
     result.warnings.push_back(std::move(warning));
-  if (scene.clamped.empty() && scene.response) {
+  if (given_modes(scene) != nullptr) {
+    const StructureModes modes = solve_structure(mesh, scene);  // they are read
+    for (const std::string& line : modes.notes) out << line << '\n';
+    result.warnings.insert(result.warnings.end(), modes.warnings.begin(), modes.warnings.end());
+  } else if (given_matrices(scene) != nullptr) {
+    static_cast<void>(matrices_of(mesh, scene));  // they are read and checked
+  } else if (scene.clamped.empty() && scene.response) {
     result.warnings.emplace_back(
         "nothing is clamped: the structure has rigid-body modes, which only a contact that "
         "sticks holds");

@@ -62,7 +62,7 @@ bool is_meshed(const SceneDescription& scene) {
 
 template <double fem::Material::*property>
 Findings of_material(const Facts& facts, const char* key) {
-  if (!is_meshed(facts.scene)) return {};
+  if (!is_meshed(facts.scene) || facts.scene.material.*property == 0.0) return {};
   return {{key, facts.scene.material.*property}};
 }
 

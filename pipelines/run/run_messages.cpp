@@ -18,23 +18,29 @@ constexpr double to_hz = 0.5 / std::numbers::pi;
 }  // namespace
 
 std::vector<std::string> modes_text(const StructureModes& modes) {
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format("BLAS: {}", fem::blas_description()));
-  lines.push_back(fmt::format(
-      "modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, factorisation {:.2f} s, "
-      "eigensolve {:.2f} s, inertia count {:.2f} s",
-      modes.n_dofs, modes.timings.assembly, modes.timings.ordering, modes.timings.factorisation,
-      modes.timings.eigensolve, modes.timings.inertia));
+  std::vector<std::string> lines = modes.notes;
+  const bool solved = modes.basis.residual.size() > 0;  // else they are given
+  if (solved) lines.push_back(fmt::format("BLAS: {}", fem::blas_description()));
+  if (solved)
+    lines.push_back(
+        fmt::format("modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, "
+                    "factorisation {:.2f} s, "
+                    "eigensolve {:.2f} s, inertia count {:.2f} s",
+                    modes.n_dofs, modes.timings.assembly, modes.timings.ordering,
+                    modes.timings.factorisation, modes.timings.eigensolve, modes.timings.inertia));
   if (modes.basis.n_rigid_body > 0) {
     lines.push_back(fmt::format("{} rigid-body modes: nothing holds the structure against them",
                                 modes.basis.n_rigid_body));
   }
   for (Eigen::Index i = 0; i < modes.basis.n_free(); ++i) {
-    lines.push_back(fmt::format("mode {:2d}: {:12.4f} Hz   residual {:.1e}", i + 1,
-                                to_hz * modes.basis.frequency[i], modes.basis.residual[i]));
+    lines.push_back(
+        fmt::format("mode {:2d}: {:12.4f} Hz", i + 1, to_hz * modes.basis.frequency[i]));
+    if (solved) lines.back() += fmt::format("   residual {:.1e}", modes.basis.residual[i]);
   }
-  lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
-                              modes.basis.inertia_count, modes.basis.n_free()));
+  if (solved) {
+    lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
+                                modes.basis.inertia_count, modes.basis.n_free()));
+  }
   if (!modes.attachment_text.empty()) lines.push_back(modes.attachment_text);
   return lines;
 }

@@ -1,5 +1,6 @@
 #include "pipelines/scene/meshed_section.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "pipelines/scene/modes_section.hpp"
@@ -43,15 +45,88 @@ BladeModel read_blade(const SectionReader& s) {
 
 namespace {
 
-double read_length_unit(const SectionReader& s, const toml::node& unit) {
+/// SI value of a unit by its name, or of a number of SI units. @param si  "m", "kg".
+double read_unit(const SectionReader& s, std::string_view key, const toml::node& unit,
+                 const char* example, const char* si) {
   const auto name = unit.value<std::string>();
-  if (!name || !unit.is_string()) return s.number_in(unit, "length_unit");
-  if (name->empty()) s.fail("length_unit", "expected a unit of length, e.g. \"mm\"", &unit);
-  try {
-    return to_si("1 " + *name, "m");
-  } catch (const UnitError& error) {
-    s.fail("length_unit", error.what(), &unit);
+  double value = 0.0;
+  if (!name || !unit.is_string()) {
+    value = s.number_in(unit, key);
+  } else if (name->empty()) {
+    s.fail(key, fmt::format("expected a unit, e.g. \"{}\"", example), &unit);
+  } else {
+    try {
+      value = to_si("1 " + *name, si);
+    } catch (const UnitError& error) {
+      s.fail(key, error.what(), &unit);
+    }
   }
+  if (!(value > 0.0)) s.fail(key, "must be above 0", &unit);
+  return value;
+}
+
+/// A path of the scene as one that stands anywhere: scene.toml stands elsewhere than the scene.
+std::filesystem::path absolute_file(SectionReader& s, std::string_view key,
+                                    const std::filesystem::path& folder) {
+  const std::filesystem::path file = s.text(key);
+  std::filesystem::path absolute = file.is_absolute() ? file : folder / file;
+  s.complete(key, absolute.string());
+  return absolute;
+}
+
+void require_mesh_format(const SectionReader& s, const char* key,
+                         const std::filesystem::path& file) {
+  if (mesh_format(file) != MeshFormat::unknown) return;
+  s.fail(key,
+         fmt::format("\"{}\": meshes are read from files that end in {}", file.filename().string(),
+                     mesh_endings()),
+         s.node(key));
+}
+
+std::optional<double> read_length_unit(SectionReader& s, const std::filesystem::path& mesh_file) {
+  if (const toml::node* unit = s.node("length_unit"))
+    return read_unit(s, "length_unit", *unit, "mm", "m");
+  if (mesh_format(mesh_file) != MeshFormat::gmsh) return std::nullopt;
+  s.complete("length_unit", "m");
+  return 1.0;
+}
+
+/// The mesh of a modes file: named, or the deck beside results of CalculiX.
+std::filesystem::path mesh_of_modes(SectionReader& s, const std::filesystem::path& modes,
+                                    const std::filesystem::path& folder) {
+  if (s.given("mesh")) {
+    std::filesystem::path mesh = absolute_file(s, "mesh", folder);
+    require_mesh_format(s, "mesh", mesh);
+    return mesh;
+  }
+  std::filesystem::path deck = modes;
+  deck.replace_extension(".inp");
+  if (modes.extension() != ".frd" || !std::filesystem::exists(deck)) {
+    s.fail("mesh",
+           "is missing; expected the file that has the mesh of the modes with names for its "
+           "surfaces, e.g. the deck (.inp)");
+  }
+  s.complete("mesh", deck.string());
+  return deck;
+}
+
+void require_modes_format(const SectionReader& s, const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 3> endings{".frd", ".npz", ".csv"};
+  if (std::ranges::find(endings, file.extension().string()) != endings.end()) return;
+  s.fail("file",
+         fmt::format("\"{}\": modes are read from files that end in {}", file.filename().string(),
+                     fmt::join(endings, ", ")),
+         s.node("file"));
+}
+
+bool is_rescaled(const SectionReader& s, bool has_density) {
+  constexpr std::array<std::string_view, 2> normalisations{"mass", "other"};
+  const bool rescaled = s.word("normalisation", normalisations) == "other";
+  if (rescaled && !has_density) {
+    s.fail("normalisation", "\"other\" needs material.density, by which the shapes are rescaled",
+           s.node("normalisation"));
+  }
+  return rescaled;
 }
 
 }  // namespace
@@ -59,23 +134,38 @@ double read_length_unit(const SectionReader& s, const toml::node& unit) {
 MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
   static_cast<void>(s.integer("order"));
   MeshFileModel model;
-  const std::filesystem::path file = s.text("file");
-  model.file = file.is_absolute() ? file : folder / file;
+  require_mesh_format(s, "file", s.text("file"));
+  model.file = absolute_file(s, "file", folder);
   model.place = s.place("file");
-  const MeshFormat format = mesh_format(file);
-  if (format == MeshFormat::unknown) {
-    s.fail("file",
-           fmt::format("\"{}\": meshes are read from files that end in {}", file.string(),
-                       mesh_endings()),
-           s.node("file"));
+  model.length_unit = read_length_unit(s, model.file);
+  return model;
+}
+
+MeshFileModel read_modes_file(SectionReader s, const std::filesystem::path& folder,
+                              bool has_density) {
+  MeshFileModel model;
+  const bool matrices = s.given("stiffness");
+  if (matrices == s.given("file"))
+    s.fail("file", "expected either file, or stiffness, mass and nodes", s.node("file"));
+  const std::filesystem::path modes = matrices ? "" : absolute_file(s, "file", folder);
+  if (!matrices) require_modes_format(s, modes);
+  model.file = mesh_of_modes(s, modes, folder);
+  model.place = s.place("mesh");
+  model.length_unit = read_length_unit(s, model.file);
+  if (!model.length_unit) {
+    s.fail("length_unit",
+           "is missing; expected the unit of the coordinates in both files: \"m\", \"mm\"");
   }
-  s.complete("file", model.file.string());  // scene.toml stands elsewhere than the scene
-  if (const toml::node* unit = s.node("length_unit")) {
-    model.length_unit = read_length_unit(s, *unit);
-    if (!(*model.length_unit > 0.0)) s.fail("length_unit", "must be above 0", unit);
-  } else if (format == MeshFormat::gmsh) {
-    model.length_unit = 1.0;
-    s.complete("length_unit", "m");
+  const toml::node* unit = s.node("mass_unit");
+  // N s²/m, the unit that goes with newtons, seconds and the unit of length.
+  const double mass_unit =
+      unit != nullptr ? read_unit(s, "mass_unit", *unit, "t", "kg") : 1.0 / *model.length_unit;
+  if (matrices) {
+    model.matrices =
+        MatrixFiles{absolute_file(s, "stiffness", folder), absolute_file(s, "mass", folder),
+                    absolute_file(s, "nodes", folder), mass_unit, s.place("nodes")};
+  } else {
+    model.modes = ModesFile{modes, mass_unit, is_rescaled(s, has_density), s.place("file")};
   }
   return model;
 }
@@ -128,6 +218,19 @@ BasisSettings read_basis(const SectionReader& s) {
            fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
            s.node("attachment_degree"));
   }
+  return basis;
+}
+
+BasisSettings read_given_basis(const SectionReader& s) {
+  BasisSettings basis;
+  basis.n_modes = s.given("count") ? s.integer("count") : 0;
+  if (s.given("attachment_degree")) {
+    s.fail("attachment_degree", "goes with matrices: modes in a file bring their own shapes",
+           s.node("attachment_degree"));
+  }
+  constexpr std::array<std::string_view, 2> residuals{"none", "attachment"};
+  basis.residual =
+      s.word("residual", residuals) == "none" ? ResidualKind::none : ResidualKind::attachment;
   return basis;
 }
 

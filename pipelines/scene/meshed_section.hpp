@@ -16,9 +16,14 @@ namespace microslip::pipelines {
 [[nodiscard]] BladeModel read_blade(const SectionReader& s);
 /// @param folder  what relative paths are relative to.
 [[nodiscard]] MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder);
+/// Modes of another code and their mesh. @param has_density  to rescale shapes by.
+[[nodiscard]] MeshFileModel read_modes_file(SectionReader s, const std::filesystem::path& folder,
+                                            bool has_density);
 [[nodiscard]] fem::Material read_material(const SectionReader& s);
 [[nodiscard]] std::vector<std::string> read_names(const SectionReader& s, std::string_view key);
 [[nodiscard]] BasisSettings read_basis(const SectionReader& s);
+/// Of given modes; n_modes = 0: all there are.
+[[nodiscard]] BasisSettings read_given_basis(const SectionReader& s);
 [[nodiscard]] ModesDescription read_modes(const SectionReader& s, int n_modes);
 /// Attachment shapes need a local stiffness to stand behind: a rigid contact takes the residual stiffness instead
 /// where the scene does not say. @param s  [modes].   @return  that it did so, or nothing.

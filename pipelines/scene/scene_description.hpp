@@ -27,10 +27,28 @@ struct BladeModel {
   double element_size = 0.004;  ///< [m]
 };
 
+/// Modes of another code, on the mesh of the model.
+struct ModesFile {
+  std::filesystem::path file;  ///< absolute
+  double mass_unit = 1.0;      ///< of the shapes: ΦᵀMΦ = 1 in it [kg]
+  bool rescaled = false;       ///< to ΦᵀMΦ = 1 by the mass of mesh and density
+  std::string place;           ///< "file:line: key" of `file`, for messages
+};
+
+/// Stiffness and mass of another code, on the mesh of the model.
+struct MatrixFiles {
+  std::filesystem::path stiffness, mass;  ///< Matrix Market, absolute
+  std::filesystem::path nodes;            ///< places of the nodes and their rows, absolute
+  double mass_unit = 1.0;                 ///< [kg]; of the stiffness: N per unit of length
+  std::string place;                      ///< "file:line: key" of `nodes`, for messages
+};
+
 struct MeshFileModel {
-  std::filesystem::path file;         ///< absolute
-  std::optional<double> length_unit;  ///< metres per unit of the file; none: as the file says
-  std::string place;                  ///< "file:line: key" of `file`, for messages
+  std::filesystem::path file;           ///< absolute
+  std::optional<double> length_unit;    ///< metres per unit of the file; none: as the file says
+  std::string place;                    ///< "file:line: key" of `file`, for messages
+  std::optional<ModesFile> modes;       ///< none: the modes are solved for
+  std::optional<MatrixFiles> matrices;  ///< none: K and M are those of the finite elements
 };
 
 using contact::LoadMeasure;
@@ -170,6 +188,18 @@ struct SceneDescription {
   Discretisation settings;
   bool error_budget = true;  ///< [accuracy] error_budget: each choice is refined at the peaks
 };
+
+/// The modes a scene has from another code; nullptr: none.
+[[nodiscard]] inline const ModesFile* given_modes(const SceneDescription& scene) {
+  const auto* model = std::get_if<MeshFileModel>(&scene.model);
+  return model != nullptr && model->modes ? &*model->modes : nullptr;
+}
+
+/// The matrices a scene has from another code; nullptr: none.
+[[nodiscard]] inline const MatrixFiles* given_matrices(const SceneDescription& scene) {
+  const auto* model = std::get_if<MeshFileModel>(&scene.model);
+  return model != nullptr && model->matrices ? &*model->matrices : nullptr;
+}
 
 /// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.
 [[nodiscard]] inline std::vector<contact::SurfaceRules> surface_rules(

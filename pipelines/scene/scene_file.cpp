@@ -15,6 +15,7 @@
 #include "pipelines/scene/effects_section.hpp"
 #include "pipelines/scene/meshed_section.hpp"
 #include "pipelines/scene/modal_scene.hpp"
+#include "pipelines/scene/modes_section.hpp"
 #include "pipelines/scene/points_section.hpp"
 #include "pipelines/scene/response_section.hpp"
 #include "pipelines/scene/scene_overrides.hpp"
@@ -29,7 +30,8 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
-constexpr std::array<std::string_view, 6> kinds{"blade", "mesh", "modal", "bar", "chain", "block"};
+constexpr std::array<std::string_view, 7> kinds{"blade", "mesh",  "modes", "modal",
+                                                "bar",   "chain", "block"};
 
 /// The scene while it is read: what was given, and the completed scene that grows beside it.
 struct Reading {
@@ -150,26 +152,46 @@ void require_distinct(const std::vector<ContactDescription>& contacts) {
   }
 }
 
-void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
+/// What modes are solved from: geometry, material, supports; and how many.
+SectionReader read_structure(Reading& reading, const std::string& kind, SceneDescription& scene) {
   if (kind == "blade") {
     scene.model = read_blade(reading.section("model", "model.blade"));
   } else {
     scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
   }
   scene.material = read_material(reading.section("material", "material"));
-  if (const toml::table* points = reading.table("points")) {
-    const auto [position, added] = reading.complete.insert_or_assign("points", toml::table{});
-    scene.points = read_points(*points, reading.file, *position->second.as_table());
-  }
   const SectionReader supports = reading.section("supports", "supports");
   for (const std::string& name : read_names(supports, "clamped")) {
     scene.clamped.push_back(name_in_mesh(scene.points, name));
   }
   scene.clamped_place = supports.place("clamped");
-  SectionReader modes = reading.section("modes", "modes");
+  const SectionReader modes = reading.section("modes", "modes");
+  scene.settings.basis = read_basis(modes);
+  scene.modes = read_modes(modes, scene.settings.basis.n_modes);
+  return modes;
+}
+
+/// Modes of another code: supports are in them, of the material the density may be known.
+SectionReader read_given_structure(Reading& reading, SceneDescription& scene) {
+  const SectionReader material = reading.section("material", "material.modes");
+  if (material.given("density")) scene.material.density = material.number("density");
+  scene.model = read_modes_file(reading.section("model", "model.modes"), reading.folder,
+                                scene.material.density > 0.0);
+  const bool solved = given_matrices(scene) != nullptr;
+  const SectionReader modes = reading.section("modes", solved ? "modes" : "modes.modes");
+  scene.settings.basis = solved ? read_basis(modes) : read_given_basis(modes);
+  scene.modes.damping = read_damping(modes);
+  return modes;
+}
+
+void read_meshed(Reading& reading, const std::string& kind, SceneDescription& scene) {
+  if (const toml::table* points = reading.table("points")) {
+    const auto [position, added] = reading.complete.insert_or_assign("points", toml::table{});
+    scene.points = read_points(*points, reading.file, *position->second.as_table());
+  }
+  SectionReader modes =
+      kind == "modes" ? read_given_structure(reading, scene) : read_structure(reading, kind, scene);
   BasisSettings& basis = scene.settings.basis;
-  basis = read_basis(modes);
-  scene.modes = read_modes(modes, basis.n_modes);
   for (const SectionReader& section : reading.contacts()) {
     scene.contacts.push_back(read_contact(section, reading.folder));
     scene.settings.patches.push_back(read_patch_settings(section));

@@ -39,6 +39,17 @@ const Examples& mesh_examples() {
   return values;
 }
 
+const Examples& modes_examples() {
+  static const Examples values = [] {
+    Examples examples = mesh_examples();
+    examples["model.file"] = "\"blade.frd\"";
+    examples["model.mesh"] = "\"blade.inp\"";
+    examples["model.length_unit"] = "\"mm\"";
+    return examples;
+  }();
+  return values;
+}
+
 const Examples& modal_examples() {
   static const Examples values{
       {"modal.frequency", "[15.9, 41.4]"},
@@ -112,6 +123,7 @@ const Examples& block_examples() {
 }
 
 const Examples& examples_of(std::string_view kind) {
+  if (kind == "modes") return modes_examples();
   if (kind == "modal") return modal_examples();
   if (kind == "bar") return bar_examples();
   if (kind == "chain") return chain_examples();
@@ -171,7 +183,7 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
 
 std::string scene_template(std::string_view kind, const TemplateTexts& values,
                            const TemplateTexts& remarks) {
-  constexpr std::array<std::string_view, 6> kinds{"blade", "mesh",  "modal",
+  constexpr std::array<std::string_view, 7> kinds{"blade", "mesh",  "modes", "modal",
                                                   "bar",   "chain", "block"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: {}", kind,

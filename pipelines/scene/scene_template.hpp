@@ -11,7 +11,7 @@ namespace microslip::pipelines {
 /// By the path of a key: "contact.surface".
 using TemplateTexts = std::map<std::string, std::string, std::less<>>;
 
-/// @param kind     blade, mesh, modal, bar, chain or block.
+/// @param kind     blade, mesh, modes, modal, bar, chain or block.
 /// @param values   that stand in place of the examples, as TOML; an empty one leaves an optional key out.
 /// @param remarks  lines more above a key.
 /// @throws SceneError  another kind.

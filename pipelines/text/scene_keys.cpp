@@ -20,8 +20,8 @@ constexpr KeySpec length_key(std::string_view name, std::string_view preset,
   return {name, number, "m", preset, 0.0, 10.0, true, meaning};
 }
 
-constexpr KeySpec kind_key{"kind", text, "",    "",
-                           0,      0,    false, "blade | mesh | modal | bar | chain | block"};
+constexpr KeySpec kind_key{
+    "kind", text, "", "", 0, 0, false, "blade | mesh | modes | modal | bar | chain | block"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
 constexpr std::array blade_keys{
@@ -60,6 +60,35 @@ constexpr std::array mesh_keys{
             "m) and for files that tell it",
             true},
     order_key,
+};
+
+constexpr std::array modes_model_keys{
+    kind_key,
+    KeySpec{"file", text, "", "", 0, 0, false,
+            "modes of another code, relative to the scene: CalculiX (.frd of *FREQUENCY), NumPy "
+            "(.npz), a table (.csv)",
+            true},
+    KeySpec{"stiffness", text, "", "", 0, 0, false,
+            "instead: K of another code, Matrix Market (.mtx), from which modes are solved here",
+            true},
+    KeySpec{"mass", text, "", "", 0, 0, false, "M of another code, Matrix Market (.mtx)", true},
+    KeySpec{"nodes", text, "", "", 0, 0, false,
+            "nodes of K and M (.csv): columns x, y, z, and ux, uy, uz: their rows from 1; 0: held",
+            true},
+    KeySpec{"mesh", text, "", "", 0, 0, false,
+            "their mesh, any file that kind = \"mesh\" reads; else the .inp beside a .frd of that "
+            "name",
+            true},
+    KeySpec{"length_unit", other, "m", "", 0, 0, false,
+            "unit of the coordinates in both files: \"mm\", or metres per unit; may be left out "
+            "where the mesh is .msh (then m)",
+            true},
+    KeySpec{"mass_unit", other, "kg", "", 0, 0, false,
+            "in which the shapes are mass-normalised; else that of newtons and seconds: kg with "
+            "metres, t with millimetres",
+            true},
+    KeySpec{"normalisation", text, "", "\"mass\"", 0, 0, false,
+            "of the shapes: mass, or other (then rescaled by material.density)"},
 };
 
 constexpr std::array modal_model_keys{kind_key};
@@ -118,6 +147,11 @@ constexpr std::array material_keys{
     KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
 };
 
+constexpr std::array given_material_keys{
+    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true,
+            "ρ, where all of the mesh has one: checks the modes given, ΦᵀMΦ = 1", true},
+};
+
 constexpr std::array support_keys{
     KeySpec{"clamped", other, "", "[]", 0, 0, false,
             "names of surfaces, or sets of edges or nodes, that are held"},
@@ -145,6 +179,17 @@ constexpr std::array mode_keys{
             "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest "
             "that leaves no "
             "traction of the next degree more than 30 % of its residual flexibility short"},
+};
+
+constexpr std::array given_mode_keys{
+    KeySpec{"count", integer, "", "", 1, 1000, false, "of the file, the first ones; else all",
+            true},
+    damping_key,
+    KeySpec{"residual", text, "", "\"none\"", 0, 0, false,
+            "omitted modes on the contact: none | attachment (static shapes, where the file has "
+            "them); with matrices as in other scenes"},
+    KeySpec{"attachment_degree", other, "", "", 0, 0, false,
+            "with matrices: of the tractions whose static shapes are added", true},
 };
 
 constexpr std::array bar_mode_keys{
@@ -397,9 +442,12 @@ constexpr std::array accuracy_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 38> sections{{
+constexpr std::array<SectionSpec, 41> sections{{
     {"model.blade", blade_keys},
     {"model.mesh", mesh_keys},
+    {"model.modes", modes_model_keys},
+    {"material.modes", given_material_keys},
+    {"modes.modes", given_mode_keys},
     {"model.modal", modal_model_keys},
     {"material", material_keys},
     {"supports", support_keys},
@@ -443,6 +491,9 @@ constexpr std::array<std::string_view, 10> mesh_sections{
     "contact", "excitation", "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 6> modal_sections{"model",    "modal",   "contact",
                                                          "response", "effects", "accuracy"};
+constexpr std::array<std::string_view, 9> given_modes_sections{"model",    "material", "modes",
+                                                               "points",   "contact",  "excitation",
+                                                               "response", "effects",  "accuracy"};
 constexpr std::array<std::string_view, 7> lean_sections{
     // bar, chain, block
     "model", "modes", "contact", "excitation", "response", "effects", "accuracy"};
@@ -471,6 +522,7 @@ KeySpec point_key(std::string_view name) {
 }
 
 std::span<const std::string_view> sections_of_kind(std::string_view kind) {
+  if (kind == "modes") return given_modes_sections;
   if (kind == "modal") return modal_sections;
   if (kind == "bar" || kind == "chain" || kind == "block") return lean_sections;
   return mesh_sections;

@@ -241,7 +241,7 @@ TEST(SceneFile, TextsOfTheCompletedSceneSurviveQuotesAndControls) {
 }
 
 TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
-  for (const char* kind : {"blade", "mesh", "modal", "bar", "chain"}) {
+  for (const char* kind : {"blade", "mesh", "modes", "modal", "bar", "chain"}) {
     EXPECT_EQ(complaint(scene_template(kind)), "") << kind;
   }
   expect_complaint(
@@ -253,7 +253,7 @@ TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
         }
         return std::string();
       }(),
-      {"step", "blade, mesh, modal, bar, chain"});
+      {"step", "blade, mesh, modes, modal, bar, chain"});
 }
 
 // ---- overrides

@@ -1,0 +1,15 @@
+/// @file
+/// Stiffness and mass of another code (scene/matrix_files.hpp) on the nodes of the mesh of a scene.
+#pragma once
+
+#include "fem/given_matrices.hpp"
+#include "mesh/mesh.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// Those of a scene on the nodes of its mesh, in SI.
+/// @throws SceneError  files that cannot be used, matrices of different sizes, nodes that mesh and table do not share.
+[[nodiscard]] fem::GivenMatrices matrices_of(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

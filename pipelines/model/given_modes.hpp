@@ -1,0 +1,33 @@
+/// @file
+/// Modes of another code → a modal basis on the mesh of the scene. share/scripts/convert_modes.py reads the file; here
+/// its nodes are found in the mesh by their places, whatever their order, and its shapes are checked against the mass
+/// that mesh and density give.
+#pragma once
+
+#include <filesystem>
+
+#include <Eigen/Core>
+
+#include "mesh/mesh.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// A file as it is, in its own units.
+struct ModesOfFile {
+  Eigen::MatrixX3d nodes;        ///< n_nodes × 3
+  Eigen::VectorXd frequency_hz;  ///< ascending, ≥ 0; then those of the attachment shapes
+  Eigen::MatrixXd shapes;        ///< (3 · n_nodes) × n_modes, x y z per node
+  Eigen::Index n_attachment = 0;
+};
+
+/// @throws SceneError  a damaged file, one without modes: what is there, where.
+[[nodiscard]] ModesOfFile read_modes_of(const std::filesystem::path& file);
+
+/// The basis of a scene of kind "modes", and what is to be said about it.
+/// @throws SceneError  a node of the mesh without modes, fewer modes than asked for, no attachment shapes where they
+///         are asked for, shapes that are not mass-normalised.
+[[nodiscard]] StructureModes given_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

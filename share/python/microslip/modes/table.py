@@ -1,0 +1,37 @@
+"""Modes as a table (.csv): one row for each node of each mode, columns mode, frequency_Hz, x, y, z, ux, uy, uz and any
+others, in any order; what a script writes that walks through the frames of an Abaqus .odb."""
+import csv
+
+import numpy as np
+
+from microslip.meshes.content import Refused, require
+
+from .content import Modes
+
+_COLUMNS = ("mode", "frequency_Hz", "x", "y", "z", "ux", "uy", "uz")
+
+
+def read(path):
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        rows = csv.reader(file)
+        header = [name.strip() for name in next(rows, [])]
+        for name in _COLUMNS:
+            require(name in header, f'{path}:1: column "{name}" is missing; there are: {", ".join(header) or "none"}')
+        places = [header.index(name) for name in _COLUMNS]
+        table = np.array([_numbers(path, rows.line_num, row, header, places) for row in rows if row])
+    require(len(table), f"{path}: there are no rows in it")
+    modes, starts = np.unique(table[:, 0], return_index=True)
+    blocks = [table[table[:, 0] == mode] for mode in modes]
+    for mode, block in zip(modes, blocks):
+        require(np.array_equal(block[:, 2:5], blocks[0][:, 2:5]),
+                f"{path}: mode {mode:g} has other nodes than mode {modes[0]:g}, or in another order")
+        require(np.ptp(block[:, 1]) == 0.0, f"{path}: mode {mode:g} has several frequencies")
+    return Modes(blocks[0][:, 2:5], table[starts, 1], np.array([block[:, 5:8] for block in blocks]))
+
+
+def _numbers(path, line, row, header, places):
+    require(len(row) == len(header), f"{path}:{line}: {len(row)} cells, the header has {len(header)}")
+    try:
+        return [float(row[place]) for place in places]
+    except ValueError as error:
+        raise Refused(f"{path}:{line}: expected numbers: {error}") from None
