@@ -13,6 +13,7 @@
 #include "fem/slepc_session.hpp"
 #include "pipelines/cycle/cycle_plot.hpp"
 #include "pipelines/cycle/cycle_table.hpp"
+#include "pipelines/files/checkpoint.hpp"
 #include "pipelines/files/columns.hpp"
 #include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/mesh_names.hpp"
@@ -31,6 +32,7 @@ RunOptions options_of(const Arguments& arguments, const std::filesystem::path& o
   RunOptions options;
   options.output = output;
   options.jobs = arguments.jobs;
+  if (arguments.resume) options.start = RunStart::resumed;
   options.rank = arguments.rank;
   if (arguments.quiet) options.verbosity = Verbosity::quiet;
   if (arguments.verbose) options.verbosity = Verbosity::verbose;
@@ -78,9 +80,12 @@ void refuse_idle_options(const Arguments& arguments) {
   const auto refuse_later = [](bool given, const char* name) {
     if (given) throw SceneError(fmt::format("{} is not available in this version", name));
   };
-  refuse_later(arguments.resume, "--resume");
   refuse_later(!arguments.tolerance.empty(), "--tolerance");
   refuse_later(!arguments.budget.empty(), "--budget");
+  if (arguments.resume && arguments.command != "run" && arguments.command != "modes") {
+    throw SceneError(fmt::format("--resume: {} leaves nothing to go on with; run and modes do",
+                                 arguments.command));
+  }
   const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
                            arguments.command != "report" && arguments.command != "columns" &&
                            arguments.command != "surfaces";
@@ -97,7 +102,7 @@ void refuse_idle_options(const Arguments& arguments) {
 int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
   if (arguments.picture) require_picture_name(*arguments.picture);
-  watch_for_interrupts();
+  const InterruptWatch watch;
   const CheckResult result = check_study(scene, arguments.picture.value_or(""), std::cout);
   const Forecast& forecast = result.forecast;
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
@@ -123,13 +128,20 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
   require_folder_name(arguments.output, "-o");
+  if (arguments.resume) {
+    if (const auto code = ended_run(arguments.output, scene.complete_toml)) {
+      std::cerr << fmt::format("{}: the run has come to its end: nothing to resume\n",
+                               arguments.output);
+      return *code;
+    }
+  }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may leave; the run is for its folder
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
   if (!std::holds_alternative<ModalModel>(scene.model)) {
     session = std::make_unique<fem::SlepcSession>();
     arguments.rank = session->rank();
   }
-  watch_for_interrupts();  // after MPI, which sets handlers of its own
+  const InterruptWatch watch;  // after MPI, which sets handlers of its own
   return study(scene, options_of(arguments, arguments.output));
 }
 
@@ -150,7 +162,7 @@ int mesh(Arguments& arguments) {
     throw ExhaustedError(arguments.output + ": the folder to write in does not exist");
   }
   require_writable(file.parent_path());  // before the mesher works for nothing
-  watch_for_interrupts();
+  const InterruptWatch watch;
   return mesh_study(scene, options_of(arguments, arguments.output));
 }
 

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,20 +43,23 @@ StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
   ask(record, scene);
   if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   record.stage("mesh");
-  mesh::Mesh mesh = obtain_mesh(scene, record.mesh_file());
+  const auto finished = record.finished_mesh();
+  mesh::Mesh mesh =
+      finished ? reread_mesh(scene, *finished) : obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);
   record.keep_mesh(mesh, scene.material.density);
   for (const std::string& line : describe_places(mesh, scene)) record.progress().info(line);
   ask(record, scene, mesh);
   record.stage("modes");
-  StructureModes modes = solve_structure(mesh, scene);
-  for (const std::string& warning : modes.warnings) record.progress().warning(warning);
+  std::optional<StructureModes> modes = record.finished_modes();
+  if (!modes) modes = solve_structure(mesh, scene);
+  for (const std::string& warning : modes->warnings) record.progress().warning(warning);
   if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
-  record.keep_modes(mesh, modes,
-                    damping_ratios(scene.modes, modes.basis.frequency, modes.basis.n_attachment));
+  record.keep_modes(mesh, *modes,
+                    damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
   record.stage("contact");
   return std::make_shared<const SolvedStructure>(
-      SolvedStructure{std::move(mesh), std::move(modes)});
+      SolvedStructure{std::move(mesh), std::move(*modes)});
 }
 
 /// → contact: the arrays the response stage needs.
@@ -105,10 +109,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
       record.keep_bracket(search.bracket());
     }
     record.stage("report");
-    record.keep_summary();  // the report reads it
-    for (const std::string& warning : write_report(record.folder())) {
-      record.progress().warning(warning);
-    }
+    record.keep_report();
   });
 }
 
@@ -155,7 +156,13 @@ int converge_study(const SceneDescription& scene, const RunOptions& options) {
 }
 
 int report_study(const std::filesystem::path& folder) {
-  rebuild_report(folder);
+  const std::string summary = read_summary(folder);
+  std::optional<RunFolder> place;
+  if (RunFolder::has_list(folder)) place.emplace(folder, RunStart::resumed);
+  const std::vector<std::string> warnings =
+      write_report(folder, place ? place->staged() : folder, summary);
+  if (place) place->publish();
+  if (!warnings.empty()) throw SceneError(folder.string() + ": " + warnings.front());
   return static_cast<int>(ExitCode::complete);
 }
 

@@ -70,7 +70,7 @@ void add_global_options(CLI::App& app, Arguments& a) {
                  "curves traced at the same time; the numbers do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_flag("--resume", a.resume, "continue an interrupted run (not available in this version)");
+  app.add_flag("--resume", a.resume, "go on with a run that was interrupted or killed");
   app.add_option("--tolerance", a.tolerance,
                  "accuracy asked for, e.g. 1% (not available in this version)");
   app.add_option("--budget", a.budget, "time allowed, e.g. 60s (not available in this version)");

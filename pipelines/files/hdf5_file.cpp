@@ -63,8 +63,10 @@ void write_dataset(hid_t file, const std::string& name, std::span<const hsize_t>
       H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr));
   const Properties links(H5Pcreate(H5P_LINK_CREATE));
   H5Pset_create_intermediate_group(links.get(), 1);
+  const Properties timeless(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(timeless.get(), false);  // equal contents are equal files
   const Dataset dataset(
-      H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT));
+      H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), timeless.get(), H5P_DEFAULT));
   require(dataset.valid(), name);
   const bool empty = H5Sget_simple_extent_npoints(space.get()) == 0;
   require(empty || H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, name);

@@ -21,9 +21,11 @@ namespace {
 /// Twenty curves with maps take about 15 s on one slow core.
 constexpr std::chrono::seconds plot_limit{180};
 
-std::string make_plots(const std::filesystem::path& folder) {
-  return run_plot_script("plot_run.py", {folder.string()}, plot_limit);
+std::string make_plots(const std::filesystem::path& folder, const std::filesystem::path& plots) {
+  return run_plot_script("plot_run.py", {folder.string(), plots.string()}, plot_limit);
 }
+
+}  // namespace
 
 std::string read_summary(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "summary.json";
@@ -42,10 +44,12 @@ std::string read_summary(const std::filesystem::path& folder) {
   return read_text(file, largest);
 }
 
-std::vector<std::string> plot_names(const std::filesystem::path& folder) {
+namespace {
+
+std::vector<std::string> plot_names(const std::filesystem::path& plots) {
   std::vector<std::string> names;
   std::error_code code;  // no folder: no plots
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "plots", code)) {
+  for (const auto& entry : std::filesystem::directory_iterator(plots, code)) {
     if (entry.path().extension() == ".svg") names.push_back(entry.path().filename().string());
   }
   std::ranges::sort(names);
@@ -309,20 +313,19 @@ std::string report_text(const std::string& summary_json, const std::vector<std::
       .append(cost_text(run));
 }
 
-std::vector<std::string> write_report(const std::filesystem::path& folder) {
-  const std::string summary = read_summary(folder);
+std::vector<std::string> write_report(const std::filesystem::path& folder,
+                                      const std::filesystem::path& into,
+                                      const std::string& summary) {
   const std::string name = (folder / "summary.json").string();
   static_cast<void>(
       report_text(summary, {}, name));  // a damaged summary is told before plots are made of it
+  const std::filesystem::path plots = into / "plots";
   std::vector<std::string> warnings;
-  if (const std::string failure = make_plots(folder); !failure.empty()) warnings.push_back(failure);
-  write_whole(folder / "report.md", report_text(summary, plot_names(folder), name));
+  if (const std::string failure = make_plots(folder, plots); !failure.empty()) {
+    warnings.push_back(failure);
+  }
+  write_whole(into / "report.md", report_text(summary, plot_names(plots), name));
   return warnings;
-}
-
-void rebuild_report(const std::filesystem::path& folder) {
-  const std::vector<std::string> warnings = write_report(folder);
-  if (!warnings.empty()) throw SceneError(folder.string() + ": " + warnings.front());
 }
 
 }  // namespace microslip::pipelines

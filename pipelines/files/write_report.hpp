@@ -9,17 +9,20 @@
 
 namespace microslip::pipelines {
 
-/// Writes plots/ and report.md from summary.json, curves/ and maps/. Plots that cannot be made cost
-/// the plots, not the run: they are warnings.
-/// @return warnings; empty when everything was made.
-/// @throws SceneError      no summary.json, or a damaged one; the message names file and place.
-/// @throws ExhaustedError  report.md cannot be written.
-[[nodiscard]] std::vector<std::string> write_report(const std::filesystem::path& folder);
+/// The text of a run's summary.json.
+/// @throws SceneError  no such folder, or none of a run.
+[[nodiscard]] std::string read_summary(const std::filesystem::path& folder);
 
-/// The same where the plots are what was asked for.
-/// @throws SceneError  a file of the run is missing or damaged: the message names it, with line and column of a
-///         table; what could be drawn without it is drawn.
-void rebuild_report(const std::filesystem::path& folder);
+/// Makes plots/ and report.md from a summary and the curves/ and maps/ of a run. Plots that cannot be made cost the
+/// plots, not the run: they are warnings.
+/// @param folder  of the run. @param into  where they are written. @param summary  text of its summary.
+/// @return warnings; empty when everything was made. They name a file of the run that is missing or damaged, with
+///         line and column of a table.
+/// @throws SceneError      a damaged summary; the message names file and place.
+/// @throws ExhaustedError  report.md cannot be written.
+[[nodiscard]] std::vector<std::string> write_report(const std::filesystem::path& folder,
+                                                    const std::filesystem::path& into,
+                                                    const std::string& summary);
 
 /// The text of report.md. What runs of older versions did not write is left out of it.
 /// @param summary_json  text of summary.json. @param plots  file names in plots/.

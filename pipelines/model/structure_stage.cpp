@@ -105,6 +105,13 @@ mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::pat
   return mesh;
 }
 
+mesh::Mesh reread_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (!std::holds_alternative<BladeModel>(scene.model)) return obtain_mesh(scene, mesh_file);
+  mesh::Mesh mesh = mesh::read_gmsh(mesh_file);
+  name_points(mesh, scene);
+  return mesh;
+}
+
 std::string describe_mesh(const mesh::Mesh& mesh, double density) {
   const Eigen::Vector3d lower = mesh.lower();
   const Eigen::Vector3d upper = mesh.upper();

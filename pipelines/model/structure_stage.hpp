@@ -21,6 +21,10 @@ namespace microslip::pipelines {
 [[nodiscard]] mesh::Mesh obtain_mesh(const SceneDescription& scene,
                                      const std::filesystem::path& mesh_file);
 
+/// The same where it stands in a file: `mesh_file` if the scene's own is meshed, else the scene's.
+[[nodiscard]] mesh::Mesh reread_mesh(const SceneDescription& scene,
+                                     const std::filesystem::path& mesh_file);
+
 /// "12345 nodes, 6789 elements, volume … m³, mass … kg, bounding box …" and the names of the surfaces.
 [[nodiscard]] std::string describe_mesh(const mesh::Mesh& mesh, double density);
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/preload_of.hpp"
@@ -23,7 +24,9 @@ double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& p
 }
 
 void stop_if_interrupted(const std::string& kept) {
-  if (interrupt_requested()) throw InterruptedError("interrupted; finished " + kept + " are kept");
+  if (!interrupt_requested()) return;
+  throw InterruptedError("interrupted; finished " + kept +
+                         " are kept: the same command with --resume goes on");
 }
 
 }  // namespace
@@ -39,14 +42,20 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("points");
-    results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
+    const auto observe = [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, preload_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
       record.progress().point(
           requests[i].name, point,
           (static_cast<double>(done) + share) / static_cast<double>(requests.size()));
       return !interrupt_requested();
-    });
+    };
+    if (auto before = record.finished_curve(requests[i].name)) {
+      results[i] = std::move(*before);
+    } else {
+      results[i] = trace_curve(model, scene, requests[i], observe);
+      if (!interrupt_requested()) record.keep_finished(results[i]);  // else it may be cut short
+    }
     ++done;
     const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
     finished[i] = true;

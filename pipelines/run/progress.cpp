@@ -62,11 +62,12 @@ Progress::Progress(std::ostream& out, bool terminal, Verbosity verbosity)
 
 Progress::~Progress() { finish(); }
 
-void Progress::keep_in(const std::filesystem::path& folder) {
+void Progress::keep_in(const std::filesystem::path& folder, RunStart start) {
   const std::lock_guard lock(mutex_);
   const std::filesystem::path file = folder / "log.txt";
   try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
+    auto sink =
+        std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), start == RunStart::anew);
     log_ = std::make_shared<spdlog::logger>("microslip", std::move(sink));
   } catch (const spdlog::spdlog_ex& error) {
     throw ExhaustedError(file.string() + ": cannot be written: " + error.what());
@@ -76,14 +77,24 @@ void Progress::keep_in(const std::filesystem::path& folder) {
   for (const auto& [level, sentence] : unlogged_) log(level, sentence);
   unlogged_.clear();
   history_file_ = folder / "history.csv";
-  history_.open(history_file_, std::ios::trunc);
-  history_ << "curve,frequency_Hz,amplitude_m,stable,stick_share,slip_share,separated_share,"
-              "iterations,mark,seconds\n"
-           << std::flush;
-  if (!history_) {
-    throw ExhaustedError((folder / "history.csv").string() +
-                         ": cannot be written: " + std::system_category().message(errno));
+  open_history(start);
+}
+
+void Progress::open_history(RunStart start) {
+  std::string text;
+  std::ifstream before(history_file_);
+  for (std::string line; start == RunStart::resumed && std::getline(before, line);) {
+    if (before.eof()) break;  // a line that a kill has cut
+    text.append(line).append("\n");
+    ++history_lines_[line.substr(0, line.find(','))];
   }
+  if (text.empty()) {
+    text =
+        "curve,frequency_Hz,amplitude_m,stable,stick_share,slip_share,separated_share,"
+        "iterations,mark,seconds\n";
+  }
+  write_whole(history_file_, text);
+  history_.open(history_file_, std::ios::app);
 }
 
 void Progress::stage(const std::string& name) {
@@ -123,7 +134,7 @@ void Progress::point(const std::string& curve, const solver::ResponsePoint& poin
 void Progress::settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points) {
   const std::lock_guard lock(mutex_);
   if (!history_.is_open() || history_lines_[curve] <= points.size()) return;
-  std::set<std::string> held;
+  std::multiset<std::string> held;
   for (const solver::ResponsePoint& point : points) held.insert(line_begin(curve, point));
   history_.close();
   std::ifstream all(history_file_);
@@ -131,7 +142,11 @@ void Progress::settle(const std::string& curve, const std::vector<solver::Respon
   std::string kept;
   for (std::string line; std::getline(all, line);) {
     const std::size_t end = line.find(',', line.find(',', curve.size() + 1) + 1);
-    if (line.starts_with(curve + ',') && !held.contains(line.substr(0, end))) continue;
+    if (line.starts_with(curve + ',')) {
+      const auto found = held.find(line.substr(0, end));
+      if (found == held.end()) continue;
+      held.erase(found);  // once
+    }
     kept.append(line).append("\n");
   }
   history_lines_[curve] = points.size();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/run/run_folder.hpp"
 #include "pipelines/system/machine.hpp"
 
 namespace spdlog {
@@ -38,9 +39,10 @@ class Progress {
   Progress& operator=(Progress&&) = delete;
   ~Progress();
 
-  /// Starts log.txt and history.csv in a run folder; what was said before is in the log as well.
+  /// Starts log.txt and history.csv in a run folder, or goes on with them; what was said before is in the log as
+  /// well.
   /// @throws ExhaustedError  a file cannot be created.
-  void keep_in(const std::filesystem::path& folder);
+  void keep_in(const std::filesystem::path& folder, RunStart start = RunStart::anew);
 
   /// Ends the stage before and begins this one.
   void stage(const std::string& name);
@@ -48,7 +50,7 @@ class Progress {
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
   /// A curve is finished: lines of history.csv that it does not hold (of a sweep that was given up for
-  /// one from the other end) are taken out, the file written anew.
+  /// one from the other end, or cut short and made again) are taken out, the file written anew.
   /// @throws ExhaustedError  it cannot be.
   void settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points);
   void info(const std::string& sentence);
@@ -72,6 +74,7 @@ class Progress {
   void draw_live(const std::string& line);
   void clear_live();
   void end_stage();
+  void open_history(RunStart start);
   void append_history(const std::string& curve, const solver::ResponsePoint& point);
   [[nodiscard]] StageRecord running_stage() const;
 

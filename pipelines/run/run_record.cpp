@@ -19,6 +19,7 @@
 #include "pipelines/files/model_file.hpp"
 #include "pipelines/files/write_csv.hpp"
 #include "pipelines/files/write_map.hpp"
+#include "pipelines/files/write_report.hpp"
 #include "pipelines/files/write_summary.hpp"
 #include "pipelines/files/write_vtk.hpp"
 #include "pipelines/model/contact_effects.hpp"
@@ -40,10 +41,17 @@ using namespace std::chrono_literals;
 constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
 constexpr double to_hz = 0.5 / std::numbers::pi;
 
+/// Where the summary of an earlier run is kept until this one has begun.
+std::filesystem::path earlier_summary(const std::filesystem::path& folder) {
+  return folder / "checkpoint" / "summary.json";
+}
+
 }  // namespace
 
 RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
     : folder_(options.output),
+      start_(is_begun(folder_) ? options.start : RunStart::anew),
+      checkpoint_(folder_, start_ == RunStart::resumed),
       rank_(options.rank),
       writes_(options.rank == 0),
       progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
@@ -51,56 +59,94 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.version = MICROSLIP_VERSION;
   summary_.scene = scene.file.filename().string();
   summary_.title = scene.title;
+  summary_.exit_code = ExitCode::incomplete;
+  summary_.message = "the run has not come to its end: it goes on, or was killed; --resume goes on";
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
   summary_.effects = effects_of(scene, nullptr);
   if (!writes_) return;
-  make_folder(folder_);
-  require_writable(folder_);
-  require_own(folder_);
-  lock_ = lock_folder(folder_);
+  place_.emplace(folder_, start_);
+  staged_ = place_->staged();
   scene_toml_ = scene.complete_toml;
-  // An earlier run's results stay until this scene has proved itself.
-  if (!std::filesystem::exists(folder_ / "summary.json")) begin();
+  // An earlier run's scene, log and checkpoint stay until this scene has proved itself.
+  if (start_ == RunStart::resumed || !std::filesystem::exists(folder_ / "summary.json")) {
+    begin();
+  } else {
+    put_summary_aside();
+  }
+  write_summary(folder_ / "summary.json", summary_);
 }
 
 void RunRecord::begin() {
   if (begun_ || !writes_) return;
   begun_ = true;
-  clear_results(folder_);
-  progress_.keep_in(folder_);
+  checkpoint_.begin(scene_toml_);
+  progress_.keep_in(folder_, start_);
   write_whole(folder_ / "scene.toml", scene_toml_);
+  std::filesystem::remove(earlier_summary(folder_));
+}
+
+void RunRecord::put_summary_aside() {
+  const std::filesystem::path aside = earlier_summary(folder_);
+  if (std::filesystem::exists(aside)) return;
+  std::error_code no_links;
+  std::filesystem::create_hard_link(folder_ / "summary.json", aside, no_links);
+  if (no_links) std::filesystem::rename(folder_ / "summary.json", aside);
+}
+
+void RunRecord::restore_summary() {
+  std::filesystem::rename(earlier_summary(folder_), folder_ / "summary.json");
 }
 
 std::filesystem::path RunRecord::mesh_file() const {
-  if (writes_) return folder_ / "mesh.msh";
+  if (writes_) return staged_ / "mesh.msh";
   return std::filesystem::temp_directory_path() /
          fmt::format("microslip_rank{}_{}.msh", rank_, ::getpid());
 }
 
+std::optional<std::filesystem::path> RunRecord::finished_mesh() const {
+  const std::filesystem::path file = folder_ / "mesh.msh";
+  if (!checkpoint_.find<std::uint64_t>("mesh") || !std::filesystem::exists(file)) return {};
+  return file;
+}
+
+std::optional<StructureModes> RunRecord::finished_modes() const {
+  return checkpoint_.find<StructureModes>("modes");
+}
+
+std::optional<CurveResult> RunRecord::finished_curve(const std::string& name) const {
+  return checkpoint_.find<CurveResult>("curves/" + name);
+}
+
+void RunRecord::keep_finished(const CurveResult& result) const {
+  if (writes_) checkpoint_.keep("curves/" + result.name, result);
+}
+
 RunRecord::~RunRecord() {
-  if (!writes_) {
-    std::error_code ignored;  // a file of our own in the temporary folder
-    std::filesystem::remove(mesh_file(), ignored);
-  }
-  if (lock_ < 0) return;
-  ::unlink((folder_ / ".lock").c_str());
-  ::close(lock_);
+  if (writes_) return;
+  std::error_code ignored;  // a file of our own in the temporary folder
+  std::filesystem::remove(mesh_file(), ignored);
 }
 
 int RunRecord::run(const std::function<void()>& stages) {
+  const PromptEnd promise;
   std::jthread watch([this](const std::stop_token& stop) {
     while (!interrupt_requested()) {
       if (stop.stop_requested()) return;
       std::this_thread::sleep_for(20ms);
     }
-    for (auto waited = 0ms; waited < patience; waited += 20ms) {
+    for (auto waited = 0ms; waited < patience && !interrupt_insisted(); waited += 20ms) {
       if (stop.stop_requested()) return;
       std::this_thread::sleep_for(20ms);
     }
-    keep_unfinished();
-    fail(ExitCode::incomplete,
-         "interrupted");  // a library or a long evaluation is in the way: end here
+    // A library or a long evaluation is in the way: end here.
+    try {
+      keep_unfinished();
+    } catch (const std::exception& error) {
+      progress_.error(error.what());
+    }
+    fail(ExitCode::incomplete, "interrupted: the same command with --resume goes on");
+    if (place_) place_->unlock();
     std::_Exit(static_cast<int>(ExitCode::incomplete));
   });
   try {
@@ -113,18 +159,47 @@ int RunRecord::run(const std::function<void()>& stages) {
   }
   watch.request_stop();
   watch.join();
+  return finish();
+}
+
+int RunRecord::finish() {
+  show_stage();
   progress_.finish();
-  keep_summary();
-  return static_cast<int>(verdict());
+  const std::lock_guard lock(mutex_);
+  summary_.exit_code = verdict();
+  summary_.message.clear();
+  if (place_) place_->remove_earlier();
+  write_summary_file();
+  if (writes_) checkpoint_.end();
+  return static_cast<int>(summary_.exit_code);
 }
 
 void RunRecord::stage(const std::string& name) {
-  if (interrupt_requested()) throw InterruptedError("interrupted before the stage " + name);
+  show_stage();
+  if (interrupt_requested())
+    throw InterruptedError("interrupted before the stage " + name +
+                           ": the same command with --resume goes on");
   progress_.stage(name);
+}
+
+void RunRecord::show_stage() {
+  if (!place_ || !begun_) return;
+  const std::lock_guard lock(mutex_);
+  place_->publish();
+  place_->remove_superseded();
+  shown_ = summary_.curves;
+}
+
+void RunRecord::show_what_is_new() {
+  if (!place_ || !begun_ || place_->would_replace()) return;
+  place_->publish();
+  shown_ = summary_.curves;
 }
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   begin();
+  show_stage();  // before the checkpoint says that the mesh is in its place
+  if (writes_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
   progress_.info(describe_mesh(mesh, density));
   for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
@@ -142,9 +217,10 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   summary_.modes =
       summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {}, n_attachment);
   if (!writes_) return;
-  write_modes_csv(folder_ / "modes.csv",
+  if (!checkpoint_.find<StructureModes>("modes")) checkpoint_.keep("modes", modes);
+  write_modes_csv(staged_ / "modes.csv",
                   {modes.basis.frequency, modes.basis.residual, damping_ratio, {}, n_attachment});
-  write_modes_vtu(folder_ / "modes.vtu", mesh, modes.basis);
+  write_modes_vtu(staged_ / "modes.vtu", mesh, modes.basis);
 }
 
 void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
@@ -171,9 +247,10 @@ void RunRecord::keep_model(const ReducedModel& model) {
   summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, fit_error,
                                    model.n_attachment);
   if (!writes_) return;
-  write_modes_csv(folder_ / "modes.csv",
+  write_modes_csv(staged_ / "modes.csv",
                   {model.frequency, residual, model.damping_ratio, fit_error, model.n_attachment});
-  write_model(folder_ / "model.h5", model);
+  write_model(staged_ / "model.h5", model);
+  checkpoint_.require_same("model", fingerprint_of(staged_ / "model.h5"), "the contact model");
 }
 
 void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
@@ -233,7 +310,9 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   const std::lock_guard lock(mutex_);
   unfinished_.erase(result.name);
   summary_.curves.push_back(std::move(summary));
-  write_curve(folder_, result, model.frequency.size());
+  if (!writes_) return;
+  write_curve(staged_, result, model.frequency.size());
+  show_what_is_new();
 }
 
 void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
@@ -255,20 +334,20 @@ void RunRecord::keep_unfinished() {
     progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
                                curve.points.size(), curve.message));
     summary_.curves.push_back(summarise(result));
-    write_curve(folder_, result, curve.points.back().q.rows().cols());
+    if (writes_) write_curve(staged_, result, curve.points.back().q.rows().cols());
   }
   unfinished_.clear();
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
   const std::lock_guard lock(mutex_);
-  write_map(folder_ / "maps", model.patches.at(map.patch), map);
+  if (writes_) write_map(staged_ / "maps", model.patches.at(map.patch), map);
   summary_.curves.at(curve).maps.push_back(map.name);
 }
 
 void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
-  if (!structure_) return;  // a modal scene has no body to draw
-  write_motion(folder_ / "motion", name, structure_->mesh, structure_->basis, point.q,
+  if (!structure_ || !writes_) return;  // a modal scene has no body to draw
+  write_motion(staged_ / "motion", name, structure_->mesh, structure_->basis, point.q,
                to_hz * point.frequency);
 }
 
@@ -290,7 +369,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   summary.request = request;
   summary.optimum = optimum;
   if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
-  write_optimum_csv(folder_, request, optimum);
+  if (writes_) write_optimum_csv(staged_, request, optimum);
 }
 
 void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result,
@@ -301,7 +380,7 @@ void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result
   for (CurveSummary& curve : summary_.curves) {
     if (curve.name == result.name) curve.not_in_bar = budget.unknown;
   }
-  if (writes_ && result.bar) write_curve(folder_, result, model.frequency.size());
+  if (writes_ && result.bar) write_curve(staged_, result, model.frequency.size());
 }
 
 void RunRecord::keep_bracket(OptimumBracket bracket) {
@@ -320,10 +399,19 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
   summary_.optimum->bracket = std::move(bracket);
 }
 
-void RunRecord::keep_summary() {
-  const std::lock_guard lock(mutex_);
-  summary_.exit_code = verdict();
-  write_summary_file();
+void RunRecord::keep_report() {
+  if (!writes_) return;
+  RunSummary ended;
+  {
+    const std::lock_guard lock(mutex_);
+    write_summary_file();  // the plots are drawn of it
+    ended = summary_;
+    ended.exit_code = verdict();
+    ended.message.clear();
+  }
+  for (const std::string& warning : write_report(folder_, staged_, summary_json(ended))) {
+    progress_.warning(warning);
+  }
 }
 
 void RunRecord::write_summary_file() {
@@ -335,14 +423,33 @@ void RunRecord::write_summary_file() {
 void RunRecord::fail(ExitCode code, const std::string& message) {
   progress_.error(message);
   progress_.finish();
+  if (!writes_) return;
   const std::lock_guard lock(mutex_);
-  summary_.exit_code = code;
-  summary_.message = message;
   try {
-    write_summary_file();
-  } catch (const ExhaustedError& error) {
+    if (begun_) {
+      tell_failure(code, message);
+    } else {
+      restore_summary();
+    }
+  } catch (const std::exception& error) {
     progress_.error(error.what());  // the first error is the one to report
   }
+}
+
+void RunRecord::tell_failure(ExitCode code, const std::string& message) {
+  summary_.exit_code = code;
+  summary_.message = message;
+  show_what_is_new();
+  if (place_->would_replace()) {
+    summary_.curves = shown_;
+    summary_.message +=
+        "; what the stage had finished is kept for --resume, the results of the run before stay";
+  }
+  write_summary_file();
+  if (summary_.curves.empty()) return;
+  const std::vector<std::string> no_plots;  // they take seconds
+  write_whole(staged_ / "report.md", report_text(summary_json(summary_), no_plots));
+  show_what_is_new();
 }
 
 ExitCode RunRecord::verdict() const {

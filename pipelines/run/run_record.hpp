@@ -1,6 +1,7 @@
 /// @file
 /// What a run leaves behind, kept as it goes: every finished part is on disk before the next begins, so
-/// that an error, an interrupt or a full disk costs only the part it hit.
+/// that an error, an interrupt, a full disk or a kill costs only the part it hit. Until the run has come to its end
+/// summary.json says that it has not.
 #pragma once
 
 #include <atomic>
@@ -13,11 +14,13 @@
 #include <variant>
 
 #include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/files/checkpoint.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
 #include "pipelines/run/progress.hpp"
+#include "pipelines/run/run_folder.hpp"
 #include "pipelines/run/run_options.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -25,10 +28,10 @@ namespace microslip::pipelines {
 
 class RunRecord {
  public:
-  /// Creates the run folder, its lock and log, and writes scene.toml. Results of an earlier run in the
-  /// folder stay until mesh or model of this one are there: bad input does not cost them. On MPI ranks
-  /// above 0 nothing is written by any member.
-  /// @throws ExhaustedError  the folder cannot be written, or another run holds it.
+  /// Creates the run folder, its lock and log, and writes scene.toml. In the folder of an earlier run that
+  /// waits until mesh or model of this one are there: bad input costs nothing. Its results stay until those
+  /// of this one's stages take their places. On MPI ranks above 0 nothing is written by any member.
+  /// @throws SceneError, ExhaustedError  as RunFolder.
   RunRecord(const SceneDescription& scene, const RunOptions& options);
   ~RunRecord();
   RunRecord(const RunRecord&) = delete;
@@ -36,9 +39,15 @@ class RunRecord {
   RunRecord(RunRecord&&) = delete;
   RunRecord& operator=(RunRecord&&) = delete;
 
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// Where the mesher writes: mesh.msh of the run folder; MPI ranks above 0 mesh for themselves.
+  /// Where the mesher writes, a mesh.msh of the run; MPI ranks above 0 mesh for themselves.
   [[nodiscard]] std::filesystem::path mesh_file() const;
+  /// The mesh.msh that a run which is resumed has left; empty: none.
+  [[nodiscard]] std::optional<std::filesystem::path> finished_mesh() const;
+  /// What a run that is resumed has finished; empty: to be solved.
+  [[nodiscard]] std::optional<StructureModes> finished_modes() const;
+  [[nodiscard]] std::optional<CurveResult> finished_curve(const std::string& name) const;
+  /// A curve that nothing has cut short: it need not be solved again.
+  void keep_finished(const CurveResult& result) const;
   [[nodiscard]] Progress& progress() { return progress_; }
 
   /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
@@ -46,6 +55,7 @@ class RunRecord {
   /// @return exit code: complete, or incomplete when a curve is.
   int run(const std::function<void()>& stages);
 
+  /// Ends the stage before, whose files take their places, and begins this one.
   void stage(const std::string& name);
   void keep_mesh(const mesh::Mesh& mesh, double density);
   /// modes.csv and modes.vtu, residuals and counts to the log.
@@ -73,7 +83,8 @@ class RunRecord {
   void keep_bracket(OptimumBracket bracket);
   /// The bar joins the curve's CSV. @param result  kept before; its bar is set.
   void keep_budget(const CurveBudget& budget, const CurveResult& result, const ReducedModel& model);
-  void keep_summary();
+  /// report.md and plots, of what is there.
+  void keep_report();
 
  private:
   struct Structure {
@@ -84,13 +95,26 @@ class RunRecord {
   void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
   void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();
+  /// The files of the stage take their places; those of an earlier run that they succeed are removed.
+  void show_stage();
+  /// The same within a stage, as far as nothing of an earlier run stands there.
+  void show_what_is_new();
+  int finish();
   void fail(ExitCode code, const std::string& message);
+  void tell_failure(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;
 
   /// Takes the folder over from an earlier run.
   void begin();
+  /// Until then its summary.json is kept aside, and put back if this one comes to nothing.
+  void put_summary_aside();
+  void restore_summary();
 
   std::filesystem::path folder_;
+  std::optional<RunFolder> place_;  ///< on MPI rank 0
+  std::filesystem::path staged_;    ///< where files are written
+  RunStart start_;
+  Checkpoint checkpoint_;
   std::string scene_toml_;
   bool begun_ = false;
   int rank_;
@@ -98,9 +122,10 @@ class RunRecord {
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
   RunSummary summary_;
+  std::vector<CurveSummary>
+      shown_;  ///< those of summary_ whose files are in their places, under mutex_
   std::map<std::string, CurveResult> unfinished_;  ///< under mutex_
   std::optional<Structure> structure_;
-  int lock_ = -1;
 };
 
 }  // namespace microslip::pipelines

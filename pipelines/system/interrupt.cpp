@@ -9,22 +9,32 @@ namespace microslip::pipelines {
 namespace {
 
 volatile std::sig_atomic_t requested = 0;
+volatile std::sig_atomic_t insisted = 0;
+volatile std::sig_atomic_t end_is_promised = 0;
 
 extern "C" void note_signal(int /*signal*/) {
-  if (requested != 0) std::_Exit(static_cast<int>(ExitCode::incomplete));
+  if (requested != 0 && end_is_promised == 0) std::_Exit(static_cast<int>(ExitCode::incomplete));
+  if (requested != 0) insisted = 1;
   requested = 1;
 }
 
-}  // namespace
-
-void watch_for_interrupts() {
+void answer_by(void (*handler)(int)) {
   struct sigaction action = {};
-  action.sa_handler = note_signal;
+  action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
+}  // namespace
+
+InterruptWatch::InterruptWatch() { answer_by(note_signal); }
+InterruptWatch::~InterruptWatch() { answer_by(SIG_DFL); }
+
+PromptEnd::PromptEnd() { end_is_promised = 1; }
+PromptEnd::~PromptEnd() { end_is_promised = 0; }
+
 bool interrupt_requested() { return requested != 0; }
+bool interrupt_insisted() { return insisted != 0; }
 
 }  // namespace microslip::pipelines

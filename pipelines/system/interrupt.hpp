@@ -1,12 +1,34 @@
 /// @file
-/// Ctrl-C and SIGTERM as a flag the stages look at. A second signal ends the process at once.
+/// Ctrl-C and SIGTERM as a flag the stages look at.
 #pragma once
 
 namespace microslip::pipelines {
 
-/// Installs the handlers. Call once, from main.
-void watch_for_interrupts();
+/// While it lives the signals set the flag; a second one ends the process at once. Afterwards they have their default
+/// action again: what follows the work, such as the end of a library, can be ended.
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+  InterruptWatch(InterruptWatch&&) = delete;
+  InterruptWatch& operator=(InterruptWatch&&) = delete;
+};
+
+/// While it lives no signal ends the process: its owner promises to, within a second, and writes down what there is.
+class PromptEnd {
+ public:
+  PromptEnd();
+  ~PromptEnd();
+  PromptEnd(const PromptEnd&) = delete;
+  PromptEnd& operator=(const PromptEnd&) = delete;
+  PromptEnd(PromptEnd&&) = delete;
+  PromptEnd& operator=(PromptEnd&&) = delete;
+};
 
 [[nodiscard]] bool interrupt_requested();
+/// A second signal came: nothing is waited for any more.
+[[nodiscard]] bool interrupt_insisted();
 
 }  // namespace microslip::pipelines

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Plots of a run folder: curve family, peak against preload, contact maps; SVG and PNG.
 
-    plot_run.py RUN_FOLDER
+    plot_run.py RUN_FOLDER [FOLDER]
 
-Reads summary.json, curves/, peak_against_preload.csv and maps/*.h5; writes plots/. The same folder
+Reads summary.json, curves/, peak_against_preload.csv and maps/*.h5; writes into FOLDER, RUN_FOLDER/plots by default. The same folder
 gives the same SVG files byte for byte. Needs no display.
 """
 
@@ -15,4 +15,4 @@ from microslip.plots.command import given, run_command
 from microslip.plots.run_plots import plot_run
 
 if __name__ == "__main__":
-    sys.exit(run_command(plot_run, *given(__doc__, 1, 1)))
+    sys.exit(run_command(plot_run, *given(__doc__, 1, 2)))

@@ -146,7 +146,6 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
 
 TEST_F(Program, RefusesOptionsOfLaterVersionsByName) {
   write(path("scene.toml"), scene_text);
-  expect("run scene.toml --resume", 1, {"--resume", "not available in this version"});
   expect("--tolerance 1% run scene.toml", 1, {"--tolerance", "not available in this version"});
   expect("run --budget 60s scene.toml", 1, {"--budget", "not available in this version"});
   expect("converge scene.toml", 1, {"converge", "not available in this version"});
@@ -158,6 +157,7 @@ TEST_F(Program, RefusesOptionsThatSayNothingToACommand) {
   expect("cycle t.csv --set modes.count=3", 1, {"--set", "cycle reads no scene"});
   expect("init modal --set modes.count=3", 1, {"--set"});
   expect("init modal --dry-run", 1, {"--dry-run"});
+  expect("cycle t.csv --resume", 1, {"--resume", "run and modes"});
 }
 
 TEST_F(Program, ReadsACycleTableFromAPipe) {
@@ -418,15 +418,41 @@ TEST_F(Program, RemovesNothingThatNoRunHasWritten) {
   EXPECT_FALSE(exists("results/scene.toml"));
 }
 
-TEST_F(Program, ARunReplacesAnEarlierOneWhole) {
+TEST_F(Program, ARunReplacesAnEarlierOneWholeAndNothingElse) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml -q -o out --set response.preload_scale=[3,4]", 0, {});
+  write(path("out/curves/mine.csv"), "mine");
+  expect("run scene.toml -q -o out", 0, {});
+  EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+  EXPECT_FALSE(exists("out/curves/scale_3.csv"));
+  EXPECT_EQ(content_of(path("out/curves/mine.csv")), "mine");
+  EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
+}
+
+/// A run that is refused after the folder was looked at leaves the one before as it was.
+TEST_F(Program, ABadRunCostsNothingOfTheOneBefore) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -q -o out", 0, {});
-  for (const char* stale : {"out/curves/old.csv", "out/peak_against_parameter.csv"})
-    write(path(stale), "old");
+  const std::string before = content_of(path("out/summary.json"));
+  write(path("mesh.toml"),
+        "[model]\nkind = \"mesh\"\nfile = \"none.msh\"\n[material]\nyoungs_modulus = 2e11\n"
+        "poissons_ratio = 0.3\ndensity = 7800\n");
+  write(path("none.msh"), "no mesh");
+  expect("modes mesh.toml -q -o out", 1, {"none.msh"});
+  EXPECT_EQ(content_of(path("out/summary.json")), before);
+  EXPECT_TRUE(exists("out/curves/scale_1.csv"));
+}
+
+TEST_F(Program, ResumesOnlyWhatWasBegun) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml --resume -o out", 1, {"--resume", "out holds no run"});
+  EXPECT_FALSE(exists("out"));
   expect("run scene.toml -q -o out", 0, {});
-  EXPECT_FALSE(exists("out/curves/old.csv"));
-  EXPECT_FALSE(exists("out/peak_against_parameter.csv"));
-  EXPECT_TRUE(exists("out/summary.json"));
+  const std::string before = content_of(path("out/summary.json"));
+  expect("run scene.toml --resume -o out", 0, {"nothing to resume"});
+  EXPECT_EQ(content_of(path("out/summary.json")), before);
+  expect("run scene.toml --resume -o out --set modal.damping_ratio=0.02", 1,
+         {"--resume: modal.damping_ratio is", "0.02", "0.01", "out/scene.toml"});
 }
 
 TEST_F(Program, RefusesARigidBodyModeThatNothingHolds) {
@@ -491,6 +517,9 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   const auto n_cut = std::ranges::count_if(
       summary["curves"], [](const Json& curve) { return !curve["complete"].get<bool>(); });
   EXPECT_LE(n_cut, std::thread::hardware_concurrency()) << "a curve was begun after the interrupt";
+  EXPECT_NE(summary["message"].get<std::string>().find("--resume goes on"), std::string::npos);
+  EXPECT_NE(content_of(path("out/report.md")).find("--resume goes on"), std::string::npos);
+  EXPECT_FALSE(exists("out/.lock"));
 }
 
 TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {

@@ -63,10 +63,17 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
   write_summary(folder / "summary.json", run);
 }
 
+using Warnings = std::vector<std::string>;
+
+/// As `report` does.
+Warnings rebuild(const std::filesystem::path& folder) {
+  return write_report(folder, folder, read_summary(folder));
+}
+
 TEST(WriteReport, PlotsAreMadeInBothFormatsWithoutADisplay) {
   const synthetic::Folder folder("report_plots");
   write_run(folder.path(), Maps::one);
-  EXPECT_EQ(write_report(folder.path()), std::vector<std::string>{});
+  EXPECT_EQ(rebuild(folder.path()), Warnings{});
   for (const char* stem : {"curves", "peak_against_preload", "map_preload_100_peak"}) {
     const auto file = folder.path() / "plots" / stem;
     EXPECT_EQ(content_of(file.string() + ".png").substr(1, 3), "PNG") << stem;
@@ -77,9 +84,9 @@ TEST(WriteReport, PlotsAreMadeInBothFormatsWithoutADisplay) {
 TEST(WriteReport, SamePlotsByteForByteTheSecondTime) {
   const synthetic::Folder folder("report_twice");
   write_run(folder.path());
-  rebuild_report(folder.path());
+  EXPECT_EQ(rebuild(folder.path()), Warnings{});
   const std::string first = content_of(folder.path() / "plots" / "curves.svg");
-  rebuild_report(folder.path());
+  EXPECT_EQ(rebuild(folder.path()), Warnings{});
   EXPECT_EQ(content_of(folder.path() / "plots" / "curves.svg"), first);
 }
 
@@ -104,27 +111,27 @@ TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {
   const synthetic::Folder folder("report_damaged");
   write_run(folder.path());
   write_whole(folder.path() / "curves" / "free.csv", "frequency_Hz,amplitude_m\nx,y\n");
-  const auto warnings = write_report(folder.path());
+  const auto warnings = rebuild(folder.path());
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("curves/free.csv:1: column \"stable\" is missing"), std::string::npos)
       << warnings[0];
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.md"));
-  EXPECT_THROW(rebuild_report(folder.path()), std::runtime_error);
 }
 
 TEST(WriteReport, FolderWithoutARunIsNamed) {
   const synthetic::Folder folder("report_none");
-  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+  EXPECT_THROW(static_cast<void>(rebuild(folder.path())), SceneError);
   write_whole(folder.path() / "summary.json", "{");
-  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+  EXPECT_THROW(static_cast<void>(rebuild(folder.path())), SceneError);
   write_whole(folder.path() / "summary.json", "{\"program\": 1}");
-  EXPECT_THROW(rebuild_report(folder.path()), SceneError);
+  EXPECT_THROW(static_cast<void>(rebuild(folder.path())), SceneError);
 }
 
 /// What `report` says of a damaged run folder; nothing where it finds no fault.
 std::string complaint_of(const std::filesystem::path& folder) {
   try {
-    rebuild_report(folder);
+    const Warnings warnings = rebuild(folder);
+    if (!warnings.empty()) return warnings.front();
   } catch (const SceneError& error) {
     return error.what();
   }

@@ -22,17 +22,19 @@ def missing_files(run):
     return [path for path in names if not os.path.exists(path)]
 
 
-def plots_folder(run):
-    folder = os.path.join(run.folder, "plots")
+def plots_folder(run, folder=None):
+    folder = folder or os.path.join(run.folder, "plots")
     os.makedirs(folder, exist_ok=True)
     return folder
 
 
-def plot_run(run_folder):
-    """Curves, peaks and maps into RUN_FOLDER/plots. Whether all was there and is drawn; if not, stderr says what."""
+def plot_run(run_folder, folder=None):
+    """Curves, peaks and maps into a folder, RUN_FOLDER/plots by default. Whether all was there and is drawn; if not,
+    stderr says what."""
     run = Run(run_folder)
-    folder = plots_folder(run)
-    figures = [lambda plot=plot: plot(run, folder) for plot in (plot_peaks, plot_parameter, plot_curves, plot_error_budget)]
+    folder = plots_folder(run, folder)
+    figures = [lambda plot=plot: plot(run, folder)
+               for plot in (plot_peaks, plot_parameter, plot_curves, plot_error_budget)]
     drawn = run_shared(figures + map_tasks(run, folder))
     missing = missing_files(run)
     if missing:  # what is there is drawn: maps are large, and may have been removed

@@ -1,0 +1,266 @@
+#include "pipelines/files/checkpoint.hpp"
+
+#include <concepts>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <system_error>
+#include <tuple>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "pipelines/files/byte_archive.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/json_entry.hpp"
+
+namespace fs = std::filesystem;
+
+// Structured bindings name every member: one that is added and not kept does not compile.
+namespace microslip {
+namespace {
+
+template <typename T, typename U>
+concept Is = std::same_as<std::remove_const_t<T>, U>;
+
+}  // namespace
+
+namespace contact {
+auto members(Is<Harmonics> auto& value) { return std::tie(value.rows()); }
+auto members(Is<CycleReport> auto& value) {
+  auto& [stick, slip, separated, three_states, work, awake] = value;
+  return std::tie(stick, slip, separated, three_states, work, awake);
+}
+}  // namespace contact
+
+namespace fem {
+auto members(Is<ModalBasis> auto& value) {
+  auto& [frequency, shapes, residual, n_rigid_body, inertia_count, n_attachment] = value;
+  return std::tie(frequency, shapes, residual, n_rigid_body, inertia_count, n_attachment);
+}
+auto members(Is<RicherBasis> auto& value) {
+  auto& [basis, embedding] = value;
+  return std::tie(basis, embedding);
+}
+auto members(Is<ResidualFlexibility> auto& value) {
+  auto& [row_sums] = value;
+  return std::tie(row_sums);
+}
+auto members(Is<ModalTimings> auto& value) {
+  auto& [assembly, factorisation, ordering, eigensolve, inertia] = value;
+  return std::tie(assembly, factorisation, ordering, eigensolve, inertia);
+}
+}  // namespace fem
+
+namespace solver {
+auto members(Is<ResponsePoint> auto& value) {
+  auto& [frequency, q, orders, left_out, amplitude, first, mean, phase, residual, imbalance,
+         mismatch, report, stability, basis, sign, mark, iterations, evaluations, seconds] = value;
+  return std::tie(frequency, q, orders, left_out, amplitude, first, mean, phase, residual,
+                  imbalance, mismatch, report, stability, basis, sign, mark, iterations,
+                  evaluations, seconds);
+}
+auto members(Is<SolverEvent> auto& value) {
+  auto& [frequency, remedy] = value;
+  return std::tie(frequency, remedy);
+}
+auto members(Is<DetachedBranch> auto& value) {
+  auto& [points, closed] = value;
+  return std::tie(points, closed);
+}
+auto members(Is<ResponseCurve> auto& value) {
+  auto& [points, complete, diagnosis, message, certificate, log, detached, n_starts, iterations,
+         evaluations, readings, cuts, seconds] = value;
+  return std::tie(points, complete, diagnosis, message, certificate, log, detached, n_starts,
+                  iterations, evaluations, readings, cuts, seconds);
+}
+auto members(Is<RicherPeak> auto& value) {
+  auto& [frequency, amplitude, change, highest, seconds] = value;
+  return std::tie(frequency, amplitude, change, highest, seconds);
+}
+}  // namespace solver
+
+namespace pipelines {
+auto members(Is<PatchShares> auto& value) {
+  auto& [patch, reports] = value;
+  return std::tie(patch, reports);
+}
+auto members(Is<StructureModes> auto& value) {
+  auto& [n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings, richer] = value;
+  return std::tie(n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings,
+                  richer);
+}
+auto members(Is<CurveResult> auto& value) {
+  auto& [name, preload, curve, maps, patch_shares, gap, integrated, richer, bar] = value;
+  static_cast<void>(maps);  // drawn in a stage of their own, after the curves
+  static_cast<void>(bar);   // told in a stage of its own as well
+  return std::tie(name, preload, curve, patch_shares, gap, integrated, richer);
+}
+
+namespace {
+
+/// First line of a part: another version, or another layout of what it holds, is refused by it.
+std::string header() {
+  return fmt::format("microslip {} checkpoint {}.{}.{}\n", MICROSLIP_VERSION,
+                     sizeof(solver::ResponseCurve), sizeof(CurveResult), sizeof(StructureModes));
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The values of a completed scene by their path; repeated sections are numbered.
+std::map<std::string, std::string> values_of(const std::string& scene_toml) {
+  std::map<std::string, std::string> values;
+  std::map<std::string, int> repeated;
+  std::string section;
+  std::istringstream lines(scene_toml);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[[")) {
+      section = line.substr(2, line.find(']') - 2);
+      section += fmt::format("[{}].", ++repeated[section]);
+    } else if (line.starts_with("[")) {
+      section = line.substr(1, line.find(']') - 1) + ".";
+    } else if (const auto equals = line.find(" = "); equals != std::string::npos) {
+      values[section + line.substr(0, equals)] = line.substr(equals + 3);
+    }
+  }
+  return values;
+}
+
+void require_same_scene(const fs::path& file, const std::string& before, const std::string& now) {
+  if (before == now) return;
+  const auto there = values_of(before);
+  auto here = values_of(now);
+  here.insert(there.begin(), there.end());  // the keys of both
+  const auto given = values_of(now);
+  const auto shown = [](const auto& values, const std::string& key) {
+    const auto found = values.find(key);
+    return found == values.end() ? std::string("not given") : found->second;
+  };
+  for (const auto& [key, ignored] : here) {
+    if (shown(there, key) == shown(given, key)) continue;
+    throw SceneError(fmt::format(
+        "--resume: {} is {}, but {} in {}, the scene the run began with; run without --resume, or "
+        "choose another -o",
+        key, shown(given, key), shown(there, key), file.string()));
+  }
+  throw SceneError(fmt::format("--resume: {} is not the scene that is given", file.string()));
+}
+
+}  // namespace
+
+std::uint64_t fingerprint_of(const mesh::Mesh& mesh) {
+  ByteWriter bytes;
+  bytes(mesh.nodes());
+  for (const mesh::ElementBlock& block : mesh.elements()) bytes(block.connectivity);
+  for (const auto& names : {mesh.surface_names(), mesh.node_set_names()}) {
+    for (const std::string& name : names) {
+      bytes(name);
+      bytes(mesh.node_set(name));
+    }
+  }
+  return fingerprint(bytes.bytes());
+}
+
+std::uint64_t fingerprint_of(const fs::path& file) { return fingerprint(bytes_of(file)); }
+
+bool is_begun(const fs::path& folder) { return fs::exists(folder / "checkpoint" / "scene.toml"); }
+
+Checkpoint::Checkpoint(const fs::path& run, bool resumed)
+    : folder_(run / "checkpoint"), resumed_(resumed) {}
+
+void Checkpoint::begin(const std::string& scene_toml) {
+  if (resumed_) return;
+  end();
+  make_folder(folder_ / "curves");
+  write_whole(folder_ / "scene.toml", scene_toml);
+}
+
+void Checkpoint::end() {
+  std::error_code ignored;  // a leftover is found by the next run, which forgets it
+  for (const char* part : {"scene.toml", "curves", "mesh", "modes", "model"}) {
+    fs::remove_all(folder_ / part, ignored);
+  }
+}
+
+template <typename Part>
+std::optional<Part> Checkpoint::find(const std::string& name) const {
+  const fs::path file = folder_ / name;
+  if (!resumed_ || !fs::exists(file)) return std::nullopt;
+  const std::string bytes = bytes_of(file);
+  const std::string expected = header();
+  const auto refuse = [&](const std::string& why) {
+    return SceneError(fmt::format("{}: {}; run without --resume", file.string(), why));
+  };
+  if (!bytes.starts_with(expected)) {
+    throw refuse(fmt::format("expected \"{}\", found \"{}\": another version or build has begun it",
+                             expected.substr(0, expected.size() - 1),
+                             bytes.substr(0, std::min<std::size_t>(bytes.find('\n'), 80))));
+  }
+  const std::string_view rest = std::string_view(bytes).substr(expected.size());
+  try {
+    ByteReader reader(rest);
+    std::uint64_t sum = 0;
+    reader(sum);
+    if (sum != fingerprint(rest.substr(sizeof sum))) throw refuse("damaged");
+    std::optional<Part> part(std::in_place);
+    reader(*part);
+    return part;
+  } catch (const std::out_of_range&) {
+    throw refuse("damaged");
+  }
+}
+
+template <typename Part>
+void Checkpoint::keep(const std::string& name, const Part& part) const {
+  ByteWriter values;
+  values(part);
+  ByteWriter sum;
+  sum(fingerprint(values.bytes()));
+  write_whole(folder_ / name, header() + sum.bytes() + values.bytes());
+}
+
+void Checkpoint::require_same(const std::string& name, std::uint64_t value,
+                              const std::string& what) const {
+  const auto before = find<std::uint64_t>(name);
+  if (!before) return keep(name, value);
+  if (*before != value) {
+    throw SceneError(fmt::format(
+        "--resume: {} is not that of the run that was begun: a file that the scene names, or the "
+        "number of BLAS threads, has changed; run without --resume, or choose another -o",
+        what));
+  }
+}
+
+template std::optional<std::uint64_t> Checkpoint::find(const std::string&) const;
+template std::optional<StructureModes> Checkpoint::find(const std::string&) const;
+template std::optional<CurveResult> Checkpoint::find(const std::string&) const;
+template void Checkpoint::keep(const std::string&, const StructureModes&) const;
+template void Checkpoint::keep(const std::string&, const CurveResult&) const;
+
+std::optional<int> ended_run(const fs::path& folder, const std::string& scene_toml) {
+  const fs::path begun = folder / "checkpoint" / "scene.toml";
+  const fs::path summary = folder / "summary.json";
+  if (is_begun(folder)) {
+    require_same_scene(begun, bytes_of(begun), scene_toml);
+    return std::nullopt;
+  }
+  const fs::path ended = folder / "scene.toml";
+  if (fs::exists(folder / "checkpoint" / "summary.json"))
+    return std::nullopt;  // killed before it began
+  if (!fs::exists(summary) || !fs::exists(ended)) {
+    throw SceneError(fmt::format(
+        "--resume: {} holds no run; leave --resume out to begin one, or name its folder with -o",
+        folder.string()));
+  }
+  require_same_scene(ended, bytes_of(ended), scene_toml);
+  const auto document = parse_json(bytes_of(summary), summary.string());
+  return static_cast<int>(JsonEntry(document, summary.string()).integer("exit_code"));
+}
+
+}  // namespace pipelines
+}  // namespace microslip
