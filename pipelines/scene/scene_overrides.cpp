@@ -56,6 +56,7 @@ std::string quoted(const std::string& text) {
 /// came from and messages about it can say --set.
 toml::table value_of(const std::string& text, const std::string& assignment) {
   const std::string source = "--set " + assignment;
+  require_shallow_keys(text, "--set");
   try {
     toml::table table = toml::parse("x = " + text, source);
     if (table.size() == 1) return table;  // more: a line break smuggled in further keys

@@ -58,6 +58,19 @@ std::size_t offset_of(const toml::source_position& place, std::string_view text)
   return at;
 }
 
+/// Offset behind the quoted text that begins at `begin`; its line's end where the quote is not closed.
+std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
+  const char mark = text[begin];
+  const bool many_lines = text.substr(begin, 3) == std::string(3, mark);
+  const std::string_view quote = text.substr(begin, many_lines ? 3 : 1);
+  for (std::size_t i = begin + quote.size(); i < text.size(); ++i) {
+    if (text.substr(i, quote.size()) == quote) return i + quote.size();
+    if (text[i] == '\n' && !many_lines) return i;
+    if (text[i] == '\\' && mark == '"') ++i;
+  }
+  return text.size();
+}
+
 }  // namespace
 
 std::string description_of(const toml::parse_error& error) {
@@ -77,7 +90,31 @@ std::string description_of(const toml::parse_error& error) {
                                    : text;
 }
 
+void require_shallow_keys(std::string_view text, const std::string& name) {
+  constexpr int most_points = 100;
+  int points = 0;  // of this key; numbers have one
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_quoted(text, i);
+      continue;
+    }
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    if (c != '.' && std::string_view("=,[]{}\n").find(c) != std::string_view::npos) points = 0;
+    if (c == '.' && ++points > most_points) {
+      const auto line = 1 + std::ranges::count(text.substr(0, i), '\n');
+      throw SceneError(fmt::format("{}:{}: a key of more than {} parts; expected section.key", name,
+                                   line, most_points));
+    }
+    ++i;
+  }
+}
+
 toml::table parse_toml(std::string_view text, const std::string& name) {
+  require_shallow_keys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -9,6 +9,10 @@
 
 namespace microslip::pipelines {
 
+/// To be asked before a text is parsed: the parser descends by a call for each part of a dotted key, and its stack ends.
+/// @throws SceneError  a key of more than 100 parts.
+void require_shallow_keys(std::string_view text, const std::string& name);
+
 /// @param name  how messages call the text, e.g. the file.
 /// @throws SceneError  not TOML: "name:line:column: section.key: …".
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& name);

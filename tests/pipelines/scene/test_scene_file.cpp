@@ -337,6 +337,21 @@ TEST(BadScene, TomlErrorsTellTheLine) {
   EXPECT_NE(complaint("\xFF\xFE\x00"), "");
 }
 
+/// Each part of a dotted key is a call of the parser within the one before.
+TEST(BadScene, KeysOfManyPartsAreRefusedBeforeTheyAreParsed) {
+  std::string deep = "a";
+  for (int i = 0; i < 40'000; ++i) deep += ".a";
+  for (const std::string& text : {deep + " = 1\n", "[" + deep + "]\n", "[[" + deep + "]]\n",
+                                  "\"a\"." + deep + " = 1\n", "x = { " + deep + " = 1 }\n"}) {
+    EXPECT_EQ(complaint("# 1\n" + text).find("scene.toml:2: a key of more than 100 parts"), 0U);
+  }
+  EXPECT_NE(complaint(blade_text, {"material.density={ " + deep + " = 1 }"}), "");
+  // Points of texts, comments and numbers are none of keys.
+  const std::string points(40'000, '.');
+  const std::string harmless = "# " + points + "\ntitle = \"" + points + "\\\"" + points + "\"\n";
+  EXPECT_EQ(complaint(harmless + blade_text), "");
+}
+
 TEST(BadScene, NumbersAreCheckedForRangeAndSense) {
   const auto refused = [](const std::string& assignment, const std::vector<std::string>& parts) {
     const std::string message = complaint(blade_text, {assignment});
