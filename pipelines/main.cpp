@@ -2,6 +2,7 @@
 /// The program `microslip`: reads the command line, calls one study, turns its end into an exit code.
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -99,6 +100,8 @@ int answer(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may not grow is an error of the writer, told as such
   try {
     return answer(argc, argv);
   } catch (const std::exception& error) {  // outside of what `guarded` watches

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "fem/petsc_error.hpp"
 #include "mesh/mesh_error.hpp"
@@ -15,6 +16,13 @@ bool is(const std::exception& error) {
   return dynamic_cast<const Type*>(&error) != nullptr;
 }
 
+/// The system has no memory left for a thread, a process or a mapping.
+bool is_short_of_memory(const std::exception& error) {
+  const auto* failure = dynamic_cast<const std::system_error*>(&error);
+  return failure != nullptr && (failure->code() == std::errc::resource_unavailable_try_again ||
+                                failure->code() == std::errc::not_enough_memory);
+}
+
 }  // namespace
 
 ExitCode exit_code_of(const std::exception& error) {
@@ -24,7 +32,7 @@ ExitCode exit_code_of(const std::exception& error) {
   }
   if (is<RefusedError>(error) || is<fem::EigenError>(error)) return ExitCode::refused;
   if (is<ExhaustedError>(error) || is<std::bad_alloc>(error) || is<fem::MemoryError>(error) ||
-      is<std::filesystem::filesystem_error>(error)) {
+      is<std::filesystem::filesystem_error>(error) || is_short_of_memory(error)) {
     return ExitCode::exhausted;
   }
   return ExitCode::internal;

@@ -522,6 +522,58 @@ TEST_F(Program, AnInterruptEndsWithinASecondAndKeepsWhatIsComplete) {
   EXPECT_FALSE(exists("out/.lock"));
 }
 
+/// Impatience costs neither the summary nor the lock.
+TEST_F(Program, ASecondInterruptCostsNothing) {
+  std::string scales = "[1";
+  for (int i = 2; i <= 3000; ++i) scales.append(",").append(std::to_string(i));
+  write(path("scene.toml"), scene_text + ("preload_scale = " + scales + "]\n"));
+  const pid_t child = start({"run", path("scene.toml"), "-o", path("out"), "-q"});
+  ASSERT_GE(child, 0);
+  wait_until([this] { return exists("out/curves/scale_1.csv"); });
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(::kill(child, i % 2 == 0 ? SIGTERM : SIGINT), 0);
+  interrupt(child);
+  const Json summary = Json::parse(content_of(path("out/summary.json")));
+  EXPECT_EQ(summary["exit_code"], 3);
+  EXPECT_FALSE(summary["curves"].empty());
+  EXPECT_FALSE(exists("out/.lock"));
+}
+
+/// Under a limit of the address space the threads of OpenBLAS cannot start.
+TEST_F(Program, LittleAddressSpaceIsNoHang) {
+  write(path("scene.toml"), scene_text);
+  for (const char* megabytes : {"200", "250", "300", "450"}) {
+    const std::string limit = std::string("ulimit -v ") + megabytes + "000; timeout 30";
+    const Outcome version = run("--version", limit);
+    if (version.code == 127) continue;  // too little to load the libraries: the loader says so
+    EXPECT_EQ(version.code, 0) << megabytes << version.err;
+    const Outcome outcome = run("run scene.toml -q -j 2 -o out", limit);
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
+    EXPECT_FALSE(exists("out/.lock")) << megabytes;
+  }
+}
+
+TEST_F(Program, ALimitOfTheFileSizeIsExitFour) {
+  write(path("scene.toml"), scene_text);
+  ASSERT_EQ(run("run scene.toml -q -o out").code, 0);
+  const std::string curve = content_of(path("out/curves/scale_1.csv"));
+  // Standard output and error are pipes: the limit is of their files as well.
+  const int status =
+      std::system(("cd '" + folder() +
+                   "' && bash -c 'ulimit -f 8; \"" MICROSLIP_PROGRAM
+                   "\" run scene.toml -q -o out --set response.frequency=[10,31] 2>&1; "
+                   "echo code $?' | cat > text")
+                      .c_str());
+  ASSERT_EQ(WEXITSTATUS(status), 0);
+  const std::string text = content_of(path("text"));
+  EXPECT_NE(text.find("code 4"), std::string::npos) << text;
+  EXPECT_NE(text.find("File too large"), std::string::npos) << text;
+  EXPECT_EQ(content_of(path("out/curves/scale_1.csv")), curve) << "what was there is kept";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    EXPECT_NE(entry.path().filename(), ".lock");
+  }
+}
+
 TEST_F(Program, AnInterruptedMesherLeavesNothingBehind) {
   write(path("scene.toml"),
         "[model]\nkind = \"blade\"\nelement_size = \"1.5 mm\"\n[material]\n"

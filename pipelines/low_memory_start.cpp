@@ -1,0 +1,42 @@
+/// @file
+/// OpenBLAS starts its threads while it is loaded, before main, and each wants address space of its own: where that
+/// is limited (`ulimit -v`) they fail, or the process hangs when it ends. So the program starts itself once more
+/// there, with one thread, before any library is initialised.
+
+#include <alloca.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <string_view>
+
+namespace {
+
+constexpr std::string_view variable = "OPENBLAS_NUM_THREADS=";
+char one_thread[] = "OPENBLAS_NUM_THREADS=1";
+constexpr rlim_t enough_for_threads = rlim_t{4} << 30U;  // bytes
+
+/// Returns where there is nothing to do, or it cannot be done.
+void start_with_one_thread(int /*argc*/, char** arguments, char** environment) {
+  rlimit space{};
+  if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur >= enough_for_threads) return;
+  std::size_t n = 0;
+  while (environment[n] != nullptr) ++n;
+  // Neither malloc nor setenv: no library has been initialised yet.
+  auto** changed = static_cast<char**>(alloca((n + 2) * sizeof(char*)));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string_view entry(environment[i]);
+    if (entry == one_thread) return;
+    if (!entry.starts_with(variable)) changed[kept++] = environment[i];
+  }
+  changed[kept++] = one_thread;
+  changed[kept] = nullptr;
+  execve("/proc/self/exe", arguments, changed);
+}
+
+/// Called by the dynamic loader ahead of the initialisers of all libraries.
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_libraries)(int, char**, char**) = start_with_one_thread;
+
+}  // namespace
