@@ -28,17 +28,24 @@ std::vector<Eigen::Index> held_nodes(const Eigen::ArrayX<bool>& held) {
   return nodes;
 }
 
-/// Blocks of three by three per row of nodes in the upper half, counted by the longest of their rows at most.
-std::vector<PetscInt> count_blocks(const Sparse& matrix, const DofMap& dofs) {
-  std::vector<PetscInt> counts(static_cast<std::size_t>(dofs.n_free_nodes()), 1);
-  std::vector<Eigen::Index> last(counts.size(), -1);
-  for (Eigen::Index row = 0; row < dofs.n_free_nodes(); ++row) {
+/// Blocks per own row of nodes in the upper half: columns owned here (diagonal included), and elsewhere.
+struct RowCounts {
+  std::vector<PetscInt> own;
+  std::vector<PetscInt> other;
+};
+
+RowCounts count_blocks(const Sparse& matrix, const DofMap& dofs) {
+  const auto n_rows = static_cast<std::size_t>(dofs.last() - dofs.first());
+  RowCounts counts{std::vector<PetscInt>(n_rows, 1), std::vector<PetscInt>(n_rows, 0)};
+  std::vector<Eigen::Index> last(static_cast<std::size_t>(dofs.n_free_nodes()), -1);
+  for (Eigen::Index row = dofs.first(); row < dofs.last(); ++row) {
     for (int d = 0; d < 3; ++d) {
       for (Sparse::InnerIterator entry(matrix, 3 * dofs.mesh_node(row) + d); entry; ++entry) {
         const Eigen::Index column = dofs.solver_node(entry.col() / 3);
         if (column <= row || last[static_cast<std::size_t>(column)] == row) continue;
         last[static_cast<std::size_t>(column)] = row;
-        ++counts[static_cast<std::size_t>(row)];
+        ++(column < dofs.last() ? counts.own
+                                : counts.other)[static_cast<std::size_t>(row - dofs.first())];
       }
     }
   }
@@ -56,13 +63,12 @@ MatHandle petsc_matrix(const Sparse& matrix, const DofMap& dofs, const Eigen::Ar
   MatHandle result;
   const auto n = static_cast<PetscInt>(3 * dofs.n_free_nodes());
   const auto n_local = static_cast<PetscInt>(dofs.n_local_dofs());
-  const std::vector<PetscInt> counts = count_blocks(matrix, dofs);
-  // Columns elsewhere are not told apart from own ones: room for both.
-  const PetscInt* own = counts.data() + dofs.first();
+  const RowCounts counts = count_blocks(matrix, dofs);
   check(MatCreate(PETSC_COMM_WORLD, result.out()));
   check(MatSetSizes(result.get(), n_local, n_local, n, n));
   check(MatSetType(result.get(), MATSBAIJ));
-  check(MatXAIJSetPreallocation(result.get(), 3, nullptr, nullptr, own, own));
+  check(MatXAIJSetPreallocation(result.get(), 3, nullptr, nullptr, counts.own.data(),
+                                counts.other.data()));
   check(MatSetOption(result.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
   for (Eigen::Index node = dofs.first(); node < dofs.last(); ++node) {
     for (int d = 0; d < 3; ++d) {
