@@ -71,7 +71,13 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   std::string content;  // a pipe does not know its size beforehand
   std::array<char, 65536> part{};
   while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
-    content.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    const std::string_view read(part.data(), static_cast<std::size_t>(stream.gcount()));
+    content.append(read);
+    if (read.find('\0') != std::string_view::npos) {  // told before a large file is read whole
+      throw SceneError(
+          fmt::format("{}:{}: a byte of value 0: this is no text", file.string(),
+                      1 + std::ranges::count(content.substr(0, content.find('\0')), '\n')));
+    }
     if (content.size() > limit) {
       throw SceneError(
           fmt::format("{}: more than the {} bytes that are read at most", file.string(), limit));

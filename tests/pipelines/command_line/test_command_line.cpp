@@ -282,6 +282,14 @@ TEST_F(Program, WritesNothingWhenARowIsBad) {
   expect("cycle none.csv", 1, {"none.csv: no such file"});
 }
 
+TEST_F(Program, ALargeFileThatIsNoTextIsRefusedAtItsBegin) {
+  write(path("zeros.csv"), table_header);
+  std::filesystem::resize_file(path("zeros.csv"), 900'000'000);  // sparse: takes no disk
+  const auto begin = std::chrono::steady_clock::now();
+  expect("cycle zeros.csv", 1, {"zeros.csv:2: a byte of value 0: this is no text"});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
 TEST_F(Program, PlotsCyclesIntoAFolder) {
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,1,0.5,1,1,0,0,2,0\n");
   const std::string plain = run("cycle t.csv").out;
