@@ -168,7 +168,7 @@ int mesh(Arguments& arguments) {
 
 int surfaces(Arguments& arguments) {
   require_mesh_format(arguments.input);
-  watch_for_interrupts();
+  const InterruptWatch watch;
   const MeshOfFile read = read_mesh(arguments.input, std::nullopt);
   std::cout << describe_names(read.mesh, read.length_unit);
   nlohmann::ordered_json& list = arguments.findings["surfaces"] = nlohmann::ordered_json::array();
@@ -207,7 +207,7 @@ std::string new_scene(const Arguments& arguments) {
         fmt::format("init {} {}: a file goes with init mesh alone", kind, arguments.mesh_file));
   }
   require_mesh_format(arguments.mesh_file);
-  watch_for_interrupts();
+  const InterruptWatch watch;
   const auto here = std::filesystem::current_path();
   return scene_of_mesh(arguments.mesh_file, (here / arguments.output).parent_path());
 }
