@@ -148,7 +148,7 @@ TEST_F(Program, RefusesOptionsOfLaterVersionsByName) {
   write(path("scene.toml"), scene_text);
   expect("--tolerance 1% run scene.toml", 1, {"--tolerance", "not available in this version"});
   expect("run --budget 60s scene.toml", 1, {"--budget", "not available in this version"});
-  expect("converge scene.toml", 1, {"converge", "not available in this version"});
+  expect("converge --resume scene.toml", 1, {"--resume", "converge"});
   EXPECT_FALSE(exists("runs"));
 }
 
