@@ -1,6 +1,7 @@
 #include "pipelines/accuracy/ladders.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -36,7 +37,7 @@ Ladder of_modes(const SceneDescription& scene) {
   Ladder ladder{"modes", "basis", {}};
   const int given = scene.settings.basis.n_modes;
   for (const int n :
-       {std::max(1, given / 4), std::max(1, given / 2), given, 2 * given, 4 * given}) {
+       std::set{std::max(1, given / 4), std::max(1, given / 2), given, 2 * given, 4 * given}) {
     ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 0.0,
                                 [&](auto& other) { other.settings.basis.n_modes = n; }));
     ladder.rungs.back().same_basis = n == given;
