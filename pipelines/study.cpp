@@ -140,9 +140,9 @@ int converge_study(const SceneDescription& scene, const RunOptions& options) {
   const auto say = [&](const std::string& sentence) {
     if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::endl;
   };
+  fem::use_one_blas_thread();  // every rung takes what it takes on one core
   const TimedStructure base = timed_structure(scene);
   say(fmt::format("mesh and modes: {:.1f} s", base.seconds));
-  fem::use_one_blas_thread();
   for (const Ladder& ladder : ladders(scene)) {
     const std::vector<RungResult> rungs = climb(ladder, base, say);
     write_ladder_csv(folder / (ladder.knob + ".csv"), rungs);

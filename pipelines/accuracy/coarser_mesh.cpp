@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <variant>
 
-#include "mesh/mesh_error.hpp"
+#include <fmt/format.h>
+
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -46,7 +48,8 @@ Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
 
 }  // namespace
 
-std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene) {
+std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene,
+                                        std::string& note) {
   if (!std::holds_alternative<BladeModel>(scene.model)) return std::nullopt;
   std::vector<std::string> warnings;
   try {
@@ -60,11 +63,13 @@ std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDe
                                         four_times.modes.basis.frequency[0]);
     coarser.share = -1.0 / (ratio - 1.0);
     return coarser;
-  } catch (const mesh::MeshError&) {  // too coarse for a mesh, or for the patch: not known
-    return std::nullopt;
-  } catch (const SceneError&) {
-    return std::nullopt;
-  } catch (const RefusedError&) {
+  } catch (const InterruptedError&) {
+    throw;
+  } catch (const std::exception& error) {  // an estimate that fails does not cost the run
+    note = fmt::format(
+        "the error of the mesh is not known: on elements of two and four times the "
+        "size: {}",
+        error.what());
     return std::nullopt;
   }
 }

@@ -14,8 +14,11 @@
 namespace microslip::pipelines {
 
 /// The model on elements twice as large, with `share` = −1 / (2^p − 1).
+/// @param note  what failed on the way, for the log.
 /// @return empty: the scene has no element size, or a coarser mesh gives no such model.
+/// @throws InterruptedError
 [[nodiscard]] std::optional<RicherModel> coarser_mesh(const ReducedModel& model,
-                                                      const SceneDescription& scene);
+                                                      const SceneDescription& scene,
+                                                      std::string& note);
 
 }  // namespace microslip::pipelines

@@ -15,8 +15,8 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr const char* amplitude = "peak_amplitude";
-constexpr const char* frequency = "peak_frequency";
+constexpr const char* amplitude = peak_amplitude_goal;
+constexpr const char* frequency = peak_frequency_goal;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -89,6 +89,10 @@ void add_certificates(CurveBudget& budget, const ReducedModel& model, const Curv
 
 }  // namespace
 
+bool CurveBudget::has_bar() const {
+  return !rows.empty() && std::ranges::find(unknown, "harmonics") == unknown.end();
+}
+
 CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                          const RicherModels& richer, const CurveResult& result) {
   CurveBudget budget;
@@ -117,7 +121,7 @@ std::string budget_text(const CurveBudget& budget) {
   std::ranges::stable_sort(parts, [](const ErrorRow& a, const ErrorRow& b) {
     return std::abs(a.effect) > std::abs(b.effect);
   });
-  if (std::ranges::find(budget.unknown, "harmonics") != budget.unknown.end()) {
+  if (!budget.has_bar()) {
     return fmt::format("curve {}: its error is not known: more harmonics give another curve",
                        curve);
   }

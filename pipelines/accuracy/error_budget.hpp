@@ -14,6 +14,8 @@ namespace microslip::pipelines {
 struct CurveBudget {
   std::vector<ErrorRow> rows;
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
+  /// Whether the rows bound the error: not where more harmonics give another curve, which outweighs all others.
+  [[nodiscard]] bool has_bar() const;
 };
 
 /// @param result  a curve of the model, solved by harmonic balance; a linear limit has no rows.

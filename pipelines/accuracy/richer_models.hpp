@@ -27,6 +27,7 @@ struct RicherModel {
 struct RicherModels {
   std::vector<RicherModel> models;
   std::vector<std::string> unknown;  ///< sources that cannot be told for this scene
+  std::string note;                  ///< why, where something failed; for the log
 };
 
 /// Cells (four times as many), fit (the finite elements' own shapes), basis (tractions of one degree more),

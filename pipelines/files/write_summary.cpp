@@ -104,9 +104,10 @@ Json to_json(const solver::RicherPeak& peak) {
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
 }
 
-/// Half widths by goal; null without a budget.
+/// Half widths by goal; null without a budget, and where the harmonics given do not tell the curve.
 Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
   Json bar = Json::object();
+  if (std::ranges::find(curve.not_in_bar, "harmonics") != curve.not_in_bar.end()) return nullptr;
   for (const ErrorRow& row : budget) {
     if (row.curve == curve.name) bar[row.goal] = bar_of(budget, curve.name, row.goal);
   }
@@ -141,7 +142,7 @@ Json curves_json(const RunSummary& summary) {
     Json digits = nullptr;
     if (!bar.is_null()) {
       digits = Json::object();
-      for (const char* goal : {"peak_amplitude", "peak_frequency"}) {
+      for (const char* goal : {peak_amplitude_goal, peak_frequency_goal}) {
         digits[goal] = digits_of(bar[goal].get<double>());
       }
     }

@@ -7,6 +7,9 @@
 
 namespace microslip::pipelines {
 
+inline constexpr const char* peak_amplitude_goal = "peak_amplitude";
+inline constexpr const char* peak_frequency_goal = "peak_frequency";
+
 struct ErrorRow {
   std::string curve;  ///< its name
   std::string goal;   ///< peak_amplitude | peak_frequency

@@ -72,6 +72,7 @@ void tell_errors(const ReducedModel& model, const SceneDescription& scene,
                  RunRecord& record) {
   if (!scene.error_budget || model.patches.empty()) return;
   const RicherModels richer = richer_models(model, scene, structure);
+  if (!richer.note.empty()) record.progress().info(richer.note);
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
@@ -79,8 +80,8 @@ void tell_errors(const ReducedModel& model, const SceneDescription& scene,
   });
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const CurveBudget& budget = budgets[i];
-    if (!budget.rows.empty()) {
-      curves[i].bar = bar_of(budget.rows, curves[i].name, budget.rows.front().goal);
+    if (budget.has_bar()) {
+      curves[i].bar = bar_of(budget.rows, curves[i].name, peak_amplitude_goal);
     }
     record.keep_budget(budget, curves[i], model);
   }

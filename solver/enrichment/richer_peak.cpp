@@ -120,7 +120,8 @@ std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationO
   const HarmonicBalance elsewhere(other.scene, balance.set());
   LocalPeak start = top->peak;
   start.point.x = in_modes(balance, elsewhere, top->peak.point.x, other.embedding);
-  start.point.parameter *= other.frequency_factor;
+  // An end of the range stays where it is.
+  if (start.place == PeakPlace::peak) start.point.parameter *= other.frequency_factor;
   start.tangent.x = in_modes(balance, elsewhere, top->peak.tangent.x, other.embedding);
   PeakWork work;
   const auto found = level_point(elsewhere, start, widened(range), work, farthest);

@@ -337,12 +337,12 @@ class Limits(Conversion):
 
     def run_with(self, body, seconds=20, megabytes=3000):
         mesh_files.write_vtk(mesh_files.curved_element("tetra"), self.path("one.vtu"))
-        with open(self.path("stub.py"), "w", encoding="utf-8") as file:
+        with open(self.path("without_meshio.py"), "w", encoding="utf-8") as file:
             file.write(f"import runpy, sys, types\nmeshio = types.ModuleType('meshio')\n"
                        f"def read(_):\n    {body}\nmeshio.vtu = types.SimpleNamespace(read=read)\nmeshio._mesh = types.SimpleNamespace("
                        f"topological_dimension={{}})\nsys.modules['meshio'] = meshio\n"
                        f"sys.argv[0] = {SCRIPT!r}\nrunpy.run_path({SCRIPT!r}, run_name='__main__')\n")
-        command = ["/usr/bin/python3", "-I", self.path("stub.py"), self.path("one.vtu"), self.path("mesh.msh"),
+        command = ["/usr/bin/python3", "-I", self.path("without_meshio.py"), self.path("one.vtu"), self.path("mesh.msh"),
                    self.path("facts.json"), str(seconds), str(megabytes)]
         finished = subprocess.run(command, capture_output=True, text=True, timeout=60)
         return finished.returncode, finished.stderr.strip().split("\n")[-1]
