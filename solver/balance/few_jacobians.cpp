@@ -9,7 +9,7 @@
 namespace microslip::solver {
 namespace {
 
-constexpr int most_updates = 6;
+constexpr int most_updates = 8;
 constexpr int most_jacobians = 3;
 constexpr double falls = 0.3;  // a residual that falls by less asks for a Jacobian of its own
 // Residuals over the scale of forces:

@@ -26,7 +26,7 @@ constexpr double angle_wanted = 0.13;  // rad per step
 constexpr double learned_angle = 0.2;
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
-constexpr int wanted_updates = 4;  // of Broyden's method, by forces alone
+constexpr int wanted_updates = 6;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
 constexpr double exact_share = 1e-13;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
