@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "solver/enrichment/peak_harmonics.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::solver {
@@ -39,6 +38,21 @@ std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& rang
   return places;
 }
 
+/// Relative, of a peak to what it is with more harmonics, and of that to what it should be. Empty: no such peak is
+/// within the tolerance.
+std::optional<double> distance_to(const std::vector<SettledPeak>& known, const LocalPeak& peak,
+                                  double tolerance) {
+  std::optional<double> nearest;
+  for (const SettledPeak& rich : known) {
+    const double change = std::abs(rich.amplitude / peak.amplitude - 1.0);
+    const double shift = std::abs(rich.frequency / peak.point.parameter - 1.0);
+    const double distance = change + rich.left_out;
+    if (shift > tolerance || distance > tolerance) continue;
+    nearest = std::min(distance, nearest.value_or(distance));
+  }
+  return nearest;
+}
+
 void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
   sum.contact_evaluations += work.contact_evaluations;
@@ -65,12 +79,14 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
     PeakHarmonicsChoice choice(scene, range);
     chosen.settled = true;
     chosen.left_out = 0.0;
+    chosen.known.clear();
     bool is_lost = false;
     for (const Place& place : places_of(scene, range, of_now, *now)) {
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
       chosen.set = chosen.set.united(found.set.orders());
       chosen.left_out = std::max(chosen.left_out, found.left_out);
       chosen.settled = chosen.settled && found.settled;
+      if (found.peak && found.settled) chosen.known.push_back(found.richest);
       is_lost = is_lost || !found.peak;
     }
     count(chosen, choice.work());
@@ -85,11 +101,13 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
 }
 
 CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
-                               const HarmonicSet& set, ResponseCurve& curve) {
+                               const HarmonicSet& set, const std::vector<SettledPeak>& known,
+                               ResponseCurve& curve) {
   CurveHarmonics checked{set};
   PeakHarmonicsChoice choice(scene, range);
   for (const Place& place : places_of(scene, range, set, curve)) {
-    const double left_out = choice.left_out(set, place.peak);
+    const std::optional<double> distance = distance_to(known, place.peak, range.harmonic_tolerance);
+    const double left_out = distance ? *distance : choice.left_out(set, place.peak);
     checked.left_out = std::max(checked.left_out, left_out);
     for (ResponsePoint& point : curve.points) {
       if (point.frequency == place.frequency) point.harmonics_left_out = left_out;
@@ -120,7 +138,7 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
       work.iterations += curve.iterations;
       work.contact_evaluations += curve.contact_evaluations;
     }
-    const CurveHarmonics checked = check_harmonics(scene, range, set, curve);
+    const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
     add(checked);
     if (!is_new) break;
     if (checked.settled || curve.diagnosis == "interrupted") break;

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "solver/continuation.hpp"
+#include "solver/enrichment/peak_harmonics.hpp"
 
 namespace microslip::solver {
 
@@ -19,6 +21,7 @@ struct CurveHarmonics {
   bool settled = true;    ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
+  std::vector<SettledPeak> known;  ///< high points solved for with more than the set has
 };
 
 /// @param range  with `harmonic_tolerance` > 0.
@@ -29,8 +32,12 @@ struct CurveHarmonics {
                                               const CurveOfSet& trace);
 
 /// What a set leaves out at the high points of its curve; the peaks of the curve keep their own.
+/// @param known  peaks with more harmonics: a peak of the curve that is one of them is compared with it, of others it
+///               is estimated.
 [[nodiscard]] CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
-                                             const HarmonicSet& set, ResponseCurve& curve);
+                                             const HarmonicSet& set,
+                                             const std::vector<SettledPeak>& known,
+                                             ResponseCurve& curve);
 
 /// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
 /// its own peaks ask for more.

@@ -19,7 +19,8 @@ constexpr double silent = 1e-12;
 // Shares of the tolerance.
 constexpr double may_be_left_out = 0.5;
 constexpr double added_down_to = 0.25;
-constexpr double may_be_pruned = 0.2;
+constexpr double may_be_pruned = 0.5;
+constexpr double worth_trying = 8.0;  // times that, by the sum of estimates: signs may cancel
 constexpr double of_frequency = 0.1;  // a resonance is narrow: its frequency is asked for closer
 constexpr double idle = 1e-3;         // less than this is not worth a confirmation
 constexpr std::size_t largest_block = 10;  // added at a time: estimates far away rank, no more
@@ -126,6 +127,9 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   PeakHarmonics result{set.united(more.orders()), peak};
   if (result.set != set) result.peak = solved(set, peak, result.set);
   settle(result);
+  if (result.peak) {
+    result.richest = {result.peak->point.parameter, result.peak->amplitude, result.left_out};
+  }
   if (result.settled) prune(result, more);
   return result;
 }
@@ -154,25 +158,46 @@ void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
   }
 }
 
-/// Takes out what does next to nothing, as long as the peak stays.
-void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least) {
-  const double allowed = may_be_pruned * range_.harmonic_tolerance;
-  const HarmonicBalance balance(scene_, result.set);
-  const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *result.peak);
-  ++work_.contact_evaluations;
-  std::vector<int> kept = least_.orders();
-  double sum = 0.0;
-  for (const DroppedHarmonic& one : dropped) {  // the least first
-    sum += std::abs(one.amplitude);
-    if (sum > allowed || least.contains(one.order)) kept.push_back(one.order);
-  }
-  const HarmonicSet fewer{std::move(kept)};
-  if (fewer == result.set) return;
-  std::optional<LocalPeak> peak = solved(result.set, *result.peak, fewer);
-  if (!peak || !same(*result.peak, *peak, 2.0 * allowed)) return;
-  result.left_out += std::abs(peak->amplitude - result.peak->amplitude) / peak->amplitude;
+/// The peak without some of its harmonics, where it stays.
+std::optional<PeakHarmonics> PeakHarmonicsChoice::without(const PeakHarmonics& rich,
+                                                          const HarmonicSet& fewer) {
+  std::optional<LocalPeak> peak = solved(rich.set, *rich.peak, fewer);
+  if (!peak || !same(*rich.peak, *peak, may_be_pruned * range_.harmonic_tolerance)) return {};
+  PeakHarmonics result = rich;
+  result.left_out += std::abs(peak->amplitude / rich.peak->amplitude - 1.0);
   result.set = fewer;
   result.peak = std::move(peak);
+  return result;
+}
+
+/// Takes out as many as can be found by bisection.
+void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least) {
+  const double allowed = may_be_pruned * range_.harmonic_tolerance;
+  const PeakHarmonics rich = result;
+  const HarmonicBalance balance(scene_, rich.set);
+  const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *rich.peak);
+  ++work_.contact_evaluations;
+  std::vector<int> order;  // the least first
+  std::size_t sure = 0;    // to be taken out
+  double sum = 0.0;
+  for (const DroppedHarmonic& one : dropped) {
+    sum += std::abs(one.amplitude);
+    if (!(sum <= worth_trying * allowed)) break;
+    if (least.contains(one.order) || least_.contains(one.order)) continue;
+    order.push_back(one.order);
+    if (sum <= allowed) sure = order.size();
+  }
+  std::size_t out = 0;                      // can go
+  std::size_t too_many = order.size() + 1;  // cannot
+  for (std::size_t n = std::max<std::size_t>(sure, 1); n > out && n < too_many;
+       n = (out + too_many) / 2) {
+    std::vector<int> kept = rich.set.orders();
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(n);
+    std::erase_if(kept, [&](int k) { return std::find(order.begin(), end, k) != end; });
+    std::optional<PeakHarmonics> fewer = without(rich, HarmonicSet(std::move(kept)));
+    if (fewer) result = std::move(*fewer);
+    (fewer ? out : too_many) = n;
+  }
 }
 
 double PeakHarmonicsChoice::left_out(const HarmonicSet& set, const LocalPeak& peak) {

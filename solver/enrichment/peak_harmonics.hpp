@@ -10,7 +10,8 @@
 ///   solve      the peak again, by Newton's method from the embedding; then estimate anew
 ///   confirm    once what is left out does less than half the tolerance, the largest few of it are solved for
 ///              too. Only a peak that stays where it was, to the tolerance, is believed
-///   prune      what does next to nothing goes again, and the peak is solved once more
+///   prune      as many go again as the other half of the tolerance allows, those that do least first, the peak
+///              being solved without them: what they do together is known then, their signs included
 #pragma once
 
 #include <optional>
@@ -24,11 +25,20 @@ namespace microslip::solver {
 /// What every motion has: the first harmonic and those of the excitation.
 [[nodiscard]] HarmonicSet least_harmonics(const Scene& scene);
 
+/// A peak with all harmonics that were solved for.
+struct SettledPeak {
+  double frequency = 0.0;  ///< [rad/s]
+  double amplitude = 0.0;  ///< [m]; 0: none
+  double left_out = 0.0;   ///< Σ |δA| / A of harmonics beyond, estimated
+};
+
 struct PeakHarmonics {
   HarmonicSet set{1};
   /// Solved with the set, in its unknowns. Empty: it was not found there by Newton's method.
   std::optional<LocalPeak> peak;
-  double left_out = 0.0;   ///< Σ |δA| / A of harmonics that the set lacks, estimated
+  double left_out =
+      0.0;  ///< |δA| / A of pruned harmonics, solved, and Σ |δA| / A of the others, estimated
+  SettledPeak richest;     ///< before pruning
   double confirmed = 0.0;  ///< |δA| / A by the block that was solved for last
   bool settled = false;  ///< false: the peak is not found, or the highest order allowed is reached
 };
@@ -64,6 +74,8 @@ class PeakHarmonicsChoice {
                                                 const HarmonicSet& to);
   void settle(PeakHarmonics& result);
   void prune(PeakHarmonics& result, const HarmonicSet& least);
+  [[nodiscard]] std::optional<PeakHarmonics> without(const PeakHarmonics& rich,
+                                                     const HarmonicSet& fewer);
 
   const Scene& scene_;
   const ContinuationOptions& range_;

@@ -53,7 +53,8 @@ TEST(PeakHarmonics, PeakIsThatOfManyHarmonics) {
                   choice.work().contact_evaluations);
       EXPECT_LE(std::abs(error), tolerance) << preload;
       EXPECT_LE(std::abs(shift), tolerance) << preload;
-      EXPECT_LE(choice.left_out(found.set, *found.peak), tolerance) << preload;
+      EXPECT_LE(found.left_out, tolerance) << preload;
+      EXPECT_LE(std::abs(error), 1.5 * found.left_out + 1e-6) << preload;
     }
   }
 }
