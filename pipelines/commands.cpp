@@ -47,7 +47,12 @@ void choose_run_folder(Arguments& arguments) {
 }
 
 SceneDescription scene_of(const Arguments& arguments) {
-  return read_scene(arguments.input, arguments.overrides);
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.tolerance.empty()) {
+    overrides.push_back("accuracy.tolerance=" + arguments.tolerance);
+  }
+  if (!arguments.budget.empty()) overrides.push_back("accuracy.budget=" + arguments.budget);
+  return read_scene(arguments.input, overrides);
 }
 
 /// To the file given with -o, whole or not at all; else to standard output.
@@ -77,11 +82,13 @@ void require_mesh_format(const std::string& file) {
 }  // namespace
 
 void refuse_idle_options(const Arguments& arguments) {
-  const auto refuse_later = [](bool given, const char* name) {
-    if (given) throw SceneError(fmt::format("{} is not available in this version", name));
-  };
-  refuse_later(!arguments.tolerance.empty(), "--tolerance");
-  refuse_later(!arguments.budget.empty(), "--budget");
+  const bool solves = arguments.command == "run" || arguments.command == "check";
+  for (const auto& [given, name] : {std::pair{!arguments.tolerance.empty(), "--tolerance"},
+                                    std::pair{!arguments.budget.empty(), "--budget"}}) {
+    if (given && !solves) {
+      throw SceneError(fmt::format("{}: {} solves no curve", name, arguments.command));
+    }
+  }
   if (arguments.resume && arguments.command != "run" && arguments.command != "modes") {
     throw SceneError(fmt::format("--resume: {} leaves nothing to go on with; run and modes do",
                                  arguments.command));

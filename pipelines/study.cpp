@@ -20,10 +20,12 @@
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/accurate_curves.hpp"
 #include "pipelines/run/curve_family.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/run_record.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -35,8 +37,6 @@ template <typename... What>
 void ask(RunRecord& record, const What&... what) {
   for (const std::string& question : questions(what...)) record.progress().warning(question);
 }
-
-using StructurePointer = std::shared_ptr<const SolvedStructure>;
 
 /// mesh → modes. nullptr: a kind that gives its modes itself.
 StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
@@ -82,32 +82,39 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   return model;
 }
 
+void find_optimum(const Solution& solution, int jobs, RunRecord& record) {
+  record.stage("optimum");
+  const SceneDescription& scene = solution.scene;
+  OptimumSearch search(solution.model, scene, solution.structure, jobs);
+  if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
+  record.keep_optimum(solution.model, *scene.response->optimum, search.best());
+  if (!time_is_short()) record.keep_bracket(search.bracket());
+}
+
 }  // namespace
 
 int run_study(const SceneDescription& scene, const RunOptions& options) {
   require_response(scene);
+  begin_deadline(scene.accuracy.budget);
   RunRecord record(scene, options);
   return record.run([&] {
-    const StructurePointer structure = solve(scene, record);
-    const ReducedModel model = reduce(scene, structure, record);
-    require_held(model, scene);
-    require_curves(model, scene);
+    Solution solution{.scene = scene, .structure = solve(scene, record)};
+    solution.model = reduce(scene, solution.structure, record);
+    require_held(solution.model, scene);
+    require_curves(solution.model, scene);
     record.stage("curves");
     fem::use_one_blas_thread();
-    std::vector<CurveResult> curves = trace_family(model, scene, options.jobs, record);
+    solution.curves = trace_family(solution.model, scene, options.jobs, record);
     record.keep_harmonics(scene);
     record.stage("accuracy");
-    tell_errors(model, scene, structure.get(), options.jobs, curves, record);
-    if (structure) ask(record, scene, structure->mesh, curves);
+    solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
+                                  solution.curves, record.progress());
+    keep_budgets(solution, record);
+    refine_to_tolerance(solution, options.jobs, record);
+    if (solution.structure) ask(record, scene, solution.structure->mesh, solution.curves);
     record.stage("maps");
-    draw_maps(model, scene, curves, record);
-    if (scene.response->optimum) {
-      record.stage("optimum");
-      OptimumSearch search(model, scene, structure, options.jobs);
-      if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
-      record.keep_optimum(model, *scene.response->optimum, search.best());
-      record.keep_bracket(search.bracket());
-    }
+    draw_maps(solution.model, solution.scene, solution.curves, record);
+    if (scene.response->optimum) find_optimum(solution, options.jobs, record);
     record.stage("report");
     record.keep_report();
   });

@@ -2,6 +2,7 @@
 /// How a response curve is traced (theory section 16).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 namespace microslip::solver {
@@ -23,6 +24,9 @@ struct ContinuationOptions {
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;
+  /// Asked between the steps of choices, searches and followed peaks: true ends them with what there is. A curve itself
+  /// is stopped by its observer.
+  std::function<bool()> stop{};
   /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
   int search_starts = 0;
 };

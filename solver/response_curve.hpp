@@ -63,6 +63,13 @@ struct DetachedBranch {
   bool closed = false;
 };
 
+/// The highest peak solved for with more harmonics than its curve has.
+struct SettledPeak {
+  double frequency = 0.0;  ///< [rad/s]
+  double amplitude = 0.0;  ///< [m]; 0: none
+  double left_out = 0.0;   ///< Σ |δA| / A of harmonics beyond, estimated
+};
+
 struct ResponseCurve {
   std::vector<ResponsePoint> points;  ///< converged points only
   bool complete = false;
@@ -90,6 +97,8 @@ struct ResponseCurve {
       0;                ///< of the step control: what the contact does at a place (step_states.hpp)
   long state_cuts = 0;  ///< steps it has cut
   double seconds = 0.0;
+  /// Where harmonics were chosen and the curve has fewer, or the choice was cut short.
+  SettledPeak settled_peak;
 };
 
 }  // namespace microslip::solver

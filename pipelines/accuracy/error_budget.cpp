@@ -10,6 +10,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -65,7 +66,14 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
 void add_harmonics(CurveBudget& budget, const CurveResult& result,
                    const solver::ResponsePoint& peak) {
-  if (!result.richer) {
+  const solver::SettledPeak& settled = result.curve.settled_peak;
+  if (!result.richer && settled.amplitude > 0.0) {
+    const double change = settled.amplitude / peak.amplitude - 1.0;
+    add_rows(budget, result.name, "harmonics",
+             {change + std::copysign(settled.left_out, change),
+              settled.frequency / peak.frequency - 1.0},
+             true, 0.0);
+  } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
   } else if (result.richer->change) {
     add_rows(budget, result.name, "harmonics",
@@ -104,6 +112,10 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
   budget.unknown = richer.unknown;
   add_harmonics(budget, result, *peak);
   for (const RicherModel& other : richer.models) {
+    if (time_is_short()) {
+      budget.unknown.push_back(other.source);
+      continue;
+    }
     add_model(budget, model, scene, other, result, *load);
   }
   add_certificates(budget, model, result, *peak);

@@ -72,8 +72,8 @@ void add_global_options(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_flag("--resume", a.resume, "go on with a run that was interrupted or killed");
   app.add_option("--tolerance", a.tolerance,
-                 "accuracy asked for, e.g. 1% (not available in this version)");
-  app.add_option("--budget", a.budget, "time allowed, e.g. 60s (not available in this version)");
+                 "accuracy asked for of every peak, e.g. 1%: accuracy.tolerance of the scene");
+  app.add_option("--budget", a.budget, "wall time allowed, e.g. 60s: accuracy.budget of the scene");
   app.add_flag("--dry-run", a.dry_run, "check the scene and stop, as `check` does");
   auto* quiet = app.add_flag("-q,--quiet", a.quiet, "warnings and errors only");
   app.add_flag("-v,--verbose", a.verbose, "one line per solution point")->excludes(quiet);

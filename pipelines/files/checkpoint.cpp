@@ -70,11 +70,15 @@ auto members(Is<DetachedBranch> auto& value) {
   auto& [points, closed] = value;
   return std::tie(points, closed);
 }
+auto members(Is<SettledPeak> auto& value) {
+  auto& [frequency, amplitude, left_out] = value;
+  return std::tie(frequency, amplitude, left_out);
+}
 auto members(Is<ResponseCurve> auto& value) {
   auto& [points, complete, diagnosis, message, certificate, log, detached, n_starts, iterations,
-         evaluations, readings, cuts, seconds] = value;
+         evaluations, readings, cuts, seconds, settled_peak] = value;
   return std::tie(points, complete, diagnosis, message, certificate, log, detached, n_starts,
-                  iterations, evaluations, readings, cuts, seconds);
+                  iterations, evaluations, readings, cuts, seconds, settled_peak);
 }
 auto members(Is<RicherPeak> auto& value) {
   auto& [frequency, amplitude, change, highest, seconds] = value;
@@ -180,11 +184,17 @@ void Checkpoint::begin(const std::string& scene_toml) {
   write_whole(folder_ / "scene.toml", scene_toml);
 }
 
-void Checkpoint::end() {
+void Checkpoint::forget_parts() {
   std::error_code ignored;  // a leftover is found by the next run, which forgets it
-  for (const char* part : {"scene.toml", "curves", "mesh", "modes", "model"}) {
+  for (const char* part : {"curves", "mesh", "modes", "model"}) {
     fs::remove_all(folder_ / part, ignored);
   }
+}
+
+void Checkpoint::end() {
+  std::error_code ignored;
+  fs::remove(folder_ / "scene.toml", ignored);
+  forget_parts();
 }
 
 template <typename Part>

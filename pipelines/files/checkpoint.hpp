@@ -33,6 +33,8 @@ class Checkpoint {
   /// Forgets the parts of the run before and keeps the scene of this one; does nothing in a run that is resumed.
   /// @throws ExhaustedError  it cannot be written.
   void begin(const std::string& scene_toml);
+  /// Only the scene is left: a resumed run starts from the beginning.
+  void forget_parts();
   /// The run is complete: nothing is left to resume.
   void end();
 

@@ -134,6 +134,15 @@ Json to_json(const ErrorRow& row) {
           {"gain_per_second", gain}};
 }
 
+Json to_json(const AccuracySummary& accuracy) {
+  const bool known = std::isfinite(accuracy.reached);
+  return {{"asked", accuracy.asked > 0.0 ? Json(accuracy.asked) : Json("off")},
+          {"reached", known ? Json(accuracy.reached) : Json(nullptr)},
+          {"refined", accuracy.refined},
+          {"out_of_time", accuracy.out_of_time},
+          {"message", accuracy.message}};
+}
+
 /// Curves, each with its bar and the digits it allows.
 Json curves_json(const RunSummary& summary) {
   Json curves = to_array(summary.curves);
@@ -252,7 +261,8 @@ std::string summary_json(const RunSummary& summary, int indent) {
                   {"curves", curves_json(summary)},
                   {"optimum", summary.optimum ? to_json(*summary.optimum) : Json(nullptr)},
                   {"effects", to_array(summary.effects)},
-                  {"error_budget", to_array(summary.error_budget)}};
+                  {"error_budget", to_array(summary.error_budget)},
+                  {"accuracy", summary.accuracy ? to_json(*summary.accuracy) : Json(nullptr)}};
   constexpr char space = ' ';
   // A name that is not UTF-8 is written with replacement characters rather than lost with the run.
   return json.dump(indent, space, false, Json::error_handler_t::replace);

@@ -16,6 +16,7 @@
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -195,6 +196,7 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.orders = harmonics.orders;
   options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = response.search_starts;
+  options.stop = [] { return interrupt_requested() || time_is_short(); };
   if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
     options.corrector = solver::ContinuationOptions::Corrector::few_jacobians;
@@ -236,9 +238,9 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
     *end = std::clamp(*end, (1.0 - beside) * top, (1.0 + beside) * top);
   }
   const auto begin = std::chrono::steady_clock::now();
-  const solver::ResponseCurve curve =
-      solver::trace_response(balanced_scene(model, load, options), options,
-                             [](const auto&) { return !interrupt_requested(); });
+  const solver::ResponseCurve curve = solver::trace_response(
+      balanced_scene(model, load, options), options,
+      [](const auto&) { return !interrupt_requested() && !time_is_short(); });
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const solver::ResponsePoint* peak = highest_peak(curve);
   if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
@@ -254,7 +256,7 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   const solver::ResponseCurve& curve = result.curve;
   const int highest = harmonics_to_check(model, scene);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
-  if (curve.diagnosis == "interrupted" || interrupt_requested()) return;
+  if (curve.diagnosis == "interrupted" || interrupt_requested() || time_is_short()) return;
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;

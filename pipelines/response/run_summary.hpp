@@ -84,6 +84,15 @@ struct OptimumSummary {
   double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
 };
 
+/// The accuracy that was asked for.
+struct AccuracySummary {
+  double asked = 0.0;                ///< relative; 0: settings as written
+  double reached = 0.0;              ///< the largest bar of all curves; infinite: one is not known
+  std::vector<std::string> refined;  ///< what was refined, round by round
+  bool out_of_time = false;  ///< what was asked for is not there, with more time it would be
+  std::string message;       ///< in words; empty: reached
+};
+
 struct RunSummary {
   std::string version;
   std::string scene;  ///< file name of the scene, without its folder
@@ -100,6 +109,7 @@ struct RunSummary {
   std::vector<EffectRecord> effects;
   std::vector<std::string> warnings;
   std::vector<ErrorRow> error_budget;
+  std::optional<AccuracySummary> accuracy;
 };
 
 [[nodiscard]] CurveSummary summarise(const CurveResult& result);

@@ -9,6 +9,7 @@
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
 
@@ -22,6 +23,8 @@ double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& p
   const double frequency_hz = point.frequency / (2.0 * std::numbers::pi);
   return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
 }
+
+bool goes_on() { return !interrupt_requested() && !time_is_short(); }
 
 void stop_if_interrupted(const std::string& kept) {
   if (!interrupt_requested()) return;
@@ -48,13 +51,13 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       record.progress().point(
           requests[i].name, point,
           (static_cast<double>(done) + share) / static_cast<double>(requests.size()));
-      return !interrupt_requested();
+      return goes_on();
     };
     if (auto before = record.finished_curve(requests[i].name)) {
       results[i] = std::move(*before);
     } else {
       results[i] = trace_curve(model, scene, requests[i], observe);
-      if (!interrupt_requested()) record.keep_finished(results[i]);  // else it may be cut short
+      if (goes_on()) record.keep_finished(results[i]);  // else it may be cut short
     }
     ++done;
     const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
@@ -67,24 +70,39 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   return results;
 }
 
-void tell_errors(const ReducedModel& model, const SceneDescription& scene,
-                 const SolvedStructure* structure, int jobs, std::vector<CurveResult>& curves,
-                 RunRecord& record) {
-  if (!scene.error_budget || model.patches.empty()) return;
+std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDescription& scene,
+                                      int jobs, Progress& progress) {
+  const std::vector<CurveRequest> requests = curve_requests(scene);
+  std::vector<CurveResult> results(requests.size());
+  std::atomic<std::size_t> done{0};
+  in_parallel(requests.size(), jobs, [&](std::size_t i) {
+    stop_if_interrupted("curves");
+    results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
+      progress.point(requests[i].name, point,
+                     static_cast<double>(done) / static_cast<double>(requests.size()));
+      return goes_on();
+    });
+    ++done;
+  });
+  stop_if_interrupted("curves");
+  return results;
+}
+
+std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescription& scene,
+                                    const SolvedStructure* structure, int jobs,
+                                    std::vector<CurveResult>& curves, Progress& progress) {
+  if (!scene.accuracy.error_budget || model.patches.empty()) return {};
   const RicherModels richer = richer_models(model, scene, structure);
-  if (!richer.note.empty()) record.progress().info(richer.note);
+  if (!richer.note.empty()) progress.info(richer.note);
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
     budgets[i] = error_budget(model, scene, richer, curves[i]);
-  });
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const CurveBudget& budget = budgets[i];
-    if (budget.has_bar()) {
-      curves[i].bar = bar_of(budget.rows, curves[i].name, peak_amplitude_goal);
+    if (budgets[i].has_bar()) {
+      curves[i].bar = bar_of(budgets[i].rows, curves[i].name, peak_amplitude_goal);
     }
-    record.keep_budget(budget, curves[i], model);
-  }
+  });
+  return budgets;
 }
 
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,

@@ -17,14 +17,23 @@ namespace microslip::pipelines {
                                                     const SceneDescription& scene, int jobs,
                                                     RunRecord& record);
 
+/// The same, of which nothing is kept but the progress.
+/// @return curves that are cut short where the time is.
+[[nodiscard]] std::vector<CurveResult> trace_unkept(const ReducedModel& model,
+                                                    const SceneDescription& scene, int jobs,
+                                                    Progress& progress);
+
 /// Contact maps where the scene asks for them, and the motion of the blade at the peaks.
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, RunRecord& record);
 
-/// Tells how far every curve can be trusted, unless the scene wants it not; their bars are set.
+/// How far every curve can be trusted; their bars are set.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
-void tell_errors(const ReducedModel& model, const SceneDescription& scene,
-                 const SolvedStructure* structure, int jobs, std::vector<CurveResult>& curves,
-                 RunRecord& record);
+/// @return one per curve; none where the scene wants it not.
+[[nodiscard]] std::vector<CurveBudget> budgets_of(const ReducedModel& model,
+                                                  const SceneDescription& scene,
+                                                  const SolvedStructure* structure, int jobs,
+                                                  std::vector<CurveResult>& curves,
+                                                  Progress& progress);
 
 }  // namespace microslip::pipelines

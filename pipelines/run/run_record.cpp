@@ -52,6 +52,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
     : folder_(options.output),
       start_(is_begun(folder_) ? options.start : RunStart::anew),
       checkpoint_(folder_, start_ == RunStart::resumed),
+      refines_(scene.accuracy.tolerance > 0.0),
       rank_(options.rank),
       writes_(options.rank == 0),
       progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
@@ -119,7 +120,7 @@ std::optional<CurveResult> RunRecord::finished_curve(const std::string& name) co
 }
 
 void RunRecord::keep_finished(const CurveResult& result) const {
-  if (writes_) checkpoint_.keep("curves/" + result.name, result);
+  if (writes_ && resumable_) checkpoint_.keep("curves/" + result.name, result);
 }
 
 RunRecord::~RunRecord() {
@@ -167,7 +168,7 @@ int RunRecord::finish() {
   progress_.finish();
   const std::lock_guard lock(mutex_);
   summary_.exit_code = verdict();
-  summary_.message.clear();
+  summary_.message = summary_.accuracy ? summary_.accuracy->message : "";
   if (place_) place_->remove_earlier();
   write_summary_file();
   if (writes_) checkpoint_.end();
@@ -199,7 +200,7 @@ void RunRecord::show_what_is_new() {
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   begin();
   show_stage();  // before the checkpoint says that the mesh is in its place
-  if (writes_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
+  if (writes_ && resumable_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
   progress_.info(describe_mesh(mesh, density));
   for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
@@ -217,7 +218,7 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   summary_.modes =
       summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {}, n_attachment);
   if (!writes_) return;
-  if (!checkpoint_.find<StructureModes>("modes")) checkpoint_.keep("modes", modes);
+  if (resumable_ && !checkpoint_.find<StructureModes>("modes")) checkpoint_.keep("modes", modes);
   write_modes_csv(staged_ / "modes.csv",
                   {modes.basis.frequency, modes.basis.residual, damping_ratio, {}, n_attachment});
   write_modes_vtu(staged_ / "modes.vtu", mesh, modes.basis);
@@ -226,6 +227,19 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
 void RunRecord::keep_effects(std::vector<EffectRecord> effects) {
   const std::lock_guard lock(mutex_);
   summary_.effects = std::move(effects);
+}
+
+void RunRecord::begin_again() {
+  const std::lock_guard lock(mutex_);
+  summary_.curves.clear();
+  summary_.error_budget.clear();
+  resumable_ = false;
+  if (writes_) checkpoint_.forget_parts();
+}
+
+void RunRecord::keep_accuracy(AccuracySummary accuracy) {
+  const std::lock_guard lock(mutex_);
+  summary_.accuracy = std::move(accuracy);
 }
 
 void RunRecord::keep_harmonics(const SceneDescription& scene) {
@@ -250,6 +264,7 @@ void RunRecord::keep_model(const ReducedModel& model) {
   write_modes_csv(staged_ / "modes.csv",
                   {model.frequency, residual, model.damping_ratio, fit_error, model.n_attachment});
   write_model(staged_ / "model.h5", model);
+  if (!resumable_) return;
   checkpoint_.require_same("model", fingerprint_of(staged_ / "model.h5"), "the contact model");
 }
 
@@ -293,7 +308,9 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
       progress_.warning(text);
   }
   warn_of_unsolved(result);
-  if (const std::string text = left_out_text(result); !text.empty()) progress_.warning(text);
+  if (const std::string text = left_out_text(result); !text.empty() && !refines_) {
+    progress_.warning(text);
+  }
   if (const auto* scale = std::get_if<double>(&result.preload);
       scale != nullptr && !in_newtons(model)) {
     summary.preload_scale = *scale;
@@ -407,7 +424,7 @@ void RunRecord::keep_report() {
     write_summary_file();  // the plots are drawn of it
     ended = summary_;
     ended.exit_code = verdict();
-    ended.message.clear();
+    ended.message = ended.accuracy ? ended.accuracy->message : "";
   }
   for (const std::string& warning : write_report(folder_, staged_, summary_json(ended))) {
     progress_.warning(warning);
@@ -455,6 +472,7 @@ void RunRecord::tell_failure(ExitCode code, const std::string& message) {
 ExitCode RunRecord::verdict() const {
   const bool complete = std::all_of(summary_.curves.begin(), summary_.curves.end(),
                                     [](const CurveSummary& curve) { return curve.complete; });
+  if (summary_.accuracy && summary_.accuracy->out_of_time) return ExitCode::exhausted;
   return complete ? ExitCode::complete : ExitCode::incomplete;
 }
 

@@ -64,6 +64,10 @@ class RunRecord {
   /// model.h5; a modal scene's modes.csv as well.
   void keep_effects(std::vector<EffectRecord> effects);
   void keep_model(const ReducedModel& model);
+  /// Forgets curves and errors, and what a resumed run would start from: those of finer settings come.
+  void begin_again();
+  /// The accuracy asked for and whether it is reached; not reached ends the run as one that is out of time.
+  void keep_accuracy(AccuracySummary accuracy);
   /// What the curves kept so far say about the harmonics chosen.
   void keep_harmonics(const SceneDescription& scene);
   /// Mesh and modes for pictures of the moving blade.
@@ -116,7 +120,9 @@ class RunRecord {
   RunStart start_;
   Checkpoint checkpoint_;
   std::string scene_toml_;
+  bool refines_;  ///< what is left out is taken in by itself, without being told to
   bool begun_ = false;
+  bool resumable_ = true;  ///< what is kept is what a resumed run would find again
   int rank_;
   bool writes_;  ///< false on MPI ranks above 0
   Progress progress_;

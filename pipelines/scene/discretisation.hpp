@@ -35,6 +35,9 @@ struct HarmonicSettings {
   [[nodiscard]] bool chosen() const { return tolerance > 0.0; }
 };
 
+/// Of the accuracy asked for: what chosen harmonics may leave out.
+inline constexpr double share_of_harmonics = 0.5;
+
 /// Highest harmonic that "auto" may add.
 inline constexpr int most_automatic_harmonics = 31;
 

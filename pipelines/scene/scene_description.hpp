@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -166,6 +167,13 @@ struct ResponseDescription {
   int map_phases = 72;
 };
 
+/// [accuracy]
+struct AccuracyRequest {
+  bool error_budget = true;  ///< each choice of the discretisation is refined at the peaks
+  double tolerance = 0.0;    ///< of the peaks, relative; 0: settings as written
+  double budget = std::numeric_limits<double>::infinity();  ///< wall time of a run [s]
+};
+
 struct SceneDescription {
   std::string title;
   std::string kind;            ///< of its model, as written
@@ -186,7 +194,7 @@ struct SceneDescription {
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
   Discretisation settings;
-  bool error_budget = true;  ///< [accuracy] error_budget: each choice is refined at the peaks
+  AccuracyRequest accuracy;
 };
 
 /// The modes a scene has from another code; nullptr: none.

@@ -251,6 +251,34 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   scene.model = model;
 }
 
+/// A number, or "off": nothing.
+std::optional<double> number_or_off(const SectionReader& s, std::string_view key) {
+  constexpr std::array<std::string_view, 1> words{"off"};
+  const toml::node& node = *s.node(key);
+  if (node.value<std::string>() == "off") return std::nullopt;
+  return s.number_or_word_in(node, key, words);
+}
+
+AccuracyRequest read_accuracy(const SectionReader& s, SceneDescription& scene) {
+  constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
+  AccuracyRequest accuracy;
+  accuracy.error_budget = s.word("error_budget", budgets) == "auto";
+  accuracy.tolerance = number_or_off(s, "tolerance").value_or(0.0);
+  accuracy.budget = number_or_off(s, "budget").value_or(accuracy.budget);
+  if (accuracy.tolerance == 0.0) return accuracy;
+  if (!accuracy.error_budget) {
+    s.fail("tolerance", "accuracy.error_budget = \"off\" tells no errors to be kept below it",
+           s.node("tolerance"));
+  }
+  if (scene.response && scene.response->method == ResponseDescription::Method::time) {
+    s.fail("tolerance", "response.method = \"time\" has settings of its own and no error budget",
+           s.node("tolerance"));
+  }
+  HarmonicSettings& harmonics = scene.settings.harmonics;
+  if (harmonics.chosen()) harmonics.tolerance = share_of_harmonics * accuracy.tolerance;
+  return accuracy;
+}
+
 SceneDescription scene_of(toml::table given, const std::string& name,
                           const std::filesystem::path& folder) {
   Reading reading{std::move(given), {}, name, folder};
@@ -277,9 +305,7 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   const SectionReader effects = reading.section("effects", "effects");
   scene.effects = read_effects(effects, scene);
   scene.settings.second_direction = read_second_direction(effects);
-  const SectionReader accuracy = reading.section("accuracy", "accuracy");
-  constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
-  scene.error_budget = accuracy.word("error_budget", budgets) == "auto";
+  scene.accuracy = read_accuracy(reading.section("accuracy", "accuracy"), scene);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

@@ -436,6 +436,11 @@ constexpr std::array effect_keys{
 };
 
 constexpr std::array accuracy_keys{
+    KeySpec{"tolerance", other, "1", "\"off\"", 0, 0.5, true,
+            "of every peak, e.g. \"2 %\": settings are refined until they are that exact; off: as "
+            "written"},
+    KeySpec{"budget", other, "s", "\"off\"", 0, unbounded, true,
+            "wall time of a run, e.g. \"60 s\"; then it ends with the best it has"},
     KeySpec{"error_budget", text, "", "\"auto\"", 0, 0, false,
             "what mesh, basis, cells, fit, harmonics … do to every peak: auto or off"},
 };

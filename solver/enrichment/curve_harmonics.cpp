@@ -53,6 +53,13 @@ std::optional<double> distance_to(const std::vector<SettledPeak>& known, const L
   return nearest;
 }
 
+bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
+
+void keep_settled(const std::vector<SettledPeak>& known, ResponseCurve& curve) {
+  if (known.empty()) return;
+  curve.settled_peak = *std::ranges::max_element(known, {}, &SettledPeak::amplitude);
+}
+
 void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
   sum.contact_evaluations += work.contact_evaluations;
@@ -86,11 +93,11 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       chosen.set = chosen.set.united(found.set.orders());
       chosen.left_out = std::max(chosen.left_out, found.left_out);
       chosen.settled = chosen.settled && found.settled;
-      if (found.peak && found.settled) chosen.known.push_back(found.richest);
+      if (found.peak) chosen.known.push_back(found.richest);
       is_lost = is_lost || !found.peak;
     }
     count(chosen, choice.work());
-    if (!is_lost || traces == most_traces) return chosen;
+    if (!is_lost || traces == most_traces || is_stopped(range)) return chosen;
     traced = trace(chosen.set);
     chosen.iterations += traced.iterations;
     chosen.contact_evaluations += traced.contact_evaluations;
@@ -131,17 +138,25 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
   for (int traces = 0; traces < most_traces; ++traces) {
     const CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
     add(chosen);
-    const bool is_new = chosen.set != set;
+    const bool is_new = chosen.set != set && !is_stopped(range);
     if (is_new) {
+      ResponseCurve richer = trace(chosen.set);
+      work.iterations += richer.iterations;
+      work.contact_evaluations += richer.contact_evaluations;
+      if (!richer.complete &&
+          is_stopped(range)) {  // a whole curve is worth more than half of a better one
+        work.settled = false;
+        keep_settled(chosen.known, curve);
+        break;
+      }
       set = chosen.set;
-      curve = trace(set);
-      work.iterations += curve.iterations;
-      work.contact_evaluations += curve.contact_evaluations;
+      curve = std::move(richer);
     }
+    keep_settled(chosen.known, curve);
     const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
     add(checked);
     if (!is_new) break;
-    if (checked.settled || curve.diagnosis == "interrupted") break;
+    if (checked.settled || is_stopped(range) || curve.diagnosis == "interrupted") break;
   }
   curve.iterations = work.iterations;
   curve.contact_evaluations = work.contact_evaluations;

@@ -40,7 +40,7 @@ struct CurveHarmonics {
                                              ResponseCurve& curve);
 
 /// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
-/// its own peaks ask for more.
+/// its own peaks ask for more. Stopped, it is the last one that is complete.
 /// @param first  traces the curve that the choice begins with; it is the result where its set is enough.
 /// @param trace  traces the curve that is given.
 [[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,

@@ -40,6 +40,7 @@ class Climb {
     now_ = *first;
     if (start_.place == PeakPlace::range_end) return result();
     for (int i = 0; i < most_steps; ++i) {
+      if (range_.stop && range_.stop()) return std::nullopt;
       if (std::abs(now_.slope) <= level) return result();
       (now_.slope > 0.0 ? rising_ : falling_) = now_;
       if (is_bracketed() && std::abs(falling_->way - rising_->way) < narrowest) return result();

@@ -138,6 +138,7 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
 void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
   const double tolerance = range_.harmonic_tolerance;
   for (int round = 0; result.peak && round < most_rounds; ++round) {
+    if (range_.stop && range_.stop()) return;
     const Estimate now = estimate(result.set, *result.peak);
     result.left_out = now.sum;
     const bool small = now.sum <= may_be_left_out * tolerance && now.resonant.empty();
@@ -191,6 +192,7 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
   std::size_t too_many = order.size() + 1;  // cannot
   for (std::size_t n = std::max<std::size_t>(sure, 1); n > out && n < too_many;
        n = (out + too_many) / 2) {
+    if (range_.stop && range_.stop()) return;
     std::vector<int> kept = rich.set.orders();
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(n);
     std::erase_if(kept, [&](int k) { return std::find(order.begin(), end, k) != end; });

@@ -19,18 +19,12 @@
 
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/peak/local_peak.hpp"
+#include "solver/response_curve.hpp"
 
 namespace microslip::solver {
 
 /// What every motion has: the first harmonic and those of the excitation.
 [[nodiscard]] HarmonicSet least_harmonics(const Scene& scene);
-
-/// A peak with all harmonics that were solved for.
-struct SettledPeak {
-  double frequency = 0.0;  ///< [rad/s]
-  double amplitude = 0.0;  ///< [m]; 0: none
-  double left_out = 0.0;   ///< Σ |δA| / A of harmonics beyond, estimated
-};
 
 struct PeakHarmonics {
   HarmonicSet set{1};

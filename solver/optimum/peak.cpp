@@ -139,6 +139,18 @@ class Search {
         peaks_(family, range, trace_options(options)) {}
 
   Optimum run() {
+    try {
+      return searched();
+    } catch (const SearchStopped&) {
+      is_stopped_ = true;
+      const std::vector<PeakOfParameter> known = peaks_.result().peaks;
+      if (!known.empty()) result_.best = *lowest(known);
+      return finished();
+    }
+  }
+
+ private:
+  Optimum searched() {
     peaks_.trace();
     const auto followed = [&](double parameter) { return peaks_.highest(parameter).amplitude; };
     const auto on_whole_curves = [&](double parameter) {
@@ -160,7 +172,6 @@ class Search {
     return finished();
   }
 
- private:
   static PeakTraceOptions trace_options(const OptimumOptions& options) {
     return {.lower = options.lower,
             .upper = options.upper,
@@ -335,6 +346,7 @@ class Search {
 
   /// Why the lowest value is not the optimum; empty: it is.
   [[nodiscard]] std::string objection() const {
+    if (is_stopped_) return "out of time: the search was stopped before its end";
     if (!is_settled_) {
       return sentence("not settled: peaks beside those followed kept appearing, the last near ",
                       result_.best.parameter);
@@ -391,6 +403,7 @@ class Search {
   OptimumOptions options_;
   bool one_frequency_;
   bool is_settled_ = true;
+  bool is_stopped_ = false;
   PeakFamilies peaks_;
   std::set<std::array<double, 3>>
       searched_;  // valleys of the present search, with their neighbours

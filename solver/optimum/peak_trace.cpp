@@ -154,12 +154,15 @@ bool PeakFamilies::needs_curve(double position) const {
 }
 
 const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_starts) {
+  if (range_.stop && range_.stop()) throw SearchStopped{};
   const auto known = curves_.find(position);
   if (known != curves_.end() && known->second.search_starts >= search_starts) return known->second;
   const Scene scene = family_(parameter(position));
   ContinuationOptions range = range_;
   range.search_starts = std::max(range.search_starts, search_starts);
-  const ResponseCurve curve = trace_response(scene, range);
+  const ResponseCurve curve = trace_response(
+      scene, range, [&](const ResponsePoint&) { return !(range.stop && range.stop()); });
+  if (curve.diagnosis == "interrupted") throw SearchStopped{};
   ++result_.n_curves;
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
@@ -242,6 +245,7 @@ bool PeakFamilies::cut(Peaks& peaks, double position) {
 
 std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const_iterator nearest,
                                                 double target) {
+  if (range_.stop && range_.stop()) throw SearchStopped{};
   const LocalPeak& a = nearest->second;
   BranchVector guess = a.point;
   const auto after = std::next(nearest);

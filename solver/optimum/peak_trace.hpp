@@ -69,6 +69,9 @@ struct PeakTrace {
   double seconds = 0.0;
 };
 
+/// Thrown where ContinuationOptions::stop asks for an end; what was found until then is there.
+struct SearchStopped {};
+
 /// The peaks of a family that have been found so far, each followed as far as asked for.
 class PeakFamilies {
  public:

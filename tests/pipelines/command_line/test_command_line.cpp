@@ -144,10 +144,11 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
   expect("check scene.toml --set", 1, {"--set"});
 }
 
-TEST_F(Program, RefusesOptionsOfLaterVersionsByName) {
+TEST_F(Program, RefusesOptionsThatACommandDoesNotKnow) {
   write(path("scene.toml"), scene_text);
-  expect("--tolerance 1% run scene.toml", 1, {"--tolerance", "not available in this version"});
-  expect("run --budget 60s scene.toml", 1, {"--budget", "not available in this version"});
+  expect("--tolerance 1% modes scene.toml", 1, {"--tolerance", "modes solves no curve"});
+  expect("mesh --budget 60s scene.toml -o m.msh", 1, {"--budget", "mesh solves no curve"});
+  expect("--tolerance fast run scene.toml", 1, {"accuracy.tolerance", "off"});
   expect("converge --resume scene.toml", 1, {"--resume", "converge"});
   EXPECT_FALSE(exists("runs"));
 }

@@ -41,7 +41,7 @@ TEST(WriteSummary, HasTheKeysOfTheInterface) {
   const json run = json::parse(summary_json(small_run()));
   for (const char* key :
        {"program", "version", "machine", "libraries", "scene", "exit_code", "stages", "mesh",
-        "modes", "curves", "optimum", "effects", "error_budget"}) {
+        "modes", "curves", "optimum", "effects", "error_budget", "accuracy"}) {
     EXPECT_TRUE(run.contains(key)) << key;
   }
   EXPECT_EQ(run["program"], "microslip");

@@ -1,0 +1,19 @@
+/// @file
+/// Curves as exact as a scene asks for: solved, told how far they can be trusted, and solved again with what
+/// contributes most refined, until the bar of every peak is below the tolerance or the time is over.
+#pragma once
+
+#include "pipelines/run/run_record.hpp"
+#include "pipelines/run/solution.hpp"
+
+namespace microslip::pipelines {
+
+/// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one that was
+/// solved in time takes its place, there and in the record.
+/// @throws as model_of(), solved_structure().
+void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record);
+
+/// Keeps curves that are there and what their errors are.
+void keep_budgets(const Solution& solution, RunRecord& record);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,27 @@
+/// @file
+/// A scene with certain settings, solved as far as its curves.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/model/model_family.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+using StructurePointer = std::shared_ptr<const SolvedStructure>;
+
+struct Solution {
+  SceneDescription scene;
+  StructurePointer structure;  ///< nullptr: a kind that gives its modes itself
+  ReducedModel model;
+  std::vector<CurveResult> curves;
+  std::vector<CurveBudget> budgets;  ///< one per curve; none where they are not asked for
+};
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,35 @@
+#include "pipelines/system/deadline.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+
+namespace microslip::pipelines {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::atomic<double> allowed{std::numeric_limits<double>::infinity()};
+std::atomic<Clock::time_point> begin{Clock::now()};
+
+}  // namespace
+
+void begin_deadline(double seconds) {
+  begin = Clock::now();
+  allowed = seconds;
+}
+
+double seconds_spent() {
+  return std::chrono::duration<double>(Clock::now() - begin.load()).count();
+}
+
+double seconds_left() { return allowed - seconds_spent(); }
+
+bool time_is_short() {
+  constexpr double share = 0.1;
+  constexpr double least = 2.0;
+  return seconds_left() < std::max(share * allowed, least);
+}
+
+}  // namespace microslip::pipelines

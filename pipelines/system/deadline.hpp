@@ -1,0 +1,17 @@
+/// @file
+/// The wall time a run may take, for the stages to look at.
+#pragma once
+
+namespace microslip::pipelines {
+
+/// From now on. @param seconds  > 0; infinite: no end.
+void begin_deadline(double seconds);
+/// Seconds since begin_deadline(), and how many are left; infinite without an end.
+[[nodiscard]] double seconds_spent();
+[[nodiscard]] double seconds_left();
+
+/// Nothing that takes long is to be begun or gone on with: a tenth of the time, at least two seconds, is left to
+/// write down what there is.
+[[nodiscard]] bool time_is_short();
+
+}  // namespace microslip::pipelines

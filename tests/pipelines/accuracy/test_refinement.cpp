@@ -1,0 +1,87 @@
+#include "pipelines/accuracy/refinement.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double tolerance = 0.02;
+
+SceneDescription blade() {
+  SceneDescription scene;
+  scene.model = BladeModel{.geometry = {}, .element_size = 0.004};
+  scene.settings.patches.resize(1);
+  scene.settings.harmonics = {.highest = 1, .orders = {}, .tolerance = 0.0};
+  return scene;
+}
+
+CurveBudget budget(const std::vector<std::pair<std::string, double>>& effects) {
+  CurveBudget result;
+  for (const auto& [source, effect] : effects) {
+    result.rows.push_back({"curve", peak_amplitude_goal, source, effect, true, 1.0});
+  }
+  return result;
+}
+
+TEST(Refinement, RefinesWhatContributesMostAndNothingElse) {
+  std::string left;
+  const std::vector<CurveBudget> told{
+      budget({{"cells", 1e-3}, {"fit", 1e-5}, {"harmonics", -0.5}})};
+  EXPECT_DOUBLE_EQ(largest_bar(told), 0.50101);
+  const auto step = refinement(blade(), told, tolerance, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->scene.settings.harmonics.chosen());
+  EXPECT_LE(step->scene.settings.harmonics.tolerance, 0.5 * tolerance);
+  EXPECT_EQ(step->scene.settings.patches[0].n_points, blade().settings.patches[0].n_points);
+  EXPECT_FALSE(step->new_mesh);
+  EXPECT_EQ(left, "");
+}
+
+TEST(Refinement, SharesTheToleranceAmongSources) {
+  std::string left;
+  const auto step = refinement(
+      blade(), {budget({{"mesh", 0.03}, {"harmonics", 0.02}, {"cells", 0.01}})}, tolerance, left);
+  ASSERT_TRUE(step.has_value());
+  const double size = std::get<BladeModel>(step->scene.model).element_size;
+  EXPECT_TRUE(step->new_mesh);
+  EXPECT_LT(size, 0.004 * std::sqrt(tolerance / 0.03));
+  EXPECT_GE(step->scene.settings.patches[0].n_points, 4 * blade().settings.patches[0].n_points);
+  EXPECT_GE(step->factor, 4.0);
+}
+
+TEST(Refinement, ChosenHarmonicsAreChosenCloser) {
+  std::string left;
+  SceneDescription scene = blade();
+  scene.settings.harmonics.tolerance = 0.5 * tolerance;
+  const auto step = refinement(scene, {budget({{"harmonics", 0.03}})}, tolerance, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_DOUBLE_EQ(step->scene.settings.harmonics.tolerance, 0.25 * tolerance);
+}
+
+TEST(Refinement, HarmonicsThatCannotBeToldAreRefinedFirst) {
+  std::string left;
+  CurveBudget lost = budget({{"cells", 1e-4}});
+  lost.unknown.emplace_back("harmonics");
+  EXPECT_TRUE(std::isinf(largest_bar({lost})));
+  const auto step = refinement(blade(), {lost}, tolerance, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->scene.settings.harmonics.chosen());
+}
+
+TEST(Refinement, NamesWhatItCannotRefine) {
+  std::string left;
+  SceneDescription scene = blade();
+  scene.model = MeshFileModel{};
+  EXPECT_FALSE(refinement(scene, {budget({{"mesh", 0.05}})}, tolerance, left).has_value());
+  EXPECT_EQ(left, "mesh");
+}
+
+TEST(Refinement, CurvesWithoutABudgetHaveNoError) { EXPECT_EQ(largest_bar({CurveBudget{}}), 0.0); }
+
+}  // namespace
+}  // namespace microslip::pipelines
