@@ -63,6 +63,12 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
            {richer.share * by_amplitude, richer.share * by_frequency}, true, seconds_since(begin));
 }
 
+/// The choice of harmonics was cut short, or did not end.
+bool is_unsettled(const solver::ResponseCurve& curve) {
+  return std::ranges::any_of(
+      curve.log, [](const solver::SolverEvent& event) { return event.remedy == "harmonics-kept"; });
+}
+
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
 void add_harmonics(CurveBudget& budget, const CurveResult& result,
                    const solver::ResponsePoint& peak) {
@@ -73,6 +79,8 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
              {change + std::copysign(settled.left_out, change),
               settled.frequency / peak.frequency - 1.0},
              true, 0.0);
+  } else if (!result.richer && is_unsettled(result.curve)) {
+    budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
   } else if (result.richer->change) {
@@ -134,7 +142,7 @@ std::string budget_text(const CurveBudget& budget) {
     return std::abs(a.effect) > std::abs(b.effect);
   });
   if (!budget.has_bar()) {
-    return fmt::format("curve {}: its error is not known: more harmonics give another curve",
+    return fmt::format("curve {}: its error is not known: what more harmonics do was not found",
                        curve);
   }
   std::string text = fmt::format("curve {}: peak ± {:.2g} %, its frequency ± {:.2g} %:", curve,

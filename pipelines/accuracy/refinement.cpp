@@ -175,6 +175,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
     if (sum(refiner.errors()) <= wanted * tolerance || error <= idle * tolerance) break;
     if (refiner.refine(source)) {
       any = true;
+      if (refiner.errors().at(source) > tolerance) break;  // a step on the way
     } else {
       stuck.push_back(source);
     }

@@ -92,7 +92,12 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
                                     const SolvedStructure* structure, int jobs,
                                     std::vector<CurveResult>& curves, Progress& progress) {
   if (!scene.accuracy.error_budget || model.patches.empty()) return {};
-  const RicherModels richer = richer_models(model, scene, structure);
+  RicherModels richer;
+  if (time_is_short()) {
+    richer.note = "out of time: errors but those of the harmonics are not told";
+  } else {
+    richer = richer_models(model, scene, structure);
+  }
   if (!richer.note.empty()) progress.info(richer.note);
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
@@ -109,6 +114,10 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, RunRecord& record) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     stop_if_interrupted("curves");
+    if (time_is_short()) {
+      record.progress().warning("out of time: maps are left out");
+      return;
+    }
     for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
     if (const auto* peak = highest_peak(curves[i].curve)) {
       record.keep_motion(curves[i].name + "_peak", *peak);

@@ -138,7 +138,10 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
 void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
   const double tolerance = range_.harmonic_tolerance;
   for (int round = 0; result.peak && round < most_rounds; ++round) {
-    if (range_.stop && range_.stop()) return;
+    if (range_.stop && range_.stop()) {
+      if (round == 0) result.peak.reset();  // nothing is known of what it lacks
+      return;
+    }
     const Estimate now = estimate(result.set, *result.peak);
     result.left_out = now.sum;
     const bool small = now.sum <= may_be_left_out * tolerance && now.resonant.empty();
