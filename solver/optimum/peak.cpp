@@ -12,6 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/enrichment/curve_harmonics.hpp"
+#include "solver/optimum/common_harmonics.hpp"
+
 namespace microslip::solver {
 namespace {
 
@@ -130,6 +133,8 @@ void check(const OptimumOptions& options) {
                                 "scale, and at least 3 points");
   }
 }
+
+constexpr const char* out_of_time = "out of time: the search was stopped before its end";
 
 class Search {
  public:
@@ -346,7 +351,7 @@ class Search {
 
   /// Why the lowest value is not the optimum; empty: it is.
   [[nodiscard]] std::string objection() const {
-    if (is_stopped_) return "out of time: the search was stopped before its end";
+    if (is_stopped_) return out_of_time;
     if (!is_settled_) {
       return sentence("not settled: peaks beside those followed kept appearing, the last near ",
                       result_.best.parameter);
@@ -382,7 +387,8 @@ class Search {
     result_.iterations = trace.iterations;
     result_.contact_evaluations = trace.contact_evaluations;
     if (result_.trace.empty()) {
-      result_.message = result_.objection = "no solution was found for any value";
+      result_.message = result_.objection =
+          is_stopped_ ? out_of_time : "no solution was found for any value";
       return std::move(result_);
     }
     // The one confirmed: others of the valley are lower by rounding at most.
@@ -410,6 +416,55 @@ class Search {
   Optimum result_;
 };
 
+/// Bounds that a search with few harmonics has narrowed.
+OptimumOptions about(const OptimumOptions& options, double best) {
+  constexpr double factor = 3.0;
+  constexpr double share = 0.25;  // of a linear scale
+  constexpr int n_scan = 5;
+  const bool logarithmic = options.scale == ParameterScale::logarithmic;
+  const double way = share * (options.upper - options.lower);
+  OptimumOptions near = options;
+  near.lower = std::max(options.lower, logarithmic ? best / factor : best - way);
+  near.upper = std::min(options.upper, logarithmic ? best * factor : best + way);
+  near.n_scan = std::min(options.n_scan, n_scan);
+  return near;
+}
+
+/// Where harmonics are chosen: few of them tell where the best value lies, to a factor of three; there it is searched
+/// with those that its own peak needs. What few do not find is searched everywhere.
+Optimum search_with_chosen(const SceneFamily& family, const ContinuationOptions& range,
+                           const OptimumOptions& options) {
+  constexpr int few = 3;
+  constexpr double rough = 1e-2;
+  OptimumOptions first_options = options;
+  first_options.search_starts = 0;
+  first_options.relative_tolerance = std::max(options.relative_tolerance, rough);
+  const HarmonicSet least = least_harmonics(family(options.upper));
+  ContinuationOptions lean = with_harmonics(range, least.united(HarmonicSet(few).orders()));
+  lean.search_starts = 0;
+  const Optimum first = Search(family, lean, first_options).run();
+  if (!first.found) return Search(family, range, options).run();
+  PeakWork work;
+  const ContinuationOptions chosen =
+      with_common_harmonics(family, {first.best.parameter}, range, work);
+  const OptimumOptions near = about(options, first.best.parameter);
+  Optimum result = Search(family, chosen, near).run();
+  const double rounding = 1e-9 * (near.upper - near.lower);
+  const double best = result.best.parameter;
+  const bool left = (best <= near.lower + rounding && near.lower > options.lower) ||
+                    (best >= near.upper - rounding && near.upper < options.upper);
+  if (left) result = Search(family, chosen, options).run();
+  result.iterations += first.iterations + work.iterations;
+  result.contact_evaluations += first.contact_evaluations + work.contact_evaluations;
+  result.n_curves += first.n_curves;
+  if (!left) {
+    result.notes.push_back(sentence("with few harmonics the best value is ", first.best.parameter) +
+                           sentence("; searched with those that it needs from ", near.lower) +
+                           sentence(" to ", near.upper));
+  }
+  return result;
+}
+
 }  // namespace
 
 Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
@@ -417,7 +472,8 @@ Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& rang
   check(options);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  Optimum optimum = Search(family, range, options).run();
+  Optimum optimum = range.harmonic_tolerance > 0.0 ? search_with_chosen(family, range, options)
+                                                   : Search(family, range, options).run();
   optimum.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return optimum;
 }

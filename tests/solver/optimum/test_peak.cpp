@@ -265,6 +265,42 @@ TEST(MinimisePeak, FindsTheBestPreloadOfPaperBNearThirtyNewtons) {
   }
 }
 
+TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
+  const SceneFamily family = [](double preload) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::use_event_cycles(scene);
+    return scene;
+  };
+  ContinuationOptions many =
+      frequency_range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 30.0);
+  many.n_harmonics = 9;
+  OptimumOptions options = preloads(20.0, 400.0);
+  options.relative_tolerance = 1e-2;
+  options.search_starts = 0;
+  const Optimum reference = minimise_peak(family, many, options);
+  ContinuationOptions chosen = many;
+  chosen.n_harmonics = 30;
+  chosen.harmonic_tolerance = 0.01;
+  const Optimum optimum = minimise_peak(family, chosen, options);
+  std::printf(
+      "%.4g N, %.4g m with chosen harmonics, %ld evaluations; %.4g N, %.4g m with 9, %ld\n",
+      optimum.best.parameter, optimum.best.amplitude, optimum.contact_evaluations,
+      reference.best.parameter, reference.best.amplitude, reference.contact_evaluations);
+  EXPECT_TRUE(optimum.found) << optimum.message;
+  EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude,
+              chosen.harmonic_tolerance * reference.best.amplitude);
+}
+
+TEST(MinimisePeak, StopsWithWhatThereIs) {
+  ContinuationOptions options = range();
+  int asked = 0;
+  options.stop = [&] { return ++asked > 200; };
+  const Optimum optimum = minimise_peak(rubbing, options, preloads(0.1, 100.0));
+  EXPECT_FALSE(optimum.found);
+  EXPECT_NE(optimum.message.find("out of time"), std::string::npos) << optimum.message;
+  EXPECT_FALSE(optimum.trace.empty());
+}
+
 TEST(MinimisePeak, SaysWhenNothingIsSolved) {
   // Rigid-body motion under a static load: no motion balances it, whatever the preload.
   const auto drifting = [](double preload) {
