@@ -9,7 +9,8 @@
 
 namespace microslip::mesh {
 
-/// Meshes the blade into `file`: format 4.1, binary, second order, curved on the surface.
+/// Meshes the blade into `file`: format 4.1, binary, second order, curved on the surface. A name that ends in .step
+/// takes the geometry itself, in millimetres.
 /// @throws MeshError or std::runtime_error  gmsh failed; its message.
 void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
                           const std::string& file);

@@ -1,6 +1,7 @@
 /// @file
-/// The program microslip-mesher: reads "key value" lines from standard input, meshes, writes one file.
-///   microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters
+/// The program microslip-mesher: reads a job from standard input, does it, writes one file.
+///   microslip-mesher OUTPUT MEMORY_MB PARENT_PID < job
+/// The first word of the job is its kind (blade, step_faces, step_mesh); lines of "key value" follow.
 /// It limits its own memory, and when its parent dies or it is asked to end, it goes and takes what it has
 /// written along: gmsh can crash, hang or eat memory on bad geometry.
 
@@ -16,6 +17,7 @@
 #include <string>
 
 #include "mesh/gmsh/gmsh_mesher.hpp"
+#include "mesh/gmsh/step_mesher.hpp"
 
 namespace {
 
@@ -61,11 +63,38 @@ void end_with(pid_t parent) {
   if (::getppid() != parent) ::_exit(1);  // it died before it could be watched
 }
 
+void mesh_blade(std::istream& job, const std::string& file) {
+  BladeGeometry geometry;
+  double element_size = 0.0;
+  auto names = names_of(geometry);
+  names["element_size"] = &element_size;
+  for (std::string key; job >> key;) {
+    const auto found = names.find(key);
+    if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
+    if (!(job >> *found->second)) throw std::invalid_argument(key + ": expected a number");
+  }
+  microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, file);
+}
+
+void do_job(const std::string& file) {
+  std::string kind;
+  std::cin >> kind;
+  if (kind == "blade") {
+    mesh_blade(std::cin, file);
+  } else if (kind == "step_faces") {
+    microslip::mesh::list_step_faces(std::cin, file);
+  } else if (kind == "step_mesh") {
+    microslip::mesh::mesh_step_with_gmsh(std::cin, file);
+  } else {
+    throw std::invalid_argument("unknown job " + kind);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::cerr << "usage: microslip-mesher OUTPUT.msh MEMORY_MB PARENT_PID < parameters\n";
+    std::cerr << "usage: microslip-mesher OUTPUT MEMORY_MB PARENT_PID < job\n";
     return 1;
   }
   output = argv[1];
@@ -77,16 +106,7 @@ int main(int argc, char** argv) {
   }
   limit_memory(memory);
   try {
-    BladeGeometry geometry;
-    double element_size = 0.0;
-    auto names = names_of(geometry);
-    names["element_size"] = &element_size;
-    for (std::string key; std::cin >> key;) {
-      const auto found = names.find(key);
-      if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
-      if (!(std::cin >> *found->second)) throw std::invalid_argument(key + ": expected a number");
-    }
-    microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, argv[1]);
+    do_job(argv[1]);
   } catch (const std::bad_alloc&) {
     std::cerr << "out of memory\n";
     return 4;

@@ -12,12 +12,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
 
+#include "mesh/import/mesher_job.hpp"
 #include "mesh/mesh_error.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
@@ -40,15 +42,13 @@ fs::path mesher_program() {
   throw MeshError("the program microslip-mesher is not beside microslip; build all targets");
 }
 
-std::string parameters(const BladeGeometry& g, double element_size) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(17);
-  text << "element_size " << element_size << "\nroot_width " << g.root_width << "\nroot_height "
-       << g.root_height << "\nroot_length " << g.root_length << "\nplatform_width "
-       << g.platform_width << "\nplatform_height " << g.platform_height << "\nplatform_length "
-       << g.platform_length << "\nspan " << g.span << "\nroot_chord " << g.root_chord
-       << "\ntip_chord " << g.tip_chord << "\nroot_thickness " << g.root_thickness
+std::string blade_job(const BladeGeometry& g, double element_size) {
+  std::ostringstream text = job_text();
+  text << "blade\nelement_size " << element_size << "\nroot_width " << g.root_width
+       << "\nroot_height " << g.root_height << "\nroot_length " << g.root_length
+       << "\nplatform_width " << g.platform_width << "\nplatform_height " << g.platform_height
+       << "\nplatform_length " << g.platform_length << "\nspan " << g.span << "\nroot_chord "
+       << g.root_chord << "\ntip_chord " << g.tip_chord << "\nroot_thickness " << g.root_thickness
        << "\ntip_thickness " << g.tip_thickness << "\nroot_stagger " << g.root_stagger
        << "\ntip_stagger " << g.tip_stagger << "\ncamber " << g.camber << "\nlean " << g.lean
        << '\n';
@@ -99,6 +99,7 @@ class AnonymousFile {
     std::string text(static_cast<std::size_t>(size - from), '\0');
     const ssize_t n = ::pread(descriptor_, text.data(), text.size(), from);
     text.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    text = std::regex_replace(text, std::regex("\x1b\\[[0-9;]*m"), "");  // OpenCASCADE's colours
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
     return from > 0 ? "…" + text : text;
   }
@@ -178,24 +179,36 @@ void judge(int status, const MesherLimits& limits, const std::string& said) {
 
 }  // namespace
 
-void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::path& file,
-                const MesherLimits& limits) {
-  check_geometry(geometry, element_size);
+std::ostringstream job_text() {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  return text;
+}
+
+void run_mesher(const std::string& job, const fs::path& file, const MesherLimits& limits) {
   if (!(limits.seconds > 0.0) || !(limits.memory_mb > 0.0)) {
     throw std::invalid_argument("mesher limits must be above 0 s and 0 MB");
   }
   const fs::path program = mesher_program();
-  const AnonymousFile input(parameters(geometry, element_size));
+  const AnonymousFile input(job);
   const AnonymousFile messages;
-  const ScratchFile mesh(file.string() + "." + std::to_string(::getpid()) + ".msh");
+  const ScratchFile scratch(file.string() + "." + std::to_string(::getpid()) +
+                            file.extension().string());
   const pid_t child =
-      start(program, input.descriptor(), mesh.path(), messages.descriptor(), limits.memory_mb);
+      start(program, input.descriptor(), scratch.path(), messages.descriptor(), limits.memory_mb);
   const int status = wait_for(child, limits);  // before its messages are read
   judge(status, limits, messages.tail());
   std::error_code error;
-  fs::rename(mesh.path(), file, error);
+  fs::rename(scratch.path(), file, error);
   if (error)
-    throw MeshError("the mesher left no mesh at " + file.string() + ": " + error.message());
+    throw MeshError("the mesher left nothing at " + file.string() + ": " + error.message());
+}
+
+void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::path& file,
+                const MesherLimits& limits) {
+  check_geometry(geometry, element_size);
+  run_mesher(blade_job(geometry, element_size), file, limits);
 }
 
 }  // namespace microslip::mesh
