@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -13,10 +12,9 @@
 namespace microslip::pipelines {
 namespace {
 
-SolvedStructure with_element_size(SceneDescription scene, double factor) {
-  std::get<BladeModel>(scene.model).element_size *= factor;
+SolvedStructure with_element_size(const SceneDescription& scene, double factor) {
   const TemporaryFolder folder;
-  return solved_structure(scene, folder.path() / "mesh.msh");
+  return solved_structure(with_elements_scaled(scene, factor), folder.path() / "mesh.msh");
 }
 
 /// 2^p, see above.
@@ -50,7 +48,7 @@ Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
 
 std::optional<RicherModel> coarser_mesh(const ReducedModel& model, const SceneDescription& scene,
                                         std::string& note) {
-  if (!std::holds_alternative<BladeModel>(scene.model)) return std::nullopt;
+  if (!element_size_of(scene)) return std::nullopt;
   std::vector<std::string> warnings;
   try {
     const SolvedStructure twice = with_element_size(scene, 2.0);

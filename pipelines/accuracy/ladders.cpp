@@ -21,12 +21,11 @@ Rung rung(const SceneDescription& scene, std::string value, double size, const C
 
 Ladder of_element_size(const SceneDescription& scene) {
   Ladder ladder{"element_size", "mesh", {}};
-  const double given = std::get<BladeModel>(scene.model).element_size;
+  const double given = *element_size_of(scene);
   for (const double factor : {4.0, 2.0, 1.0, 2.0 / 3.0}) {
     const double size = factor * given;
-    ladder.rungs.push_back(rung(scene, fmt::format("{:.4g}", size), size, [&](auto& other) {
-      std::get<BladeModel>(other.model).element_size = size;
-    }));
+    ladder.rungs.push_back(rung(scene, fmt::format("{:.4g}", size), size,
+                                [&](auto& other) { other = with_elements_scaled(other, factor); }));
     ladder.rungs.back().same_mesh = factor == 1.0;
     ladder.rungs.back().same_basis = factor == 1.0;
   }
@@ -109,7 +108,7 @@ Ladder of_second_direction(const SceneDescription& scene) {
 
 std::vector<Ladder> ladders(const SceneDescription& scene) {
   std::vector<Ladder> result;
-  if (std::holds_alternative<BladeModel>(scene.model)) result.push_back(of_element_size(scene));
+  if (element_size_of(scene)) result.push_back(of_element_size(scene));
   if (!std::holds_alternative<ModalModel>(scene.model) && !scene.contacts.empty()) {
     result.push_back(of_modes(scene));
     if (scene.settings.basis.residual == ResidualKind::attachment) {

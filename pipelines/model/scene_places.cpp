@@ -12,6 +12,7 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/named_points.hpp"
 #include "pipelines/model/preload_shape.hpp"
+#include "pipelines/model/step_mesh.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -141,6 +142,7 @@ std::vector<PatchPreload> patch_preloads(const mesh::Mesh& mesh, const SceneDesc
 
 std::vector<std::string> describe_places(const mesh::Mesh& mesh, const SceneDescription& scene) {
   std::vector<std::string> lines;
+  if (const auto* step = std::get_if<StepModel>(&scene.model)) lines.push_back(unit_text(*step));
   std::size_t contact = 0;
   for (const ScenePlace& place : scene_places(mesh, scene)) {
     lines.push_back(line_of(place));

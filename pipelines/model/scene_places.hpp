@@ -43,7 +43,7 @@ struct PatchPreload {
                                                        const SceneDescription& scene,
                                                        std::size_t index);
 
-/// A line for each place, with nodes, area and centre; for each contact its axes and preloads; for each point given by
+/// The unit of a STEP file; a line for each place, with nodes, area and centre; for each contact its axes and preloads; for each point given by
 /// coordinates the distance of its node.
 [[nodiscard]] std::vector<std::string> describe_places(const mesh::Mesh& mesh,
                                                        const SceneDescription& scene);

@@ -15,10 +15,11 @@
 #include "pipelines/model/given_matrices.hpp"
 #include "pipelines/model/given_modes.hpp"
 #include "pipelines/model/mesh_file.hpp"
+#include "pipelines/model/mesher_limits.hpp"
 #include "pipelines/model/named_points.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
-#include "pipelines/system/interrupt.hpp"
+#include "pipelines/model/step_mesh.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -83,18 +84,16 @@ void require_name(const std::string& place, const LookUp& look_up) {
 }
 
 mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
-  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) {
-    mesh::MesherLimits limits;
-    limits.stop = interrupt_requested;
-    try {
-      mesh::mesh_blade(blade->geometry, blade->element_size, mesh_file, limits);
-    } catch (const mesh::MeshError&) {
-      if (interrupt_requested()) throw InterruptedError("interrupted while meshing");
-      throw;
-    }
-    return mesh::read_gmsh(mesh_file);
+  if (const auto* given = std::get_if<MeshFileModel>(&scene.model)) return read_mesh(*given);
+  if (const auto* step = std::get_if<StepModel>(&scene.model)) {
+    mesh_step_model(*step, mesh_file);
+  } else {
+    const auto& blade = std::get<BladeModel>(scene.model);
+    with_mesher([&](const mesh::MesherLimits& limits) {
+      mesh::mesh_blade(blade.geometry, blade.element_size, mesh_file, limits);
+    });
   }
-  return read_mesh(std::get<MeshFileModel>(scene.model));
+  return mesh::read_gmsh(mesh_file);
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::pat
 }
 
 mesh::Mesh reread_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
-  if (!std::holds_alternative<BladeModel>(scene.model)) return obtain_mesh(scene, mesh_file);
+  if (!element_size_of(scene)) return obtain_mesh(scene, mesh_file);
   mesh::Mesh mesh = mesh::read_gmsh(mesh_file);
   name_points(mesh, scene);
   return mesh;

@@ -14,9 +14,9 @@
 
 namespace microslip::pipelines {
 
-/// The mesh of a scene: the parametric blade is meshed into `mesh_file`, a given file is read; it knows the points
+/// The mesh of a scene: the parametric blade or a STEP file is meshed into `mesh_file`, a given mesh is read; it knows the points
 /// of the scene by name.
-/// @throws mesh::MeshError, std::invalid_argument  see mesh_blade and read_mesh.
+/// @throws mesh::MeshError, std::invalid_argument  see mesh_blade, mesh_step_model and read_mesh.
 /// @throws SceneError  see name_points().
 [[nodiscard]] mesh::Mesh obtain_mesh(const SceneDescription& scene,
                                      const std::filesystem::path& mesh_file);

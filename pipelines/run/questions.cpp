@@ -76,6 +76,8 @@ Findings density(const Facts& facts) {
   return of_material<&fem::Material::density>(facts, "material.density");
 }
 
+double longest_side(const mesh::Mesh& mesh) { return (mesh.upper() - mesh.lower()).maxCoeff(); }
+
 Findings element_size(const Facts& facts) {
   const auto* blade = std::get_if<BladeModel>(&facts.scene.model);
   if (blade == nullptr) return {};
@@ -83,6 +85,14 @@ Findings element_size(const Facts& facts) {
   const double height = g.root_height + g.platform_height + g.span;
   return {{"model.element_size", percent * blade->element_size / height,
            fmt::format("({:g} m)", blade->element_size)}};
+}
+
+/// The height of a body that others drew is known once it is meshed.
+Findings element_size_of_step(const Facts& facts) {
+  const auto* step = std::get_if<StepModel>(&facts.scene.model);
+  if (step == nullptr) return {};
+  return {{"model.element_size", percent * step->element_size / longest_side(*facts.mesh),
+           fmt::format("({:g} m)", step->element_size)}};
 }
 
 /// Of every contact whose coefficient is a number or a law; of all points of a scene without a mesh the largest.
@@ -134,8 +144,6 @@ Findings repeated_preload(const Facts& facts) {
 }
 
 // What it says of its mesh -----------------------------------------------------------------------
-
-double longest_side(const mesh::Mesh& mesh) { return (mesh.upper() - mesh.lower()).maxCoeff(); }
 
 Findings size(const Facts& facts) {
   const double mass = facts.scene.material.density * facts.mesh->volume();
@@ -301,6 +309,8 @@ constexpr std::array table{
              damping_ratio},
     Question{Stage::scene, "a load is given", "×", 1.0, 1.0, "", "each makes the same curve",
              repeated_preload},
+    Question{Stage::mesh, "the element size", "% of the blade's height", 0.1, 25.0, "",
+             "is it in millimetres? give the unit", element_size_of_step},
     Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 6.0, "blades 0.02 to 3",
              "is the file in another unit than length_unit says?", size},
     Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 50.0, "",

@@ -91,6 +91,11 @@ std::optional<double> read_length_unit(SectionReader& s, const std::filesystem::
   return 1.0;
 }
 
+void require_step_format(const SectionReader& s, const std::string& file) {
+  if (is_step_file(file)) return;
+  s.fail("file", fmt::format("\"{}\": STEP files end in .step or .stp", file), s.node("file"));
+}
+
 /// The mesh of a modes file: named, or the deck beside results of CalculiX.
 std::filesystem::path mesh_of_modes(SectionReader& s, const std::filesystem::path& modes,
                                     const std::filesystem::path& folder) {
@@ -130,6 +135,21 @@ bool is_rescaled(const SectionReader& s, bool has_density) {
 }
 
 }  // namespace
+
+StepModel read_step_file(SectionReader s, const std::filesystem::path& folder) {
+  static_cast<void>(s.integer("order"));
+  require_step_format(s, s.text("file"));
+  StepModel model;
+  model.file = absolute_file(s, "file", folder);
+  model.place = s.place("file");
+  model.element_size = s.number("element_size");
+  model.size_place = s.place("element_size");
+  model.length_place = s.place("length_unit");
+  if (const toml::node* unit = s.node("length_unit")) {
+    model.length_unit = read_unit(s, "length_unit", *unit, "mm", "m");
+  }
+  return model;
+}
 
 MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
   static_cast<void>(s.integer("order"));

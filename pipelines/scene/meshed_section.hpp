@@ -14,7 +14,8 @@ namespace microslip::pipelines {
 
 /// All throw SceneError with file, line and key.
 [[nodiscard]] BladeModel read_blade(const SectionReader& s);
-/// @param folder  what relative paths are relative to.
+/// Without its faces. @param folder  what relative paths are relative to.
+[[nodiscard]] StepModel read_step_file(SectionReader s, const std::filesystem::path& folder);
 [[nodiscard]] MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder);
 /// Modes of another code and their mesh. @param has_density  to rescale shapes by.
 [[nodiscard]] MeshFileModel read_modes_file(SectionReader s, const std::filesystem::path& folder,

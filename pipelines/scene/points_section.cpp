@@ -17,12 +17,7 @@ std::variant<Eigen::Vector3d, std::string> place_in(const SectionReader& s, std:
     s.fail(key, "expected a name in quotes, or coordinates [x, y, z]", &node);
   }
   if (list == nullptr) return s.text(key);
-  if (list->size() != 3) s.fail(key, "expected three coordinates [x, y, z]", &node);
-  Eigen::Vector3d coordinates;
-  for (std::size_t i = 0; i < 3; ++i) {
-    coordinates[static_cast<Eigen::Index>(i)] = s.number_in(*list->get(i), key);
-  }
-  return coordinates;
+  return coordinates_in(s, key);
 }
 
 auto found(const std::vector<PointDescription>& points, std::string_view name) {
@@ -30,6 +25,19 @@ auto found(const std::vector<PointDescription>& points, std::string_view name) {
 }
 
 }  // namespace
+
+Eigen::Vector3d coordinates_in(const SectionReader& s, std::string_view key) {
+  const toml::node& node = *s.node(key);
+  const toml::array* list = node.as_array();
+  if (list == nullptr || list->size() != 3) {
+    s.fail(key, "expected three coordinates [x, y, z]", &node);
+  }
+  Eigen::Vector3d coordinates;
+  for (std::size_t i = 0; i < 3; ++i) {
+    coordinates[static_cast<Eigen::Index>(i)] = s.number_in(*list->get(i), key);
+  }
+  return coordinates;
+}
 
 std::vector<PointDescription> read_points(const toml::table& table, const std::string& file,
                                           toml::table& complete) {

@@ -20,6 +20,9 @@ namespace microslip::pipelines {
                                                         const std::string& file,
                                                         toml::table& complete);
 
+/// Coordinates [x, y, z] of a key [m]. @throws SceneError  it is no such list.
+[[nodiscard]] Eigen::Vector3d coordinates_in(const SectionReader& s, std::string_view key);
+
 /// The name to look for in the mesh: that of an entry of [points] that is another name of a set is the set's.
 [[nodiscard]] std::string name_in_mesh(const std::vector<PointDescription>& points,
                                        std::string name);

@@ -28,6 +28,33 @@ struct BladeModel {
   double element_size = 0.004;  ///< [m]
 };
 
+/// A face of a STEP file by what a person sees of it: a point on it, its normal, or its number.
+struct FaceChoice {
+  std::optional<Eigen::Vector3d> point;   ///< on the face [m]
+  std::optional<Eigen::Vector3d> normal;  ///< outward, unit
+  std::optional<Eigen::Vector3d> near;    ///< of faces with that normal the nearest to it [m]
+  std::optional<int> number;              ///< as `microslip faces` tells
+  std::optional<double> size, edge_size;  ///< of elements on the face, and at its edges [m]
+};
+
+/// An entry of [faces].
+struct FaceDescription {
+  std::string name;
+  std::vector<FaceChoice> choices;  ///< one or several, together the surface
+  std::string place;                ///< "file:line: key", for messages
+};
+
+/// The solid of a STEP file, meshed here.
+struct StepModel {
+  std::filesystem::path file;         ///< absolute
+  double element_size = 0.004;        ///< [m]
+  std::optional<double> length_unit;  ///< metres per unit, in place of what the file says
+  std::vector<FaceDescription> faces;
+  std::string place;         ///< "file:line: key" of `file`, for messages
+  std::string length_place;  ///< … of `length_unit`
+  std::string size_place;    ///< … of `element_size`
+};
+
 /// Modes of another code, on the mesh of the model.
 struct ModesFile {
   std::filesystem::path file;  ///< absolute
@@ -178,7 +205,7 @@ struct SceneDescription {
   std::string title;
   std::string kind;            ///< of its model, as written
   std::filesystem::path file;  ///< the scene file, "" for text
-  std::variant<BladeModel, MeshFileModel, ModalModel> model;
+  std::variant<BladeModel, MeshFileModel, ModalModel, StepModel> model;
   fem::Material material;
   std::vector<std::string> clamped;
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
@@ -196,6 +223,29 @@ struct SceneDescription {
   Discretisation settings;
   AccuracyRequest accuracy;
 };
+
+/// Of a scene whose geometry is meshed here [m]; none: it has a mesh, or needs none.
+[[nodiscard]] inline std::optional<double> element_size_of(const SceneDescription& scene) {
+  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) return blade->element_size;
+  if (const auto* step = std::get_if<StepModel>(&scene.model)) return step->element_size;
+  return std::nullopt;
+}
+
+/// The same scene on elements so many times as large.
+[[nodiscard]] inline SceneDescription with_elements_scaled(SceneDescription scene, double factor) {
+  if (auto* blade = std::get_if<BladeModel>(&scene.model)) blade->element_size *= factor;
+  if (auto* step = std::get_if<StepModel>(&scene.model)) {
+    step->element_size *= factor;
+    for (FaceDescription& face : step->faces) {
+      for (FaceChoice& choice : face.choices) {
+        for (std::optional<double>* size : {&choice.size, &choice.edge_size}) {
+          if (*size) **size *= factor;
+        }
+      }
+    }
+  }
+  return scene;
+}
 
 /// The modes a scene has from another code; nullptr: none.
 [[nodiscard]] inline const ModesFile* given_modes(const SceneDescription& scene) {

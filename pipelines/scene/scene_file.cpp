@@ -13,6 +13,7 @@
 #include "pipelines/scene/chain_scene.hpp"
 #include "pipelines/scene/contact_section.hpp"
 #include "pipelines/scene/effects_section.hpp"
+#include "pipelines/scene/faces_section.hpp"
 #include "pipelines/scene/meshed_section.hpp"
 #include "pipelines/scene/modal_scene.hpp"
 #include "pipelines/scene/modes_section.hpp"
@@ -30,8 +31,8 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_scene = 64'000'000;  // bytes
-constexpr std::array<std::string_view, 7> kinds{"blade", "mesh",  "modes", "modal",
-                                                "bar",   "chain", "block"};
+constexpr std::array<std::string_view, 8> kinds{"blade", "step", "mesh",  "modes",
+                                                "modal", "bar",  "chain", "block"};
 
 /// The scene while it is read: what was given, and the completed scene that grows beside it.
 struct Reading {
@@ -156,6 +157,13 @@ void require_distinct(const std::vector<ContactDescription>& contacts) {
 SectionReader read_structure(Reading& reading, const std::string& kind, SceneDescription& scene) {
   if (kind == "blade") {
     scene.model = read_blade(reading.section("model", "model.blade"));
+  } else if (kind == "step") {
+    StepModel model = read_step_file(reading.section("model", "model.step"), reading.folder);
+    if (const toml::table* faces = reading.table("faces")) {
+      const auto [position, added] = reading.complete.insert_or_assign("faces", toml::table{});
+      model.faces = read_faces(*faces, reading.file, *position->second.as_table());
+    }
+    scene.model = std::move(model);
   } else {
     scene.model = read_mesh_file(reading.section("model", "model.mesh"), reading.folder);
   }

@@ -39,6 +39,25 @@ const Examples& mesh_examples() {
   return values;
 }
 
+const Examples& step_examples() {
+  static const Examples values = [] {
+    Examples examples = mesh_examples();
+    examples["model.file"] = "\"blade.step\"";
+    examples["model.element_size"] = "\"4 mm\"";
+    examples["model.length_unit"] = "";
+    examples["faces"] =
+        "root = { normal = [0, -1, 0], near = [0, 0, 0] }\n"
+        "contact = { point = [\"30 mm\", \"30 mm\", \"0 mm\"] }\n";
+    examples["excitation.forces"] =
+        "[\n  { at = [\"-13.0 mm\", \"149.1 mm\", \"-13.8 mm\"], direction = [1, 0, 0], "
+        "amplitude = \"0.5 N\", phase = 0 },\n]";
+    examples["response.output"] =
+        "{ at = [\"-1.5 mm\", \"149.1 mm\", \"-1.0 mm\"], direction = [1, 0, 0] }";
+    return examples;
+  }();
+  return values;
+}
+
 const Examples& modes_examples() {
   static const Examples values = [] {
     Examples examples = mesh_examples();
@@ -123,6 +142,7 @@ const Examples& block_examples() {
 }
 
 const Examples& examples_of(std::string_view kind) {
+  if (kind == "step") return step_examples();
   if (kind == "modes") return modes_examples();
   if (kind == "modal") return modal_examples();
   if (kind == "bar") return bar_examples();
@@ -157,6 +177,11 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
         "mm\"]\n",
         point_key("").meaning);
   }
+  if (name == "faces") {
+    text += "# names of your own for faces, each a table, or a list of tables:\n";
+    add_table_keys(text, "face");
+    text += values.at("faces");
+  }
   for (const KeySpec& key : section_spec(name, kind).keys) {
     std::string value(key.preset);
     if (name == "model" && key.name == "kind") value = fmt::format("\"{}\"", kind);
@@ -183,8 +208,8 @@ void add_section(std::string& text, std::string_view name, std::string_view kind
 
 std::string scene_template(std::string_view kind, const TemplateTexts& values,
                            const TemplateTexts& remarks) {
-  constexpr std::array<std::string_view, 7> kinds{"blade", "mesh",  "modes", "modal",
-                                                  "bar",   "chain", "block"};
+  constexpr std::array<std::string_view, 8> kinds{"blade", "step", "mesh",  "modes",
+                                                  "modal", "bar",  "chain", "block"};
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     throw SceneError(fmt::format("init: kind \"{}\" is not available; expected one of: {}", kind,
                                  fmt::join(kinds, ", ")));

@@ -8,10 +8,10 @@
 
 namespace microslip::pipelines {
 
-/// By the path of a key: "contact.surface".
+/// By the path of a key: "contact.surface"; of names of the user all lines of the section: "faces".
 using TemplateTexts = std::map<std::string, std::string, std::less<>>;
 
-/// @param kind     blade, mesh, modes, modal, bar, chain or block.
+/// @param kind     blade, step, mesh, modes, modal, bar, chain or block.
 /// @param values   that stand in place of the examples, as TOML; an empty one leaves an optional key out.
 /// @param remarks  lines more above a key.
 /// @throws SceneError  another kind.

@@ -72,7 +72,7 @@ std::string value_text(const toml::node& node) {
 
 std::string keys_text(const toml::table& table, std::string_view section, std::string_view kind) {
   std::string text;
-  if (section == "points") {
+  if (section == "points" || section == "faces") {
     for (const auto& [name, value] : table) {
       text += fmt::format("{} = {}\n", key_text(name.str()), value_text(value));
     }

@@ -15,12 +15,23 @@ constexpr std::string_view gmsh_ending = ".msh";
 constexpr std::array<std::string_view, 11> converted_endings{
     ".inp", ".bdf", ".nas", ".fem", ".unv", ".med", ".vtu", ".vtk", ".e", ".exo", ".ex2"};
 
-}  // namespace
-
-MeshFormat mesh_format(const std::filesystem::path& file) {
+/// Of the name, in small letters.
+std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+}  // namespace
+
+bool is_step_file(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".step" || ending == ".stp";
+}
+
+MeshFormat mesh_format(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
   if (ending == gmsh_ending) return MeshFormat::gmsh;
   const bool known = std::ranges::find(converted_endings, ending) != converted_endings.end();
   return known ? MeshFormat::converted : MeshFormat::unknown;

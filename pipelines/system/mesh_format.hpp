@@ -13,6 +13,9 @@ enum class MeshFormat { gmsh, converted, unknown };
 /// By the ending of the name, in capitals or not.
 [[nodiscard]] MeshFormat mesh_format(const std::filesystem::path& file);
 
+/// Whether its name ends in .step or .stp, in capitals or not.
+[[nodiscard]] bool is_step_file(const std::filesystem::path& file);
+
 /// ".msh, .inp, …", for messages.
 [[nodiscard]] std::string mesh_endings();
 

@@ -21,7 +21,7 @@ constexpr KeySpec length_key(std::string_view name, std::string_view preset,
 }
 
 constexpr KeySpec kind_key{
-    "kind", text, "", "", 0, 0, false, "blade | mesh | modes | modal | bar | chain | block"};
+    "kind", text, "", "", 0, 0, false, "blade | step | mesh | modes | modal | bar | chain | block"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
 constexpr std::array blade_keys{
@@ -46,6 +46,31 @@ constexpr std::array blade_keys{
     KeySpec{"camber", number, "1", "0.04", -0.3, 0.3, false,
             "height of the camber line over the chord"},
     KeySpec{"lean", number, "m", "\"-3 mm\"", -1.0, 1.0, false, "shift of the tip section along x"},
+};
+
+constexpr std::array step_keys{
+    kind_key,
+    KeySpec{"file", text, "", "", 0, 0, false,
+            "STEP file (.step, .stp) with one solid, relative to the scene"},
+    KeySpec{
+        "length_unit", other, "m", "", 0, 0, false,
+        "unit of the file's coordinates, \"mm\" or metres per unit, where the file does not say "
+        "it, or says another",
+        true},
+    length_key("element_size", "", "target edge length of the mesh"),
+    order_key,
+};
+
+constexpr std::array face_keys{
+    KeySpec{"point", other, "m", "", -unbounded, unbounded, false, "[x, y, z] on the face", true},
+    KeySpec{"normal", direction, "", "", 0, 0, false,
+            "outward normal of the face, in place of a point", true},
+    KeySpec{"near", other, "m", "", -unbounded, unbounded, false,
+            "[x, y, z] to which, of faces with that normal, it is the nearest", true},
+    KeySpec{"number", integer, "", "", 1, 1'000'000, false,
+            "of the face, as `microslip faces FILE` tells, in place of both", true},
+    KeySpec{"size", number, "m", "", 0.0, 10.0, true, "of the elements on the face", true},
+    KeySpec{"edge_size", number, "m", "", 0.0, 10.0, true, "of the elements at its edges", true},
 };
 
 constexpr std::array mesh_keys{
@@ -447,8 +472,11 @@ constexpr std::array accuracy_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 41> sections{{
+constexpr std::array<SectionSpec, 44> sections{{
     {"model.blade", blade_keys},
+    {"model.step", step_keys},
+    {"faces", named_by_the_user},
+    {"face", face_keys},
     {"model.mesh", mesh_keys},
     {"model.modes", modes_model_keys},
     {"material.modes", given_material_keys},
@@ -494,6 +522,9 @@ constexpr std::array<SectionSpec, 41> sections{{
 constexpr std::array<std::string_view, 10> mesh_sections{
     "model",   "material",   "supports", "modes",   "points",
     "contact", "excitation", "response", "effects", "accuracy"};
+constexpr std::array<std::string_view, 11> step_sections{
+    "model",   "faces",      "material", "supports", "modes",   "points",
+    "contact", "excitation", "response", "effects",  "accuracy"};
 constexpr std::array<std::string_view, 6> modal_sections{"model",    "modal",   "contact",
                                                          "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 9> given_modes_sections{"model",    "material", "modes",
@@ -526,7 +557,13 @@ KeySpec point_key(std::string_view name) {
           false,      "coordinates [x, y, z]: the nearest node; or a name of the mesh"};
 }
 
+KeySpec face_key(std::string_view name) {
+  return {name, other, "",    "",
+          0,    0,     false, "a face by a point, its normal or its number; or a list"};
+}
+
 std::span<const std::string_view> sections_of_kind(std::string_view kind) {
+  if (kind == "step") return step_sections;
   if (kind == "modes") return given_modes_sections;
   if (kind == "modal") return modal_sections;
   if (kind == "bar" || kind == "chain" || kind == "block") return lean_sections;

@@ -39,7 +39,7 @@ struct SectionSpec {
 };
 
 /// Keys of a section by the name of its table: "material"; "model.blade" and the like where a kind has
-/// keys of its own; "force", "output", "contact.chain.point" and their like the inline tables of that name;
+/// keys of its own; "face", "force", "output", "contact.chain.point" and their like the inline tables of that name;
 /// "modal.point" the columns of contact points, where "phi_u_N" stands for one of every mode.
 /// @throws std::logic_error  no such section: a mistake of the program.
 [[nodiscard]] SectionSpec section_spec(std::string_view name);
@@ -50,6 +50,9 @@ struct SectionSpec {
 
 /// An entry of [points], whose keys are names of the user.
 [[nodiscard]] KeySpec point_key(std::string_view name);
+
+/// An entry of [faces], the same.
+[[nodiscard]] KeySpec face_key(std::string_view name);
 
 /// Sections a scene of a kind may have, in the order of a template.
 [[nodiscard]] std::span<const std::string_view> sections_of_kind(std::string_view kind);

@@ -241,19 +241,47 @@ TEST(SceneFile, TextsOfTheCompletedSceneSurviveQuotesAndControls) {
 }
 
 TEST(SceneTemplate, IsAcceptedAsItIsAndHoldsTheDefaults) {
-  for (const char* kind : {"blade", "mesh", "modes", "modal", "bar", "chain"}) {
+  for (const char* kind : {"blade", "step", "mesh", "modes", "modal", "bar", "chain"}) {
     EXPECT_EQ(complaint(scene_template(kind)), "") << kind;
   }
   expect_complaint(
       [] {
         try {
-          static_cast<void>(scene_template("step"));
+          static_cast<void>(scene_template("plate"));
         } catch (const SceneError& error) {
           return std::string(error.what());
         }
         return std::string();
       }(),
-      {"step", "blade, mesh, modes, modal, bar, chain"});
+      {"plate", "blade, step, mesh, modes, modal, bar, chain"});
+}
+
+TEST(SceneFile, FacesOfAStepFileHaveNames) {
+  const SceneDescription scene =
+      parse(scene_template("step"), {"faces.tip=[{ number = 3 }, { point = ['1 mm', 0, 0], size = "
+                                     "'2 mm', edge_size = '1 mm' }]"});
+  const auto& step = std::get<StepModel>(scene.model);
+  ASSERT_EQ(step.faces.size(), 3U);
+  const FaceDescription& tip = step.faces.back();
+  EXPECT_EQ(tip.name, "tip");
+  ASSERT_EQ(tip.choices.size(), 2U);
+  EXPECT_EQ(tip.choices[0].number, 3);
+  EXPECT_DOUBLE_EQ(tip.choices[1].point->x(), 1e-3);
+  EXPECT_EQ(tip.choices[1].edge_size, 1e-3);
+  const SceneDescription again = parse(scene.complete_toml);
+  EXPECT_EQ(std::get<StepModel>(again.model).faces.back().choices[1].size, 2e-3);
+  EXPECT_EQ(*element_size_of(with_elements_scaled(again, 2.0)), 2.0 * step.element_size);
+}
+
+TEST(SceneFile, AFaceIsNamedInOneWay) {
+  const std::string text = scene_template("step");
+  expect_complaint(complaint(text, {"faces.tip={ size = 0.001 }"}), {"faces.tip", "here are 0"});
+  expect_complaint(complaint(text, {"faces.tip={ number = 1, normal = [1, 0, 0] }"}),
+                   {"faces.tip", "here are 2"});
+  expect_complaint(complaint(text, {"faces.tip={ number = 1, near = [1, 0, 0] }"}),
+                   {"near", "goes with normal"});
+  expect_complaint(complaint(text, {"faces.tip=7"}), {"faces.tip", "expected a table", "found 7"});
+  expect_complaint(complaint(text, {"faces.tip=[]"}), {"faces.tip", "the list is empty"});
 }
 
 // ---- overrides
