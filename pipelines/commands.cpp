@@ -15,9 +15,13 @@
 #include "pipelines/cycle/cycle_table.hpp"
 #include "pipelines/files/checkpoint.hpp"
 #include "pipelines/files/columns.hpp"
+#include "pipelines/files/write_faces.hpp"
 #include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/mesh_names.hpp"
 #include "pipelines/model/mesh_scene.hpp"
+#include "pipelines/model/mesher_limits.hpp"
+#include "pipelines/model/step_mesh.hpp"
+#include "pipelines/model/step_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/exit_code.hpp"
@@ -79,6 +83,13 @@ void require_mesh_format(const std::string& file) {
       fmt::format("{}: meshes are read from files that end in {}", file, mesh_endings()));
 }
 
+void require_step_format(const std::string& file) {
+  if (is_step_file(file)) return;
+  throw SceneError(fmt::format("{}: STEP files end in .step or .stp", file));
+}
+
+std::array<double, 3> array_of(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+
 }  // namespace
 
 void refuse_idle_options(const Arguments& arguments) {
@@ -95,12 +106,13 @@ void refuse_idle_options(const Arguments& arguments) {
   }
   const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
                            arguments.command != "report" && arguments.command != "columns" &&
-                           arguments.command != "surfaces";
+                           arguments.command != "surfaces" && arguments.command != "faces";
   if (!reads_scene && !arguments.overrides.empty()) {
     throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
   }
   if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report" ||
-                            arguments.command == "columns" || arguments.command == "surfaces")) {
+                            arguments.command == "columns" || arguments.command == "surfaces" ||
+                            arguments.command == "faces")) {
     throw SceneError(fmt::format("--dry-run: {} has nothing to leave out", arguments.command));
   }
 }
@@ -152,17 +164,34 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
   return study(scene, options_of(arguments, arguments.output));
 }
 
+namespace {
+
+int write_geometry(const BladeModel& blade, const std::filesystem::path& file, bool quiet) {
+  with_mesher([&](const mesh::MesherLimits& limits) {
+    mesh::mesh_blade(blade.geometry, blade.element_size, file, limits);
+  });
+  if (!quiet) std::cout << "written: " << file.string() << '\n';
+  return static_cast<int>(ExitCode::complete);
+}
+
+}  // namespace
+
 int mesh(Arguments& arguments) {
   if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
-  if (!std::holds_alternative<BladeModel>(scene.model)) {
-    throw SceneError(scene.file.string() +
-                     ": model.kind: this kind has no geometry to mesh; expected \"blade\"");
+  if (!element_size_of(scene)) {
+    throw SceneError(
+        scene.file.string() +
+        ": model.kind: this kind has no geometry to mesh; expected \"blade\" or \"step\"");
   }
   require_file_name(arguments.output, "-o");
-  if (std::filesystem::path(arguments.output).extension() != ".msh") {
+  const auto* blade = std::get_if<BladeModel>(&scene.model);
+  const std::filesystem::path ending = std::filesystem::path(arguments.output).extension();
+  const bool as_step = ending == ".step" && blade != nullptr;
+  if (!as_step && ending != ".msh") {
     throw SceneError(fmt::format(
-        "-o {}: expected a name that ends in .msh: gmsh's format is written", arguments.output));
+        "-o {}: expected a name that ends in .msh: gmsh's format is written{}", arguments.output,
+        blade != nullptr ? "; or in .step: the geometry itself" : ""));
   }
   const std::filesystem::path file = std::filesystem::absolute(arguments.output);
   if (!std::filesystem::is_directory(file.parent_path())) {
@@ -170,6 +199,7 @@ int mesh(Arguments& arguments) {
   }
   require_writable(file.parent_path());  // before the mesher works for nothing
   const InterruptWatch watch;
+  if (as_step) return write_geometry(*blade, file, arguments.quiet);
   return mesh_study(scene, options_of(arguments, arguments.output));
 }
 
@@ -180,21 +210,48 @@ int surfaces(Arguments& arguments) {
   std::cout << describe_names(read.mesh, read.length_unit);
   nlohmann::ordered_json& list = arguments.findings["surfaces"] = nlohmann::ordered_json::array();
   for (const MeshName& name : mesh_names(read.mesh)) {
-    const auto array = [](const Eigen::Vector3d& x) {
-      return std::array<double, 3>{x.x(), x.y(), x.z()};
-    };
     nlohmann::ordered_json entry{{"name", name.name},
                                  {"kind", kind_name(name.kind)},
                                  {"faces", name.n_faces},
                                  {"nodes", name.n_nodes},
                                  {"area", name.area},
-                                 {"centre", array(name.centre)},
-                                 {"normal", array(name.normal)},
+                                 {"centre", array_of(name.centre)},
+                                 {"normal", array_of(name.normal)},
                                  {"flatness", name.flatness}};
     list.push_back(std::move(entry));
   }
   nlohmann::ordered_json& unit = arguments.findings["length_unit"];
   if (read.length_unit) unit = *read.length_unit;
+  return static_cast<int>(ExitCode::complete);
+}
+
+int faces(Arguments& arguments) {
+  require_step_format(arguments.input);
+  if (!arguments.output.empty()) require_folder_name(arguments.output, "-o");
+  const InterruptWatch watch;
+  const StepBody body = open_step(arguments.input, std::nullopt);
+  std::cout << describe_faces(body);
+  const std::filesystem::path folder = arguments.output.empty() ? "." : arguments.output;
+  make_folder(folder);
+  const std::string stem = std::filesystem::path(arguments.input).stem().string() + "_faces";
+  const std::filesystem::path picture = folder / (stem + ".png");
+  write_faces_vtp(folder / (stem + ".vtp"), body.geometry);
+  const std::string failure = draw_faces(picture, unit_text(body), body.geometry);
+  if (!arguments.quiet) {
+    std::cout << fmt::format("written: {}{}\n", (folder / (stem + ".vtp")).string(),
+                             failure.empty() ? ", " + picture.string() : "");
+  }
+  for (const std::string& warning : {failure, size_doubt(body)}) {
+    if (!warning.empty()) std::cerr << "warning: " << warning << '\n';
+  }
+  nlohmann::ordered_json& list = arguments.findings["faces"] = nlohmann::ordered_json::array();
+  for (const mesh::StepFace& face : body.geometry.faces) {
+    list.push_back({{"number", face.number},
+                    {"kind", face.kind},
+                    {"area", face.area},
+                    {"centre", array_of(face.centre)},
+                    {"normal", array_of(face.normal)}});
+  }
   return static_cast<int>(ExitCode::complete);
 }
 
@@ -205,18 +262,20 @@ int columns(const Arguments& arguments) {
 
 namespace {
 
-/// `init KIND`, or `init mesh FILE`.
+/// `init KIND`, `init mesh FILE` or `init step FILE`; a STEP file is taken for what it is.
 std::string new_scene(const Arguments& arguments) {
   const std::string kind = arguments.input.empty() ? "blade" : arguments.input;
   if (arguments.mesh_file.empty()) return scene_template(kind);
-  if (kind != "mesh") {
-    throw SceneError(
-        fmt::format("init {} {}: a file goes with init mesh alone", kind, arguments.mesh_file));
+  if (kind != "mesh" && kind != "step") {
+    throw SceneError(fmt::format("init {} {}: a file goes with init mesh and init step alone", kind,
+                                 arguments.mesh_file));
   }
-  require_mesh_format(arguments.mesh_file);
+  const bool is_step = kind == "step" || is_step_file(arguments.mesh_file);
+  is_step ? require_step_format(arguments.mesh_file) : require_mesh_format(arguments.mesh_file);
   const InterruptWatch watch;
-  const auto here = std::filesystem::current_path();
-  return scene_of_mesh(arguments.mesh_file, (here / arguments.output).parent_path());
+  const auto folder = (std::filesystem::current_path() / arguments.output).parent_path();
+  return is_step ? scene_of_step(arguments.mesh_file, folder)
+                 : scene_of_mesh(arguments.mesh_file, folder);
 }
 
 }  // namespace

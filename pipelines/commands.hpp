@@ -17,7 +17,7 @@ namespace microslip::pipelines {
 struct Arguments {
   std::string command;
   std::string input;      // scene, table, kind or folder
-  std::string mesh_file;  // of `init mesh`
+  std::string mesh_file;  // of `init mesh`, `init step`
   std::string output;
   std::vector<std::string> overrides;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -46,6 +46,8 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
 int mesh(Arguments& arguments);
 /// What names a mesh file has.
 int surfaces(Arguments& arguments);
+/// What faces a STEP file has; a VTK file and a picture of them.
+int faces(Arguments& arguments);
 int init(const Arguments& arguments);
 /// Every column and array of the files, as Markdown.
 int columns(const Arguments& arguments);

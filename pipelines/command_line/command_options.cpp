@@ -83,11 +83,11 @@ void add_global_options(CLI::App& app, Arguments& a) {
 void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
   auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
                                    [&] { return init(a); });
-  init_command->add_option("kind", a.input, "blade, mesh, modes, modal, bar, chain or block")
+  init_command->add_option("kind", a.input, "blade, step, mesh, modes, modal, bar, chain or block")
       ->default_str("blade");
   init_command->add_option(
       "file", a.mesh_file,
-      "with kind mesh: a mesh whose names, size and unit the scene begins with");
+      "with kind mesh or step: a file whose names or faces, size and unit the scene begins with");
   with_output(init_command, a, "file to write; it must not exist");
   with_scene(add_command(app, a, chosen, "check",
                          "parse, check units and names, show mesh, effects and forecast; question "
@@ -104,9 +104,17 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       ->add_option("file", a.input,
                    "mesh: .msh, .inp, .bdf, .nas, .fem, .unv, .med, .vtu, .vtk, .e, .exo, .ex2")
       ->required();
+  auto* faces_command = add_command(
+      app, a, chosen, "faces",
+      "faces of a STEP file with number, kind, area, centre, normal; a VTK file and a picture",
+      [&] { return faces(a); });
+  faces_command->add_option("file", a.input, "STEP: .step, .stp")->required();
+  with_output(faces_command, a, "folder for STEM_faces.vtp and .png; default the working folder");
   auto* mesh_command = with_scene(
       add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
-  with_output(mesh_command, a, "gmsh file to write (.msh)")->get_option("--output")->required();
+  with_output(mesh_command, a, "gmsh file to write (.msh); of kind blade also its geometry (.step)")
+      ->get_option("--output")
+      ->required();
   auto* modes_command =
       with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
                              [&] { return run_scene(a, modes_study); }),

@@ -207,7 +207,7 @@ TEST_F(Program, InitOverwritesNothing) {
   write(path("mine.toml"), "precious");
   expect("init modal -o mine.toml", 1, {"mine.toml", "exists"});
   EXPECT_EQ(content_of(path("mine.toml")), "precious");
-  expect("init step", 1, {"step", "blade, mesh, modes, modal"});
+  expect("init plate", 1, {"plate", "blade, step, mesh, modes, modal"});
 }
 
 TEST_F(Program, NamesBadScenes) {
