@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -62,13 +63,12 @@ class StepSceneMaker {
   std::string make() {
     choose_faces();
     choose_points();
-    // Three elements over the mean thickness of a body: 2 V/A.
     double area = 0.0;
     for (const StepFace& face : geometry_.faces) area += face.area;
-    const double size = rounded(std::min(geometry_.volume / area, 0.1 * extent_.maxCoeff()));
+    const double size = rounded(std::min(2.0 * geometry_.volume / area, 0.1 * extent_.maxCoeff()));
     values_["model.element_size"] = fmt::format("\"{:g} mm\"", 1e3 * size);
     remarks_["model.element_size"] =
-        "CHECK: half the mean thickness of the body, 2 × volume / surface";
+        "CHECK: here the mean thickness of the body, 2 × volume / surface, rounded down";
     std::string text = "# What the file has (`microslip faces` draws it):\n";
     std::istringstream table(describe_faces(body_));
     for (std::string line; std::getline(table, line);) text += "#   " + line + '\n';
@@ -97,6 +97,18 @@ class StepSceneMaker {
     return best;
   }
 
+  /// From a plane across the longest side to the nearest corner of the face's triangles [m].
+  double distance(const StepFace& face, double plane) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < geometry_.owner.size(); ++i) {
+      if (geometry_.owner[i] != face.number) continue;
+      for (const Eigen::Index node : geometry_.triangles.row(static_cast<Eigen::Index>(i))) {
+        least = std::min(least, std::abs(geometry_.nodes(node, span_) - plane));
+      }
+    }
+    return least;
+  }
+
   void choose_faces() {
     const double low = geometry_.nodes.col(span_).minCoeff();
     const double high = geometry_.nodes.col(span_).maxCoeff();
@@ -106,15 +118,19 @@ class StepSceneMaker {
     };
     const StepFace* root = largest(at_end);
     if (root == nullptr) root = &geometry_.faces.front();
-    const StepFace* contact = largest([&](const StepFace& face) {
+    const auto along = [&](const StepFace& face) {
       return face.number != root->number && std::abs(face.normal[span_]) < 0.2;
+    };
+    const StepFace* contact = largest([&](const StepFace& face) {
+      return along(face) && distance(face, root->centre[span_]) > 1e-3 * extent_[span_];
     });
+    if (contact == nullptr) contact = largest(along);
     if (contact == nullptr) contact = &geometry_.faces.back();
     root_ = root->centre;
     values_["faces"] = fmt::format(
         "# CHOOSE what is held; here the larger plane face at an end of the longest side\n"
         "root = {{ number = {} }}\n# CHOOSE what rubs; here the largest plane face along that "
-        "side\n"
+        "side, away from it\n"
         "contact = {{ number = {} }}\n",
         root->number, contact->number);
     const Eigen::Vector3d in_face = Eigen::Vector3d::Ones() - contact->normal.cwiseAbs();

@@ -78,13 +78,13 @@ class StepFiles(unittest.TestCase):
 
     def test_same_as_the_parametric_blade(self):
         blade = os.path.join(SCENES, "blade_to_ground.toml")
-        program("modes", SCENE, "-o", "step_modes", *settings(COARSE))
-        program("modes", blade, "-o", "blade_modes", "--set", "model.element_size=6 mm")
+        for folder, scene in (("step_modes", SCENE), ("blade_modes", blade)):
+            program("modes", scene, "-o", folder, *settings(["model.element_size=6 mm", "modes.count=3", "modes.residual=none"]))
         frequencies = [[float(line.split(",")[1]) for line in text_of(os.path.join(path(folder), "modes.csv")).split("\n")[1:4]]
                        for folder in ("step_modes", "blade_modes")]
         for a, b in zip(*frequencies, strict=True):
             print(f"{a:.3f} Hz from STEP, {b:.3f} Hz from the parametric blade")
-            self.assertLess(abs(a / b - 1.0), 0.02)  # coarse meshes, and another outline
+            self.assertLess(abs(a / b - 1.0), 0.01)  # other meshes, and a coarser outline of the aerofoil
 
     def test_faces(self):
         found = json.loads(program("faces", STEP, "--json").splitlines()[-1])["faces"]
@@ -137,11 +137,12 @@ class StepFiles(unittest.TestCase):
     def test_bad_files(self):
         self.changed_file("cut.step", lambda text: text[:len(text) // 2])
         self.changed_file("other.step", lambda _: "solid blade\nendsolid\n")
-        self.changed_file("open.step", lambda text: text.replace("MANIFOLD_SOLID_BREP", "SHELL_BASED_SURFACE_MODEL"))
+        # Broken in itself: OpenCASCADE 7.6 crashes on it, which ends the mesher alone.
+        self.changed_file("broken.step", lambda text: text.replace("MANIFOLD_SOLID_BREP", "SHELL_BASED_SURFACE_MODEL"))
         self.changed_file("metres.step", lambda text: text.replace("SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"))
         self.changed_file("no_unit.step", lambda text: text.replace("GLOBAL_UNIT_ASSIGNED_CONTEXT", "GLOBAL_CONTEXT"))
         for file, words in (("cut.step", ["was cut off", "END-ISO"]), ("other.step", ["not a STEP file"]),
-                            ("open.step", ["no solid"]), ("metres.step", ["149 m long", "metre", "length_unit"]),
+                            ("broken.step", ["the mesher"]), ("metres.step", ["149 m long", "metre", "length_unit"]),
                             ("no_unit.step", ["model.length_unit", "does not say"]), ("none.step", ["no such file"])):
             with self.subTest(file):
                 message = self.refusal(file=file)
