@@ -485,7 +485,7 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
     const std::string message = complaint(text, {assignment});
     EXPECT_NE(message.find("available"), std::string::npos) << assignment << ": " << message;
   };
-  refused(blade_text, "model.kind=step");
+  refused(blade_text, "model.kind=shell");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
   for (const char* effect : {"roughness", "rate_dependence"}) {
     expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
