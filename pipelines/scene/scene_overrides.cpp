@@ -104,6 +104,37 @@ toml::table& descend(toml::table& table, const Step& step, const std::string& as
   return *below;
 }
 
+/// The list a last step names an entry of.
+toml::array& list_with(toml::table& table, const Step& last, const std::string& assignment) {
+  toml::node* node = table.get(last.key);
+  toml::array* list = node != nullptr ? node->as_array() : nullptr;
+  if (list == nullptr || *last.index >= list->size()) {
+    refuse(assignment, fmt::format("{} has no entry {}", last.key, *last.index));
+  }
+  return *list;
+}
+
+/// Takes a key or an entry of a list away; what is not there was misspelt.
+void remove(toml::table& scene, const std::vector<Step>& steps, const std::string& assignment) {
+  toml::table* table = &scene;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    if (!table->contains(steps[i].key)) {
+      refuse(assignment, fmt::format("the scene has no \"{}\" to take away", steps[i].key));
+    }
+    table = &descend(*table, steps[i], assignment);
+  }
+  const Step& last = steps.back();
+  if (!table->contains(last.key)) {
+    refuse(assignment, fmt::format("the scene has no \"{}\" to take away", last.key));
+  }
+  if (!last.index) {
+    table->erase(last.key);
+    return;
+  }
+  toml::array& list = list_with(*table, last, assignment);
+  list.erase(list.cbegin() + static_cast<std::ptrdiff_t>(*last.index));
+}
+
 }  // namespace
 
 void apply_override(toml::table& scene, const std::string& assignment) {
@@ -112,6 +143,10 @@ void apply_override(toml::table& scene, const std::string& assignment) {
     refuse(assignment, "expected key.path=value");
   }
   const auto steps = steps_of(assignment.substr(0, equals), assignment);
+  if (assignment.find_first_not_of(" \t", equals + 1) == std::string::npos) {
+    remove(scene, steps, assignment);
+    return;
+  }
   toml::table value = value_of(assignment.substr(equals + 1), assignment);
   toml::table* table = &scene;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) table = &descend(*table, steps[i], assignment);
@@ -120,13 +155,9 @@ void apply_override(toml::table& scene, const std::string& assignment) {
     assign(*table, last.key, *value.get("x"));
     return;
   }
-  toml::node* node = table->get(last.key);
-  toml::array* list = node != nullptr ? node->as_array() : nullptr;
-  if (list == nullptr || *last.index >= list->size()) {
-    refuse(assignment, fmt::format("{} has no entry {}", last.key, *last.index));
-  }
+  toml::array& list = list_with(*table, last, assignment);
   value.get("x")->visit([&](auto& content) {
-    list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*last.index), std::move(content));
+    list.replace(list.cbegin() + static_cast<std::ptrdiff_t>(*last.index), std::move(content));
   });
 }
 

@@ -315,6 +315,17 @@ TEST(Overrides, MessagesNameTheOverride) {
   expect_complaint(complaint(modal_text, {"modal.points[0].preload=nan"}), {"--set", "preload"});
 }
 
+TEST(Overrides, OneWithoutAValueTakesTheKeyAway) {
+  EXPECT_EQ(parse(blade_text, {"contact.wear_coefficient="}).contacts.front().wear_coefficient,
+            0.0);
+  EXPECT_EQ(parse(blade_text, {"response.preload[0]="}).response->preload.size() + 1,
+            parse(blade_text).response->preload.size());
+  expect_complaint(complaint(blade_text, {"material.density="}), {"material.density", "missing"});
+  expect_complaint(complaint(blade_text, {"response.optimun="}),
+                   {"--set response.optimun=", "no \"optimun\""});
+  expect_complaint(complaint(blade_text, {"sections.key="}), {"no \"sections\""});
+}
+
 TEST(Overrides, BrokenOnesAreRefused) {
   for (const char* broken :
        {"", "=", "=5", "modes.count", "modes..count=5", ".count=5", "modes.=5",
