@@ -1,5 +1,6 @@
 #include "pipelines/commands.hpp"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "pipelines/files/checkpoint.hpp"
 #include "pipelines/files/columns.hpp"
 #include "pipelines/files/write_faces.hpp"
+#include "pipelines/files/write_report.hpp"
 #include "pipelines/model/mesh_file.hpp"
 #include "pipelines/model/mesh_names.hpp"
 #include "pipelines/model/mesh_scene.hpp"
@@ -28,6 +30,7 @@
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/text/json_entry.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -40,6 +43,12 @@ RunOptions options_of(const Arguments& arguments, const std::filesystem::path& o
   options.rank = arguments.rank;
   if (arguments.quiet) options.verbosity = Verbosity::quiet;
   if (arguments.verbose) options.verbosity = Verbosity::verbose;
+  const auto with = [&](const char* part) {
+    return std::ranges::find(arguments.without, part) == arguments.without.end();
+  };
+  options.plots = with("plots");
+  options.maps = with("maps");
+  options.bracket = with("bracket");
   return options;
 }
 
@@ -117,6 +126,31 @@ void refuse_idle_options(const Arguments& arguments) {
   }
 }
 
+namespace {
+
+/// What --json tells of a run: its peaks, best value and bars, as summary.json has them.
+nlohmann::ordered_json results_in(const std::filesystem::path& folder) {
+  const auto summary = parse_json(read_summary(folder), (folder / "summary.json").string());
+  nlohmann::ordered_json results{{"warnings", summary.at("warnings")}};
+  results["frequency_Hz"] = nlohmann::ordered_json::array();
+  for (const auto& mode : summary.at("modes")) {
+    results["frequency_Hz"].push_back(mode.at("frequency_Hz"));
+  }
+  results["curves"] = nlohmann::ordered_json::array();
+  for (const auto& curve : summary.at("curves")) {
+    nlohmann::ordered_json& told = results["curves"].emplace_back();
+    for (const char* key : {"name", "preload_N", "preload_scale", "complete", "diagnosis", "peak",
+                            "folds_Hz", "bar", "digits"}) {
+      told[key] = curve.at(key);
+    }
+  }
+  nlohmann::ordered_json& optimum = results["optimum"] = summary.at("optimum");
+  if (!optimum.is_null()) optimum.erase("trace");
+  return results;
+}
+
+}  // namespace
+
 /// The mesher is a process of its own that an interrupt must end, and its scratch folder with it.
 int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
@@ -161,7 +195,11 @@ int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const 
     arguments.rank = session->rank();
   }
   const InterruptWatch watch;  // after MPI, which sets handlers of its own
-  return study(scene, options_of(arguments, arguments.output));
+  const int code = study(scene, options_of(arguments, arguments.output));
+  if (arguments.json && arguments.rank == 0 && arguments.command != "converge") {
+    arguments.findings = results_in(arguments.output);
+  }
+  return code;
 }
 
 namespace {

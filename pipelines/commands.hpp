@@ -24,6 +24,7 @@ struct Arguments {
   std::optional<int> harmonics;
   std::optional<std::string> plot_folder;
   std::optional<std::string> picture;  // of `check`
+  std::vector<std::string> without;    // of parts_of_a_run
   std::string tolerance;
   std::string budget;
   bool resume = false;
@@ -32,7 +33,7 @@ struct Arguments {
   bool verbose = false;
   bool json = false;
   int rank = 0;
-  nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // of `check`, for --json
+  nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // results, for --json
 };
 
 /// Options this version does not have, or that say nothing to the command: refused, never ignored.

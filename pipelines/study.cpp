@@ -82,13 +82,13 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   return model;
 }
 
-void find_optimum(const Solution& solution, int jobs, RunRecord& record) {
+void find_optimum(const Solution& solution, const RunOptions& options, RunRecord& record) {
   record.stage("optimum");
   const SceneDescription& scene = solution.scene;
-  OptimumSearch search(solution.model, scene, solution.structure, jobs);
+  OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
   record.keep_optimum(solution.model, *scene.response->optimum, search.best());
-  if (!time_is_short()) record.keep_bracket(search.bracket());
+  if (options.bracket && !time_is_short()) record.keep_bracket(search.bracket());
 }
 
 }  // namespace
@@ -112,9 +112,11 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     keep_budgets(solution, record);
     refine_to_tolerance(solution, options.jobs, record);
     if (solution.structure) ask(record, scene, solution.structure->mesh, solution.curves);
-    record.stage("maps");
-    draw_maps(solution.model, solution.scene, solution.curves, record);
-    if (scene.response->optimum) find_optimum(solution, options.jobs, record);
+    if (options.maps) {
+      record.stage("maps");
+      draw_maps(solution.model, solution.scene, solution.curves, record);
+    }
+    if (scene.response->optimum) find_optimum(solution, options, record);
     record.stage("report");
     record.keep_report();
   });

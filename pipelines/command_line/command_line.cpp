@@ -30,7 +30,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
 std::string explained(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
   std::string text = error.what();
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return text;
-  std::vector<std::string> names{"--output", "--harmonics", "--help"};
+  std::vector<std::string> names{"--output", "--harmonics", "--without", "--help"};
   for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
   const std::vector<std::string_view> views(names.begin(), names.end());
   for (const std::string word : std::span(argv + 1, static_cast<std::size_t>(argc - 1))) {

@@ -125,6 +125,13 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
                              [&] { return run_scene(a, run_study); }),
                  a);
   with_output(run_command, a, "run folder; default runs/SCENE");
+  run_command
+      ->add_option("--without", a.without,
+                   "leaves a part out; may be repeated: plots (and report.html), maps (and the "
+                   "motion at the peaks), bracket (of a search for a best value)")
+      ->take_all()
+      ->expected(1)
+      ->check(CLI::IsMember({"plots", "maps", "bracket"}));
   add_cycle(app, a, chosen);
   auto* converge_command = with_scene(
       add_command(app, a, chosen, "converge",

@@ -54,6 +54,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
       checkpoint_(folder_, start_ == RunStart::resumed),
       refines_(scene.accuracy.tolerance > 0.0),
       rank_(options.rank),
+      plots_(options.plots),
       writes_(options.rank == 0),
       progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
                 writes_ ? options.verbosity : Verbosity::quiet) {
@@ -426,6 +427,10 @@ void RunRecord::keep_report() {
     ended.exit_code = verdict();
     ended.message = ended.accuracy ? ended.accuracy->message : "";
   }
+  if (!plots_) {
+    write_whole(staged_ / "report.md", report_text(summary_json(ended), {}));
+    return;
+  }
   for (const std::string& warning : write_report(folder_, staged_, summary_json(ended))) {
     progress_.warning(warning);
   }
@@ -464,8 +469,8 @@ void RunRecord::tell_failure(ExitCode code, const std::string& message) {
   }
   write_summary_file();
   if (summary_.curves.empty()) return;
-  const std::vector<std::string> no_plots;  // they take seconds
-  write_whole(staged_ / "report.md", report_text(summary_json(summary_), no_plots));
+  write_whole(staged_ / "report.md",
+              report_text(summary_json(summary_), {}));  // plots take seconds
   show_what_is_new();
 }
 

@@ -124,6 +124,7 @@ class RunRecord {
   bool begun_ = false;
   bool resumable_ = true;  ///< what is kept is what a resumed run would find again
   int rank_;
+  bool plots_;   ///< or report.md alone
   bool writes_;  ///< false on MPI ranks above 0
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own

@@ -178,6 +178,11 @@ TEST_F(Program, EndsStandardOutputWithOneJsonObject) {
   EXPECT_EQ(good["command"], "run");
   EXPECT_EQ(good["output"], "runs/scene");
   EXPECT_FALSE(good.contains("message"));
+  const Json summary = Json::parse(content_of(path("runs/scene/summary.json")));
+  EXPECT_EQ(good["curves"][0]["peak"], summary["curves"][0]["peak"]);
+  EXPECT_GT(good["curves"][0]["peak"]["amplitude_m"], 0.0);
+  EXPECT_EQ(good["curves"][0]["bar"], summary["curves"][0]["bar"]);
+  EXPECT_TRUE(good["optimum"].is_null());
   const Json checked = line("check scene.toml --json");
   EXPECT_GT(checked["forecast"]["memory_GB"], 0.0);
   EXPECT_GT(checked["forecast"]["curves_seconds"], 0.0);
@@ -399,6 +404,19 @@ TEST_F(Program, RunsAModalSceneIntoAFolderOfWholeFiles) {
   const Json summary = Json::parse(content_of(path("out/summary.json")));
   EXPECT_EQ(summary["exit_code"], 0);
   EXPECT_EQ(summary["curves"].size(), 2U);
+}
+
+TEST_F(Program, LeavesOutWhatItIsToldTo) {
+  write(path("scene.toml"), scene_text);
+  EXPECT_EQ(
+      run("run scene.toml -o out --set response.maps='[\"peak\"]' --without plots --without maps",
+          with_plots)
+          .code,
+      0);
+  EXPECT_TRUE(exists("out/report.md"));
+  EXPECT_FALSE(exists("out/plots"));
+  EXPECT_FALSE(exists("out/maps"));
+  expect("run scene.toml -o out --without curves", 1, {"curves", "plots"});
 }
 
 /// The scene written into the run folder is a scene: run again, it gives the same curve bit for bit.
