@@ -12,6 +12,7 @@
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/temporary_folder.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/json_entry.hpp"
 
@@ -21,8 +22,14 @@ namespace {
 /// Twenty curves with maps take about 15 s on one slow core.
 constexpr std::chrono::seconds plot_limit{180};
 
-std::string make_plots(const std::filesystem::path& folder, const std::filesystem::path& plots) {
-  return run_plot_script("plot_run.py", {folder.string(), plots.string()}, plot_limit);
+/// plots/ and report.html. While a run goes on, its summary.json does not yet say how it ended.
+std::string draw(const std::filesystem::path& folder, const std::filesystem::path& into,
+                 const std::string& summary) {
+  const TemporaryFolder scratch;
+  const std::filesystem::path ended = scratch.path() / "summary.json";
+  write_whole(ended, summary);
+  return run_plot_script("report_run.py", {folder.string(), into.string(), ended.string()},
+                         plot_limit);
 }
 
 }  // namespace
@@ -321,7 +328,7 @@ std::vector<std::string> write_report(const std::filesystem::path& folder,
       report_text(summary, {}, name));  // a damaged summary is told before plots are made of it
   const std::filesystem::path plots = into / "plots";
   std::vector<std::string> warnings;
-  if (const std::string failure = make_plots(folder, plots); !failure.empty()) {
+  if (const std::string failure = draw(folder, into, summary); !failure.empty()) {
     warnings.push_back(failure);
   }
   write_whole(into / "report.md", report_text(summary, plot_names(plots), name));

@@ -1,6 +1,6 @@
 /// @file
-/// Plots and report.md of a run folder, made from the files in it, so that `run` and `report` give the
-/// same. The plots come from one child process, share/scripts/plot_run.py.
+/// Plots, report.html and report.md of a run folder, made from the files in it, so that `run` and `report` give
+/// the same. Plots and report.html come from one child process, share/scripts/report_run.py.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace microslip::pipelines {
 /// @throws SceneError  no such folder, or none of a run.
 [[nodiscard]] std::string read_summary(const std::filesystem::path& folder);
 
-/// Makes plots/ and report.md from a summary and the curves/ and maps/ of a run. Plots that cannot be made cost the
+/// Makes plots/, report.html and report.md from a summary and the curves/ and maps/ of a run. Plots that cannot be made cost the
 /// plots, not the run: they are warnings.
 /// @param folder  of the run. @param into  where they are written. @param summary  text of its summary.
 /// @return warnings; empty when everything was made. They name a file of the run that is missing or damaged, with

@@ -1,5 +1,5 @@
 """The Python modules of share/ import one another without a circle, and in the direction the layout draws:
-scripts → microslip.plots → microslip.
+scripts → microslip.report → microslip.results → microslip.plots → the readers of files.
 
 Imports are read from the source, those within functions included: a circle that is hidden in a function is one.
 
@@ -82,9 +82,16 @@ class Imports(unittest.TestCase):
             self.assertFalse(imported & set(self.scripts), module)
 
     def test_reading_knows_no_drawing(self):
+        above = ("microslip.plots", "microslip.results", "microslip.report")
         for module, imported in imports_of(self.package).items():
-            if not module.startswith("microslip.plots"):
+            if not module.startswith(above):
                 self.assertFalse([name for name in imported if name.startswith("microslip.plots")], module)
+
+    def test_plots_know_nothing_above_them(self):
+        above = ("microslip.results", "microslip.running", "microslip.report")
+        for module, imported in imports_of(self.package).items():
+            if module.startswith("microslip.plots"):
+                self.assertFalse([name for name in imported if name.startswith(above)], module)
 
     def test_a_circle_would_be_found(self):
         texts = {"p/__init__.py": "", "p/a.py": "from p import b\n", "p/b.py": "import os\nfrom .q.c import f\n",

@@ -31,6 +31,11 @@ def read_summary(path):
         raise RunError(f"{shown(path)} is missing; is this the folder of a run?") from None
     except (OSError, ValueError):
         raise RunError(f"{shown(path)}: cannot be read as JSON: {AGAIN}") from None
+    if not isinstance(summary, dict) or not isinstance(summary.get("curves"), list):
+        raise RunError(f"{shown(path)}: holds no list of \"curves\": it is no summary of a run")
+    for i, curve in enumerate(summary["curves"]):
+        if not isinstance(curve, dict) or not {"name", "points", "complete"} <= curve.keys():
+            raise RunError(f"{shown(path)}: curves[{i}] lacks its name, points or complete: {AGAIN}")
     optimum = summary.get("optimum")
     if optimum:
         summary["optimum"] = {"found": True, "parameter": "preload",
@@ -58,6 +63,21 @@ def read_table(path, needed=()):
             raise RunError(f"{shown(path)}:{line}: {len(row)} values under {len(names)} column names: {AGAIN}")
     return {name: column_in([(line, row[i]) for line, row in rows], path, name)
             for i, name in enumerate(names)}
+
+
+def trace_in(path, name):
+    """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
+    if not os.path.exists(path):
+        return np.empty((0, 3))
+    table = read_table(path, (name, "frequency_Hz", "amplitude_m"))
+    return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
+
+
+def write_whole(path, content):
+    """A file of bytes, whole or not at all."""
+    with open(path + ".part", "wb") as file:
+        file.write(content)
+    os.replace(path + ".part", path)
 
 
 def column_in(cells, path, name):

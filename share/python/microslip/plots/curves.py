@@ -4,24 +4,27 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from microslip.plots.numbers import is_number
-from microslip.plots.output import save
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import ACCENT, legend_below, light_grid, log_scale, subplots
 
 DASHED = (0, (2.5, 1.6))
+DOTTED = (0, (0.8, 1.8))
+LINES = {1: "-", 0: DASHED, -1: DOTTED}  # by the column `stable`
+
+
+def kind_of(flags):
+    """Of an interval, from the stability of its ends that are no folds: unstable before not judged before stable."""
+    return 0 if 0 in flags or not flags else min(flags)
 
 
 def branches(table):
-    """Runs of intervals of one kind: (unstable, slice of points)."""
+    """Runs of intervals of one kind: (1 stable, 0 unstable or -1 not judged, slice of points)."""
     stable, mark = table["stable"], table["mark"]
-    unstable = []
-    for i in range(len(stable) - 1):
-        flags = [stable[k] for k in (i, i + 1) if mark[k] != "fold"]
-        unstable.append(0 in flags or not flags)
+    kinds = [kind_of([int(stable[k]) for k in (i, i + 1) if mark[k] != "fold"]) for i in range(len(stable) - 1)]
     start = 0
-    for i in range(1, len(unstable) + 1):
-        if i == len(unstable) or unstable[i] != unstable[start]:
-            yield unstable[start], slice(start, i + 1)
+    for i in range(1, len(kinds) + 1):
+        if i == len(kinds) or kinds[i] != kinds[start]:
+            yield kinds[start], slice(start, i + 1)
             start = i
 
 
@@ -66,9 +69,9 @@ def draw_curve(axes, run, curve, table):
     colour = run.colour(load)
     frequency = table["frequency_Hz"]
     amplitude = np.where(table["amplitude_m"] > 0, table["amplitude_m"], np.nan) / run.size
-    for unstable, part in branches(table):
+    for kind, part in branches(table):
         axes.plot(frequency[part], amplitude[part], color=colour, zorder=3 if is_number(load) else 2.5,
-                  linewidth=line_width(load), linestyle=DASHED if unstable else "-")
+                  linewidth=line_width(load), linestyle=LINES[kind])
     marks = np.array(table["mark"])
     for mark, face, style in (("peak", colour, {"marker": "o", "s": 14}),
                               ("fold", "white", {"marker": "D", "s": 13})):
@@ -92,10 +95,17 @@ def legend_of_loads(axes, run):
                 title="preload scale" if run.scaled else "preload")
 
 
+def not_judged(run):
+    """An entry of the legend, where there are such points."""
+    some = any(kind == -1 for _, table in run.curves for kind, _ in branches(table))
+    return [Line2D([], [], linestyle=DOTTED, color="0.3", label="stability not judged")] if some else []
+
+
 def legend_of_marks(figure, run):
     grey = {"color": "0.3"}
     kinds = [Line2D([], [], label="stable", **grey),
              Line2D([], [], linestyle=DASHED, label="unstable", **grey),
+             *not_judged(run),
              Line2D([], [], marker="o", markersize=4, linestyle="", label="peak", **grey),
              Line2D([], [], marker="D", markersize=4, linestyle="", markerfacecolor="white", label="fold", **grey)]
     highest = sorted({richer[0] for richer in (richer_peak(curve) for curve, _ in run.curves) if richer})
@@ -110,19 +120,24 @@ def legend_of_marks(figure, run):
     legend_below(figure, kinds)
 
 
-def plot_curves(run, folder):
-    """FOLDER/curves.svg and .png; nothing where there are solutions at one frequency only."""
-    if all(len(np.unique(table["frequency_Hz"])) < 2 for _, table in run.curves):
-        return
-    figure, axes = subplots(1, 1, (7.2, 4.4))
-    for curve, table in run.curves:
-        draw_curve(axes, run, curve, table)
+def finish_axes(axes, run):
+    """Scales and names of axes that hold curves."""
     log_scale(axes.yaxis)
     axes.margins(x=0.01)
     axes.set_xlabel("excitation frequency [Hz]")
     axes.set_ylabel(f"response amplitude [{run.unit}]")
-    axes.set_title(run.title, loc="left")
     light_grid(axes)
+
+
+def curves_figure(run):
+    """All curves; None where there are solutions at one frequency only."""
+    if all(len(np.unique(table["frequency_Hz"])) < 2 for _, table in run.curves):
+        return None
+    figure, axes = subplots(1, 1, (7.2, 4.4))
+    for curve, table in run.curves:
+        draw_curve(axes, run, curve, table)
+    finish_axes(axes, run)
+    axes.set_title(run.title, loc="left")
     legend_of_loads(axes, run)
     legend_of_marks(figure, run)
-    save(figure, folder, "curves")
+    return figure

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from microslip.plots.output import save
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import legend_below, light_grid, subplots
 
@@ -21,12 +20,12 @@ def effects(run, curve):
     return [sizes.get(source, 0.0) for source in SOURCES]
 
 
-def plot_error_budget(run, folder):
-    """FOLDER/error_budget.svg and .png; nothing without a budget."""
+def error_budget_figure(run):
+    """None without a budget."""
     told = [(run.label(load_of(curve)), effects(run, curve)) for curve, _ in run.curves]
     told = [(label, sizes) for label, sizes in told if sizes]
     if not told:
-        return
+        return None
     figure, axes = subplots(1, 1, (7.2, 1.2 + 0.42 * len(told)))
     rows = np.arange(len(told))
     height = 0.8 / len(SOURCES)
@@ -42,4 +41,4 @@ def plot_error_budget(run, folder):
     axes.set_title(run.title, loc="left")
     light_grid(axes)
     legend_below(figure, axes.get_legend_handles_labels()[0])
-    save(figure, folder, "error_budget")
+    return figure

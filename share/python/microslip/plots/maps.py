@@ -39,18 +39,21 @@ def figure_of(contact, run_folder, name):
     return row_figure(contact) if row else patch_figure(contact)
 
 
-def plot_map(path, folder, title):
-    """FOLDER/map_NAME.svg and .png of one file maps/NAME.h5."""
+def name_of(path):
+    return os.path.splitext(os.path.basename(path))[0]
+
+
+def map_figure(path, title):
+    """Of one file maps/NAME.h5."""
     contact = ContactMap(path)
-    name = os.path.splitext(os.path.basename(path))[0]
-    figure = figure_of(contact, os.path.dirname(os.path.dirname(path)), name)
+    figure = figure_of(contact, os.path.dirname(os.path.dirname(path)), name_of(path))
     unit, size = length_unit(contact.amplitude)
     stability = {1: ", stable", 0: ", unstable"}.get(contact.stable, "")
     figure_title(figure, f"{title}, {contact.frequency:.6g} Hz, {contact.amplitude / size:.4g} {unit}{stability}")
-    save(figure, folder, "map_" + name)
+    return figure
 
 
 def map_tasks(run, folder):
-    """One call of plot_map per map that is there."""
-    return [lambda path=path, title=title: plot_map(path, folder, title)
+    """FOLDER/map_NAME.svg and .png, one call per map that is there."""
+    return [lambda path=path, title=title: save(map_figure(path, title), folder, "map_" + name_of(path))
             for path, title in maps_of(run) if os.path.exists(path)]

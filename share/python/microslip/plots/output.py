@@ -5,7 +5,7 @@ import os
 import sys
 import traceback
 
-from microslip.files import RunError
+from microslip.files import RunError, write_whole
 
 # Neither the day nor the version of a library: the same run gives the same files.
 METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
@@ -30,9 +30,7 @@ def save(figure, folder, name):
         buffer = io.BytesIO()
         figure.savefig(buffer, format=extension, metadata=metadata)
         path = os.path.join(folder, f"{name}.{extension}")
-        with open(path + ".part", "wb") as file:
-            file.write(buffer.getvalue())
-        os.replace(path + ".part", path)
+        write_whole(path, buffer.getvalue())
 
 
 def save_as(figure, path):

@@ -4,9 +4,8 @@ import os
 
 import numpy as np
 
-from microslip.files import read_table
+from microslip.files import trace_in
 from microslip.plots.numbers import is_number
-from microslip.plots.output import save
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import ACCENT, FREE, STUCK, figure_title, light_grid, log_scale, subplots
 
@@ -23,14 +22,6 @@ def peaks_of(run):
         else:
             limits[load_of(curve)] = (peak["frequency_Hz"], peak["amplitude_m"])
     return sorted(family), limits
-
-
-def trace_in(path, name):
-    """Parameter, frequency and amplitude of the peaks a search went over; no rows without a file."""
-    if not os.path.exists(path):
-        return np.empty((0, 3))
-    table = read_table(path, (name, "frequency_Hz", "amplitude_m"))
-    return np.column_stack([table[name], table["frequency_Hz"], table["amplitude_m"]])
 
 
 def draw_peaks(column, run, family, trace, sign):
@@ -79,22 +70,22 @@ def mark_optimum(column, run, optimum, what, unit=""):
                         f"{optimum['frequency_Hz']:.4g} Hz", loc="right", color=ACCENT, fontsize=8)
 
 
-def finish(figure, run, column, folder, name):
+def finish(figure, run, column):
     column[0].set_ylabel(f"peak amplitude [{run.unit}]")
     column[1].set_ylabel("peak frequency [Hz]")
     figure_title(figure, run.title)
-    save(figure, folder, name)
+    return figure
 
 
-def plot_peaks(run, folder):
-    """FOLDER/peak_against_preload.svg and .png, where there are two peaks; gaps on an axis of their own."""
+def peaks_figure(run):
+    """Peak against preload, gaps on an axis of their own; None where there are less than two peaks."""
     family, limits = peaks_of(run)
     trace = trace_in(os.path.join(run.folder, "peak_against_preload.csv"), "preload_N")
     optimum = run.summary.get("optimum")
     positive = sum(peak[0] > 0 for peak in family)
     gaps = sum(peak[0] < 0 for peak in family)
     if positive + gaps + len(trace) < 2:
-        return
+        return None
     sides = ([-1] if gaps else []) + ([1] if positive or len(trace) else [])
     ratios = [max(gaps, 2) if side < 0 else max(positive, 4) for side in sides]
     figure, grid = subplots(2, len(sides), (6.4, 4.8), sharex="col", sharey="row", squeeze=False,
@@ -110,15 +101,15 @@ def plot_peaks(run, folder):
         mark_optimum(grid[:, -1], run, optimum, what, unit)
         for axes in grid[:, -1]:
             axes.axvline(optimum["value"], color=ACCENT, linewidth=0.7, alpha=0.5, zorder=1)
-    finish(figure, run, grid[:, 0], folder, "peak_against_preload")
+    return finish(figure, run, grid[:, 0])
 
 
-def plot_parameter(run, folder):
-    """Peak against a number of the scene that is not the preload: FOLDER/peak_against_parameter.svg and .png."""
+def parameter_figure(run):
+    """Peak against a number of the scene that is not the preload; None where no search has varied one."""
     trace = trace_in(os.path.join(run.folder, "peak_against_parameter.csv"), "value")
     optimum = run.summary.get("optimum")
     if len(trace) < 2 or not optimum:
-        return
+        return None
     figure, column = subplots(2, 1, (6.4, 4.8), sharex=True, height_ratios=[1.5, 1])
     for axes, values in zip(column, (trace[:, 2] / run.size, trace[:, 1])):
         axes.plot(trace[:, 0], values, color="0.35", linewidth=1.1, marker=".", markersize=4)
@@ -129,4 +120,4 @@ def plot_parameter(run, folder):
     if optimum["found"]:
         mark_optimum(column, run, optimum, "")
     column[1].set_xlabel(f"{optimum['parameter']} [SI], preload {optimum['preload_N']:.4g} N")
-    finish(figure, run, column, folder, "peak_against_parameter")
+    return finish(figure, run, column)

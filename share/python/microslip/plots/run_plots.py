@@ -4,12 +4,16 @@ import os
 import sys
 
 from microslip.files import shown
-from microslip.plots.curves import plot_curves
-from microslip.plots.error_budget import plot_error_budget
+from microslip.plots.figures import OF_A_RUN
 from microslip.plots.maps import map_tasks, maps_of
-from microslip.plots.output import run_shared
-from microslip.plots.peaks import plot_parameter, plot_peaks
+from microslip.plots.output import run_shared, save
 from microslip.plots.run_folder import Run
+
+
+def save_if_any(figure, folder, name):
+    """Not every run has every figure."""
+    if figure is not None:
+        save(figure, folder, name)
 
 
 def missing_files(run):
@@ -33,8 +37,7 @@ def plot_run(run_folder, folder=None):
     stderr says what."""
     run = Run(run_folder)
     folder = plots_folder(run, folder)
-    figures = [lambda plot=plot: plot(run, folder)
-               for plot in (plot_peaks, plot_parameter, plot_curves, plot_error_budget)]
+    figures = [lambda name=name, draw=draw: save_if_any(draw(run), folder, name) for name, draw in OF_A_RUN.items()]
     drawn = run_shared(figures + map_tasks(run, folder))
     missing = missing_files(run)
     if missing:  # what is there is drawn: maps are large, and may have been removed

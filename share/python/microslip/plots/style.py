@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from microslip.plots.numbers import plain
+from microslip.states import STATES
 
 STYLE = {
     "svg.hashsalt": "microslip",
@@ -28,14 +29,6 @@ STYLE = {
 }
 FREE, STUCK = "0.1", "0.55"
 ACCENT = "#c1121f"
-# (value in files, name, colour): distinct in hue and in lightness, for colour-blind eyes and grey print
-STATES = [
-    (0, "stick", "#12355b"),
-    (1, "positive slip", "#f4a259"),
-    (2, "negative slip", "#b23a6f"),
-    (3, "separated", "#e9ecef"),
-    (4, "slip in two directions", "#5b9279"),
-]
 STATE_COLOURS = [colour for _, _, colour in STATES]
 
 

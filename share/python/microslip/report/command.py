@@ -1,0 +1,40 @@
+"""Page and plots of a run, each as far as it can be made."""
+
+import os
+import sys
+import warnings
+
+from microslip.files import RunError
+from microslip.report.page import write_page
+from microslip.results import Run, RunWarning
+
+
+def write_report_page(folder, into, summary=None):
+    """INTO/report.html. RunError without a summary that can be read."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RunWarning)  # the page says it
+        run = Run(folder, summary)
+    write_page(run, os.path.join(into, "report.html"))
+
+
+def draw_plots(folder, into):
+    """INTO/plots. An exit code."""
+    try:
+        from microslip.plots.command import run_command
+    except ModuleNotFoundError as error:
+        print(f"no plots: the Python package {error.name} is not installed: apt-get install python3-matplotlib; "
+              "report.html, curves and maps are there", file=sys.stderr)
+        return 1
+    from microslip.plots.run_plots import plot_run
+    return run_command(plot_run, folder, os.path.join(into, "plots"))
+
+
+def report(folder, into=None, summary=None):
+    """Both. The exit code."""
+    into = into or folder
+    try:
+        write_report_page(folder, into, summary)
+    except RunError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return draw_plots(folder, into)

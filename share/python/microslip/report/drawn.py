@@ -1,0 +1,199 @@
+"""What the script of the page draws: curves, peaks and maps as plain numbers."""
+
+import base64
+import os
+
+import numpy as np
+
+from microslip.files import RunError, trace_in
+from microslip.plots.numbers import is_number, length_unit, plain
+from microslip.states import STATES
+
+# (key, in a word, what the axis says, whether it is logarithmic)
+QUANTITIES = [
+    ("amplitude", "amplitude", "response amplitude", True),
+    ("phase_deg", "phase [°]", "phase of the first harmonic [°]", False),
+    ("reduction", "against free", "amplitude over that of the free blade at the same frequency", True),
+    ("equivalent_damping", "damping [%]", "equivalent damping ratio, friction and modal damping [%]", True),
+    ("dissipated_energy", "dissipated [J]", "energy dissipated by friction [J per period]", True),
+    ("slip_share", "slip [%]", "share of area and period that slips [%]", False),
+    ("separated_share", "open [%]", "share of area and period that is open [%]", False),
+]
+VIRIDIS = ((68, 1, 84), (70, 50, 127), (54, 92, 141), (39, 127, 142), (31, 161, 135), (74, 194, 109), (160, 218, 57))
+LIMITS = {"free": "#1a1a1a", "stuck": "#8c8c8c"}
+MOST_PHASES = 72
+MOST_BYTES = 6e6  # of maps in one page
+
+
+def colour(share):
+    """Of a preload, by its place among them, 0 … 1."""
+    place = share * (len(VIRIDIS) - 1)
+    first = min(int(place), len(VIRIDIS) - 2)
+    mixed = [round(a + (place - first) * (b - a)) for a, b in zip(VIRIDIS[first], VIRIDIS[first + 1])]
+    return "#" + "".join(f"{value:02x}" for value in mixed)
+
+
+def numbers(values, digits=7):
+    """For JSON: no more digits than are seen, null where there is no number."""
+    return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
+
+
+def label_of(curve):
+    """What tells a curve from the others of its family."""
+    if not is_number(curve.preload):
+        return str(curve.preload)
+    if curve.summary.get("preload_scale") is not None:
+        return f"preload × {curve.preload:g}"
+    return f"{plain(curve.preload)} N" if curve.preload >= 0 else f"gap ({plain(curve.preload)} N)"
+
+
+def ratio_to_free(table, free):
+    """Amplitude over that of the free curve at the same frequency; NaN outside of its range."""
+    order = np.argsort(free["frequency_Hz"])
+    at = np.interp(table["frequency_Hz"], free["frequency_Hz"][order], free["amplitude_m"][order], np.nan, np.nan)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(at > 0, table["amplitude_m"] / at, np.nan)
+
+
+def columns_of(curve, free, size, damage):
+    """Values of every quantity the run has."""
+    columns = {"amplitude": curve["amplitude_m"] / size}
+    columns.update({name: factor * curve[name] for name, factor in
+                    (("phase_deg", 1.0), ("slip_share", 100.0), ("separated_share", 100.0)) if name in curve})
+    if free is not None and curve.name != free.name:
+        columns["reduction"] = ratio_to_free(curve, free)
+    try:
+        columns["equivalent_damping"] = 100.0 * curve.energy["equivalent_damping_ratio"]
+        if curve.preload != "free" and curve.preload != "stuck":
+            columns["dissipated_energy"] = curve.energy["dissipated_energy_J"]
+    except (RunError, ImportError) as error:
+        damage.append(f"no energies of {curve.name}: {error}")
+    return {name: numbers(values) for name, values in columns.items()}
+
+
+def curve_entry(curve, free, unit, shade, damage):
+    """One curve as the script draws it."""
+    name, size = unit
+    bar, peak = curve.summary.get("bar"), curve.peak
+    entry = {"name": curve.name, "label": label_of(curve), "colour": shade, "limit": not is_number(curve.preload),
+             "complete": curve.summary["complete"], "frequency": numbers(curve["frequency_Hz"], 9),
+             "stable": [int(value) for value in curve["stable"]], "mark": curve["mark"],
+             "values": columns_of(curve, free, size, damage)}
+    if bar and peak:
+        entry["bar"] = {"frequency": peak["frequency_Hz"], "amplitude": peak["amplitude_m"] / size,
+                        "of_frequency": bar["peak_frequency"], "of_amplitude": bar["peak_amplitude"]}
+    return entry
+
+
+def read_curves(run, damage):
+    """The curves that can be read; of the others what is wrong."""
+    curves = []
+    for name in run.curves:
+        try:
+            curves.append(run.curves[name])
+        except RunError as error:
+            damage.append(str(error))
+    return curves
+
+
+def shades_of(curves):
+    """Colour by name: the limits grey, preloads in order."""
+    loads = sorted({curve.preload for curve in curves if is_number(curve.preload)})
+    places = {load: i / max(len(loads) - 1, 1) for i, load in enumerate(loads)}
+    return {curve.name: colour(places[curve.preload]) if is_number(curve.preload) else LIMITS.get(curve.preload, "#888")
+            for curve in curves}
+
+
+def trace_entry(run, size, damage):
+    """Peaks a search went over, value, amplitude and frequency, and the number it varied; None without a search."""
+    optimum = run.optimum
+    if not optimum:
+        return None
+    parameter = optimum["parameter"]
+    name, column = ("preload", "preload_N") if parameter == "preload" else ("parameter", "value")
+    try:
+        trace = trace_in(os.path.join(run.folder, f"peak_against_{name}.csv"), column)
+    except RunError as error:
+        damage.append(str(error))
+        return None
+    best = {"value": optimum["value"], "frequency": optimum["frequency_Hz"], "amplitude": optimum["amplitude_m"] / size}
+    return {"parameter": parameter, "value": numbers(trace[:, 0]), "frequency": numbers(trace[:, 1], 9),
+            "amplitude": numbers(trace[:, 2] / size), "best": best if optimum.get("found") else None}
+
+
+def peak_entries(curves, shades, size):
+    """The highest peak of every curve."""
+    return [{"label": label_of(curve), "colour": shades[curve.name], "frequency": curve.peak["frequency_Hz"],
+             "preload": curve.preload if is_number(curve.preload) else None, "amplitude": curve.peak["amplitude_m"] / size}
+            for curve in curves if curve.peak]
+
+
+def bytes_of(values, low, high):
+    """One byte per value, low … high as 0 … 255, in base64."""
+    scaled = np.zeros(values.shape) if high <= low else 255.0 * (values - low) / (high - low)
+    return base64.b64encode(np.round(np.clip(scaled, 0, 255)).astype(np.uint8).tobytes()).decode()
+
+
+def varying(contact, name, label, chosen, scale):
+    """An array over points and phases, its range in the unit of the label."""
+    values = scale * contact[name][:, chosen]
+    low = -np.abs(values).max() if values.min() < 0 else 0.0
+    high = np.abs(values).max()
+    return {"label": label, "low": float(low), "high": float(high), "data": bytes_of(values.T, low, high)}
+
+
+def map_entry(contact):
+    """A contact map: states and tractions at up to MOST_PHASES phases, sums over the period."""
+    phases = contact["phase_deg"]
+    chosen = slice(None, None, -(-len(phases) // MOST_PHASES))
+    area = contact["weights"] / contact["weights"].sum()
+    cells, corners = contact["cells"], 1e3 * contact["vertices"]
+    names = ["p [mm]", "r [mm]"]
+    if len(cells) and np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):  # a long patch lies on its side
+        corners, names = corners[:, ::-1], names[::-1]
+    entry = {"name": contact.name, "frequency": float(contact["frequency_Hz"][0]), "phases": numbers(phases[chosen]),
+             "states": base64.b64encode(np.ascontiguousarray(contact["state"][:, chosen].T).astype(np.uint8)).decode(),
+             "area": numbers(area, 5), "corners": numbers(corners.ravel(), 6), "axes": names,
+             "cells": [[int(i) for i in cell] for cell in cells], "n": len(area),
+             "varying": [varying(contact, "normal_traction_Pa", "normal traction [MPa]", chosen, 1e-6),
+                         varying(contact, "friction_traction_Pa", "friction traction along p [MPa]", chosen, 1e-6)]}
+    for name, label, scale in (("dissipated_energy_J_per_m2", "dissipated energy [J/m² per period]", 1.0),
+                               ("slip_distance_m", "slip distance [µm per period]", 1e6)):
+        values = scale * contact[name]
+        entry["varying"].append({"label": label, "low": 0.0, "high": float(values.max()), "constant": True,
+                                 "data": bytes_of(values, 0.0, values.max())})
+    return entry
+
+
+def read_maps(run, damage):
+    """The maps a page has room for."""
+    maps, room = [], MOST_BYTES
+    for name in run.maps:
+        try:
+            contact = run.maps[name]
+            size = contact["state"].shape[0] * min(contact["state"].shape[1], MOST_PHASES) * 4
+            if size > room:
+                damage.append(f"map {name} is left out of this page, which would grow too large; plots/map_{name}.png "
+                              "shows it")
+                continue
+            maps.append(map_entry(contact))
+            room -= size
+        except (RunError, ImportError, KeyError) as error:
+            damage.append(f"map {name}: {error}")
+    return maps
+
+
+def drawn(run, damage):
+    """Everything that is drawn; sentences about what cannot be are added to `damage`."""
+    curves = read_curves(run, damage)
+    free = next((curve for curve in curves if curve.preload == "free"), None)
+    unit = length_unit(max((curve["amplitude_m"].max() for curve in curves), default=1.0))
+    shades = shades_of(curves)
+    entries = [curve_entry(curve, free, unit, shades[curve.name], damage) for curve in curves]
+    of_length = {"amplitude": f" [{unit[0]}]"}
+    quantities = [{"key": key, "short": short + of_length.get(key, ""), "label": label + of_length.get(key, ""),
+                   "log": log} for key, short, label, log in QUANTITIES if any(key in entry["values"] for entry in entries)]
+    return {"curves": entries, "quantities": quantities, "unit": unit[0],
+            "trace": trace_entry(run, unit[1], damage), "peaks": peak_entries(curves, shades, unit[1]),
+            "scaled": any(curve.summary.get("preload_scale") is not None for curve in curves),
+            "maps": read_maps(run, damage), "states": [[name, shade] for _, name, shade in STATES]}

@@ -1,0 +1,236 @@
+// What this page shows: curves, peaks over the preload, contact maps over a period.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const host = (name) => document.querySelector(`[data-chart=${name}]`);
+
+function choice(parent, entries, chosen, then) {
+  const buttons = entries.map((entry, i) => {
+    const button = part("button", parent, entry.label);
+    button.onclick = () => { buttons.forEach((b, k) => b.setAttribute("aria-pressed", k === i)); then(entry); };
+    button.setAttribute("aria-pressed", i === chosen);
+    return button;
+  });
+}
+
+function curveSeries(curve, quantity) {
+  const values = curve.values[quantity.key] || curve.frequency.map(() => null), last = values.length - 1;
+  const state = { "1": "stable", "0": "unstable", "-1": "stability not judged" };
+  const mark = curve.mark.map((m, i) => (m === "peak" || m === "fold" ? m : !curve.complete && i === last ? "end" : ""));
+  return { label: curve.label, colour: curve.colour, width: curve.limit ? 2.6 : 1.7, x: curve.frequency, y: values, mark,
+    kind: curve.stable, bar: quantity.key === "amplitude" ? curve.bar : null,
+    breakAt: quantity.key === "phase_deg" ? (i) => Math.abs(values[i] - values[i - 1]) > 180 : null,
+    tip: (i) => [curve.label + (curve.mark[i] ? `: ${curve.mark[i]}` : ""), `${told(curve.frequency[i], 7)} Hz`,
+      ...data.quantities.filter((q) => curve.values[q.key] && curve.values[q.key][i] !== null)
+        .map((q) => `${q.short}: ${told(curve.values[q.key][i])}`), state[curve.stable[i]]] };
+}
+
+function showCurves() {
+  const place = host("curves");
+  if (!place) return;
+  const tools = document.querySelector("[data-tools=curves]");
+  const chart = new Chart(place, { x: "excitation frequency [Hz]" });
+  const show = (quantity) => chart.show(data.curves.map((curve) => curveSeries(curve, quantity)),
+    { y: quantity.label, yLog: quantity.log });
+  choice(tools, data.quantities.map((q) => ({ ...q, label: q.short, axis: q.label })), 0, (q) => show({ ...q, label: q.axis }));
+  show(data.quantities[0]);
+  const peaks = part("select", tools);
+  part("option", peaks, "zoom on …");
+  data.peaks.forEach((peak) => part("option", peaks, `peak of ${peak.label}, ${told(peak.frequency)} Hz`));
+  peaks.onchange = () => { zoomOnPeak(chart, data.peaks[peaks.selectedIndex - 1]); peaks.selectedIndex = 0; };
+  part("button", tools, "whole range").onclick = () => { chart.zoom = null; chart.draw(); };
+  legend(place.parentNode.insertBefore(part("div"), place.nextSibling), chart, chart.series);
+}
+
+// As wide as the peak is at half of its height, and some more.
+function zoomOnPeak(chart, peak) {
+  if (!peak) return;
+  const curve = data.curves.find((c) => c.label === peak.label), high = curve.values.amplitude;
+  const near = curve.frequency.filter((f, i) => high[i] > 0.5 * peak.amplitude);
+  const width = Math.max(1e-4 * peak.frequency, near.reduce((w, f) => Math.max(w, Math.abs(f - peak.frequency)), 0));
+  const x = [peak.frequency - 2 * width, peak.frequency + 2 * width];
+  const inside = chart.seen().flatMap((s) => s.y.filter((v, i) => s.x[i] >= x[0] && s.x[i] <= x[1]));
+  chart.zoom = [x, rangeOf(inside, chart.names.yLog, 0.08)];
+  chart.draw();
+}
+
+// Peaks of one sign of the preload, with the limits as lines; `what` is amplitude or frequency.
+function peakSeries(what, sign) {
+  const family = data.peaks.filter((p) => p.preload !== null && sign * p.preload > 0);
+  const at = (p) => [`${p.label}: ${told(p.amplitude)} ${data.unit} at ${told(p.frequency, 7)} Hz`];
+  const points = family.map((p) => ({ label: p.label, colour: p.colour, x: [sign * p.preload], y: [p[what]], kind: [1],
+    mark: ["dot"], tip: () => at(p) }));
+  const trace = sign > 0 && data.trace && data.trace.parameter === "preload" ? [traceSeries(what)] : [];
+  const range = [...points, ...trace].flatMap((s) => s.x);
+  if (!range.length) return [];
+  const ends = [Math.min(...range), Math.max(...range)];
+  const lowest = (p) => data.peaks.every((q) => q.preload !== null || q[what] >= p[what]);
+  const limits = data.peaks.filter((p) => p.preload === null).map((p) => ({ label: p.label, name: p.label, below: lowest(p), colour: p.colour, width: 1.4, x: ends,
+    y: [p[what], p[what]], kind: [1, 1], mark: ["", ""], tip: () => at(p) }));
+  return [...limits, ...trace, ...points, ...bestSeries(what, sign > 0 && data.trace && data.trace.parameter === "preload")];
+}
+
+function traceSeries(what) {
+  const t = data.trace, at = (i) => [`search: ${told(t.value[i])}`, `${told(t.amplitude[i])} ${data.unit} at ${told(t.frequency[i], 7)} Hz`];
+  return { label: "search", colour: "#5b6570", width: 1.2, x: t.value, y: t[what], kind: t.value.map(() => 1), mark: t.value.map(() => ""), tip: at };
+}
+
+function bestSeries(what, wanted) {
+  const best = wanted && data.trace.best;
+  return best ? [{ label: "best", colour: "#c1121f", x: [best.value], y: [best[what]], kind: [1], mark: ["best"],
+    tip: () => [`best: ${told(best.value)}`, `${told(best.amplitude)} ${data.unit} at ${told(best.frequency, 7)} Hz`] }] : [];
+}
+
+function showPeaks() {
+  const place = host("peaks");
+  if (!place) return;
+  const names = { amplitude: `peak amplitude [${data.unit}]`, frequency: "peak frequency [Hz]" };
+  const sides = [[1, data.scaled ? "preload scale" : "preload [N]"], [-1, "gap: −preload [N]"]];
+  for (const [sign, x] of sides) for (const what in names) addChart(place, peakSeries(what, sign), x, names[what], what, true);
+  if (data.trace && data.trace.parameter !== "preload")
+    for (const what in names)
+      addChart(place, [traceSeries(what), ...bestSeries(what, true)], `${data.trace.parameter} [SI]`, names[what], what, false);
+}
+
+function addChart(place, series, x, y, what, xLog) {
+  if (!series.some((s) => s.mark.includes("dot") || s.label === "search")) return;
+  const chart = new Chart(part("div", place, undefined, "chart"), { x, y, xLog, yLog: what === "amplitude", xPad: 0.05 });
+  chart.show(series, {});
+}
+
+const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+const SEQUENTIAL = [[0, 34, 78], [66, 78, 108], [125, 124, 120], [188, 175, 111], [254, 232, 56]];
+const DIVERGING = [[44, 84, 150], [150, 180, 215], [246, 246, 246], [230, 150, 130], [165, 30, 45]];
+
+function shade(scale, share) {
+  const place = share * (scale.length - 1), i = Math.min(Math.floor(place), scale.length - 2);
+  return `rgb(${scale[i].map((v, k) => Math.round(v + (place - i) * (scale[i + 1][k] - v)))})`;
+}
+
+class ContactMap {
+  constructor(entry) {
+    Object.assign(this, entry);
+    this.states = bytes(entry.states);
+    this.varying = entry.varying.map((v) => ({ ...v, data: bytes(v.data) }));
+  }
+
+  colours(what, phase) {
+    if (what < 0) return Array.from({ length: this.n }, (_, i) => data.states[this.states[phase * this.n + i]][1]);
+    const { data: values, low, constant } = this.varying[what], from = constant ? 0 : phase * this.n;
+    return Array.from({ length: this.n }, (_, i) => shade(low < 0 ? DIVERGING : SEQUENTIAL, values[from + i] / 255));
+  }
+
+  shares(phase) {
+    const sums = [0, 0, 0, 0, 0];
+    this.area.forEach((area, i) => { sums[this.states[phase * this.n + i]] += area; });
+    return data.states.map(([name], i) => [name, sums[i]]).filter(([, share]) => share > 0)
+      .map(([name, share]) => `${name} ${Math.round(100 * share)} %`).join(", ");
+  }
+
+  // The phase with most states.
+  liveliest() {
+    const counts = this.phases.map((_, k) => new Set(this.states.subarray(k * this.n, (k + 1) * this.n)).size);
+    return counts.indexOf(Math.max(...counts));
+  }
+
+  draw(canvas, what, phase) {
+    const ratio = window.devicePixelRatio || 1, width = (canvas.parentNode.clientWidth || 700) * ratio, pen = canvas.getContext("2d");
+    canvas.width = width;
+    if (this.cells.length) this.drawPatch(canvas, pen, this.colours(what, phase));
+    else this.drawRows(canvas, pen, what, phase, ratio);
+  }
+
+  drawPatch(canvas, pen, colours) {
+    const x = this.corners.filter((_, i) => i % 2 === 0), y = this.corners.filter((_, i) => i % 2);
+    const [x0, x1, y0, y1] = [rangeOf(x, false, 0), rangeOf(y, false, 0)].flat();
+    const scale = Math.min(canvas.width / (x1 - x0), 0.55 * canvas.width / (y1 - y0));
+    canvas.height = scale * (y1 - y0);
+    this.cells.forEach((cell, i) => {
+      pen.beginPath();
+      for (const corner of cell) pen.lineTo((x[corner] - x0) * scale, canvas.height - (y[corner] - y0) * scale);
+      pen.closePath();
+      pen.fillStyle = pen.strokeStyle = colours[i];
+      pen.fill(); pen.stroke();
+    });
+  }
+
+  // Points without cells: a row each, the period from left to right.
+  drawRows(canvas, pen, what, phase, ratio) {
+    const row = Math.max(2, Math.min(24, 360 / this.n)) * ratio, step = canvas.width / this.phases.length;
+    canvas.height = row * this.n;
+    this.phases.forEach((_, k) => this.colours(what, k).forEach((colour, i) => {
+      pen.fillStyle = colour;
+      pen.fillRect(k * step, i * row, step + 1, row - (row > 6 ? ratio : 0));
+    }));
+    pen.fillStyle = "#c1121f";
+    pen.fillRect((phase + 0.5) * step, 0, 2 * ratio, canvas.height);
+  }
+
+  key(place, what) {
+    place.replaceChildren();
+    if (what < 0) {
+      for (const [name, colour] of data.states) { const entry = part("span", place); part("i", entry).style.background = colour; entry.append(name); }
+      return;
+    }
+    const { label, low, high } = this.varying[what], stops = (low < 0 ? DIVERGING : SEQUENTIAL).map((c) => `rgb(${c})`);
+    part("span", place, `${label}: ${told(low, 3)}`);
+    const bar = part("i", place);
+    bar.style.cssText = `width:9em;background:linear-gradient(90deg,${stops})`;
+    part("span", place, told(high, 3));
+  }
+}
+
+function showMaps() {
+  const place = host("maps");
+  if (!place) return;
+  const tools = document.querySelector("[data-tools=maps]"), maps = data.maps.map((m) => new ContactMap(m));
+  const which = part("select", tools), what = part("select", tools), slider = part("input", tools), play = part("button", tools, "play");
+  maps.forEach((m) => part("option", which, `${m.name}, ${told(m.frequency, 6)} Hz`));
+  slider.type = "range"; slider.min = 0; slider.value = 0; slider.setAttribute("aria-label", "phase");
+  const told_ = part("p", place, undefined, "note"), canvas = part("canvas", part("div", place)), axes = part("p", place, undefined, "note");
+  const key = part("div", place, undefined, "key");
+  const draw = () => {
+    const map = maps[which.selectedIndex], phase = Math.min(+slider.value, map.phases.length - 1), chosen = what.selectedIndex - 1;
+    map.draw(canvas, chosen, phase);
+    map.key(key, chosen);
+    told_.textContent = `θ = ${told(map.phases[phase], 4)}°: ${map.shares(phase)} of the area`;
+    axes.textContent = map.cells.length ? `${map.axes[0]} to the right, ${map.axes[1]} upwards; ${sizeOf(map)}`
+      : `${map.n} contact points from above, one period from left to right`;
+  };
+  const choose = () => {
+    const map = maps[which.selectedIndex];
+    slider.max = map.phases.length - 1;
+    slider.value = map.liveliest();
+    what.replaceChildren();
+    for (const label of ["state", ...map.varying.map((v) => v.label)]) part("option", what, label);
+    draw();
+  };
+  which.selectedIndex = liveliest(maps);
+  which.onchange = choose; what.onchange = draw; slider.oninput = draw;
+  playWith(play, slider, draw);
+  new ResizeObserver(draw).observe(place);
+  choose();
+}
+
+// The map with most states: the first may be open, or stick, all over.
+function liveliest(maps) {
+  const counts = maps.map((map) => new Set(map.states).size);
+  return counts.indexOf(Math.max(...counts));
+}
+
+function sizeOf(map) {
+  const [x, y] = [0, 1].map((k) => rangeOf(map.corners.filter((_, i) => i % 2 === k), false, 0));
+  return `${told(x[1] - x[0], 4)} × ${told(y[1] - y[0], 4)} mm`;
+}
+
+function playWith(button, slider, draw) {
+  let timer = null;
+  button.onclick = () => {
+    button.textContent = timer ? "play" : "stop";
+    if (timer) { clearInterval(timer); timer = null; return; }
+    timer = setInterval(() => { slider.value = (+slider.value + 1) % (+slider.max + 1); draw(); }, 80);
+  };
+}
+
+showCurves();
+showPeaks();
+showMaps();

@@ -1,0 +1,241 @@
+"""The sections of the page that are read: tables, and the places where the script draws."""
+
+from html import escape
+
+from microslip.plots.numbers import LENGTHS, is_number, plain
+
+UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "length": "m", "area": "m²", "amplitude": "N",
+         "phase": "°", "normal_stiffness": "N/m³", "tangential_stiffness": "N/m³", "tangential_stiffness_r": "N/m³",
+         "wear_coefficient": "m²/N", "frequency": "Hz", "preload": "N", "optimum_range": "SI", "masses": "kg",
+         "springs": "N/m", "preload_moment": "N·m", "end_stiffness": "N/m", "length_unit": "m"}
+# Keys a reader asks for first; the rest of the scene is folded away.
+FIRST = {"model": ("kind", "file", "element_size", "order"), "material": ("youngs_modulus", "poissons_ratio", "density"),
+         "supports": ("clamped",), "modes": ("count", "damping_ratio", "residual"),
+         "contact": ("surface", "slip_direction", "friction_coefficient", "normal_stiffness", "tangential_stiffness",
+                     "roughness", "wear_coefficient"),
+         "excitation": ("forces",),
+         "response": ("output", "frequency", "method", "harmonics", "preload", "preload_scale", "optimum",
+                      "optimum_range")}
+LENGTH = dict(LENGTHS)
+LONGEST = 300  # characters of a value
+
+
+def table(head, rows, right=()):
+    """An HTML table of cells that are HTML already; numbers of the columns that are set right."""
+    def cells(row, tag):
+        return "".join(f'<{tag}{" class=n" if i in right else ""}>{cell}</{tag}>' for i, cell in enumerate(row))
+    top = f"<thead><tr>{cells(head, 'th')}</tr></thead>" if head else ""
+    body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
+    return f'<div class=wide><table>{top}<tbody>{body}</tbody></table></div>'
+
+
+def number(value, digits=5):
+    return plain(float(f"{value:.{digits}g}")) if is_number(value) else "–"
+
+
+def percent(value, digits=2):
+    return f"{100 * value:.{digits}g} %" if is_number(value) else "–"
+
+
+def value_text(value):
+    """A value of the scene in words: tables as key value, …"""
+    if isinstance(value, dict):
+        return ", ".join(f"{key.replace('_', ' ')} {value_text(item)}" for key, item in value.items())
+    if isinstance(value, list):
+        plain_list = not any(isinstance(item, dict) for item in value)
+        return (", " if plain_list else "; ").join(map(value_text, value))
+    return number(value, 7) if is_number(value) and not isinstance(value, bool) else str(value)
+
+
+def setting_row(key, value):
+    text = value_text(value)
+    text = text if len(text) <= LONGEST else f"{len(value) if isinstance(value, list) else 'many'} entries (scene.toml)"
+    has_number = is_number(value) or isinstance(value, list) and any(map(is_number, value))
+    unit = f" {UNITS[key]}" if key in UNITS and has_number else ""
+    return [escape(key.replace("_", " ")), escape(text + unit)]
+
+
+def parts_of(scene):
+    """(name, table) of the sections; [[contact]] one by one."""
+    for name, content in scene.items():
+        if isinstance(content, dict):
+            yield name, content
+        elif isinstance(content, list) and all(isinstance(item, dict) for item in content):
+            yield from ((f"{name} {item.get('name', i + 1)}", item) for i, item in enumerate(content))
+
+
+def harmonics_used(run):
+    """What the curves were solved with."""
+    most = max((entry.get("harmonics") or {}).get("most", 0) or 0 for entry in run.summary["curves"]) \
+        if run.summary["curves"] else 0
+    return f"{most} at most" if most else ""
+
+
+def asked(run, data):
+    rows, folded = [], []
+    for name, content in parts_of(run.scene):
+        first = FIRST.get(name.split()[0], ())
+        part = [setting_row(key, content[key]) for key in first if key in content]
+        rows += [[f"<b>{escape(name)}</b>" if i == 0 else "", *row] for i, row in enumerate(part)]
+        folded += [[escape(name), *setting_row(key, value)] for key, value in content.items() if key not in first]
+    used = harmonics_used(run)
+    rows += [["<b>solved with</b>", "harmonics", used]] if used else []
+    rest = f"<details><summary>every other key</summary>{table(None, folded)}</details>" if folded else ""
+    return (table(None, rows) + rest +
+            "<p class=note>SI units. A force is F sin(θ + phase), θ = ωt: at 0° the excitation passes zero upwards. The phase of "
+            "the response is atan2(y<sub>c</sub>, y<sub>s</sub>) of its first harmonic: 0° moves with the force, −90° is a "
+            "quarter of a period late.</p>")
+
+
+def effects(run, data):
+    rows = [[escape(str(row.get("name", "")).replace("_", " ")), "yes" if row.get("simulated") else "no",
+             escape(str(row.get("setting", ""))), escape(str(row.get("reason", "")))]
+            for row in run.summary.get("effects") or []]
+    return table(["effect", "simulated", "setting", "why"], rows) if rows else ""
+
+
+def state_of(curve):
+    """Complete or not, and what of its stability is not known."""
+    parts = ["complete" if curve.get("complete") else f"<b>incomplete</b>: {escape(str(curve.get('diagnosis', '')))}"]
+    if curve.get("detached_branches"):
+        parts.append(f"{curve['detached_branches']} more branches beside it")
+    return "; ".join(parts)
+
+
+def unjudged(data, name):
+    """How many solutions of a curve have a stability nobody has judged; at a fold there is none to judge."""
+    entry = next((entry for entry in data["curves"] if entry["name"] == name), {"stable": [], "mark": []})
+    stable = [value for value, mark in zip(entry["stable"], entry["mark"]) if mark != "fold"]
+    missing = sum(value < 0 for value in stable)
+    return f"{missing} of {len(stable)}" if missing else "0"
+
+
+def free_peak(run):
+    return next((curve["peak"]["amplitude_m"] for curve in run.summary["curves"]
+                 if curve.get("preload_N") == "free" and curve.get("peak")), None)
+
+
+def preload_text(curve):
+    scale = curve.get("preload_scale")
+    value = curve.get("preload_N") if scale is None else scale
+    return number(value) if is_number(value) else escape(str(value if value is not None else "–"))
+
+
+def peaks(run, data):
+    reference, size = free_peak(run), LENGTH[data["unit"]]
+    rows = []
+    for curve in run.summary["curves"]:
+        peak, bar = curve.get("peak") or {}, curve.get("bar") or {}
+        amplitude = peak.get("amplitude_m")
+        share = amplitude / reference - 1 if reference and amplitude else None
+        rows.append([preload_text(curve), number(peak.get("frequency_Hz"), 6),
+                     number(amplitude / size if amplitude else None, 4),
+                     percent(bar.get("peak_amplitude")), "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−"),
+                     ", ".join(number(fold, 6) for fold in curve.get("folds_Hz") or []) or "–",
+                     unjudged(data, curve["name"]), state_of(curve)])
+    head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "±",
+            "against free", "folds [Hz]", "stability not judged", "state"]
+    return table(head, rows, (0, 1, 2, 3, 4, 6)) if rows else ""
+
+
+def optimum(run, data):
+    best = run.optimum
+    if not best:
+        return ""
+    if not best.get("found"):
+        return f"<p class=best>Best {escape(best['parameter'])} not found: {escape(best.get('message') or '')}.</p>"
+    unit = " N" if best["parameter"] == "preload" else " (SI)"
+    return (f"<p class=best>Best {escape(best['parameter'])}: <b>{number(best['value'])}{unit}</b>, peak "
+            f"{number(best['amplitude_m'] / LENGTH[data['unit']])} {data['unit']} at {number(best['frequency_Hz'], 6)} Hz.</p>")
+
+
+def response(run, data):
+    if not data["curves"]:
+        return ""
+    chart = ('<div class=tools data-tools=curves></div><div class=chart data-chart=curves></div>'
+             '<p class=note>Drag to zoom, double-click for the whole range, point at a curve for its numbers, click a name to '
+             'hide it. Solid: stable; dashed: unstable; dotted and pale: stability not judged. ● peak, ◇ fold, ✕ ends here.</p>')
+    many = any(len(set(entry["frequency"])) > 1 for entry in data["curves"])
+    return optimum(run, data) + (chart if many else "") + peaks(run, data)
+
+
+def against(run, data):
+    """Peak against preload, or against what a search has varied."""
+    family = [peak for peak in data["peaks"] if peak["preload"] is not None]
+    if len(family) + len((data["trace"] or {}).get("value", ())) < 2:
+        return ""
+    return "<div class=charts data-chart=peaks></div>"
+
+
+def maps(run, data):
+    if not data["maps"]:
+        return ""
+    return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
+            '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>')
+
+
+def bars_of(rows):
+    """Effects on the amplitude of one curve, the largest first, as bars from a hundredth of a percent."""
+    worst = max(abs(row["effect"]) for row in rows) or 1.0
+    lines = ""
+    for row in sorted(rows, key=lambda row: -abs(row["effect"])):
+        lines += (f'<div class=bar><span>{escape(row["source"].replace("_", " "))}</span>'
+                  f'<i style="width:{60 * abs(row["effect"]) / worst:.1f}%"></i>'
+                  f'<em>{100 * row["effect"]:+.2g} % {escape(row.get("kind", ""))}</em></div>')
+    return lines
+
+
+def budget(run, data):
+    text = ""
+    for curve in run.summary["curves"]:
+        rows = [row for row in run.summary.get("error_budget") or []
+                if row["curve"] == curve["name"] and row["goal"] == "peak_amplitude" and abs(row["effect"]) >= 1e-5]
+        bar = curve.get("bar")
+        if not bar:
+            continue
+        unknown = ", ".join(bar.get("not_known") or [])
+        text += (f'<div class=budget><h3>{preload_text(curve)}{"" if not is_number(curve.get("preload_N")) else " N"}: '
+                 f'amplitude ± {percent(bar.get("peak_amplitude"))}, frequency ± {percent(bar.get("peak_frequency"))}</h3>'
+                 + (bars_of(rows) if rows else "<p class=note>no effect above 0.001 %</p>")
+                 + (f"<p class=note>not known: {escape(unknown)}</p>" if unknown else "") + "</div>")
+    return text and ("<p>What each choice of the discretisation does to the amplitude of the highest peak, if it were refined to "
+                     f"its end.</p><div class=budgets>{text}</div>")
+
+
+def structure(run, data):
+    mesh = run.summary.get("mesh")
+    text = ""
+    if mesh:
+        text = (f"<p>{mesh['nodes']} nodes, {mesh['elements']} elements, {mesh['degrees_of_freedom']} degrees of freedom, "
+                f"{number(mesh['mass_kg'])} kg.</p>")
+    rows = [[str(i + 1), number(mode["frequency_Hz"], 7), number(mode["damping_ratio"]), escape(mode.get("kind") or "")]
+            for i, mode in enumerate(run.summary.get("modes") or [])]
+    return text + table(["mode", "frequency [Hz]", "damping ratio", "kind"], rows, (0, 1, 2))
+
+
+def cost(run, data):
+    stages = run.summary.get("stages") or []
+    rows = [[escape(stage["name"]), f"{stage['seconds']:.2f}", f"{stage['peak_memory_MB']:.0f}"]
+            for stage in stages if stage["name"] != "report"]  # this page is part of it
+    machine = run.summary.get("machine") or {}
+    words = ", ".join(str(machine[key]) for key in ("processor", "blas") if machine.get(key))
+    return table(["stage", "seconds", "memory [MB]"], rows, (1, 2)) + f"<p class=note>{escape(words)}</p>"
+
+
+SECTIONS = [("Response", response), ("Peak against preload", against), ("Contact maps", maps),
+            ("How far the peaks can be trusted", budget), ("What was asked", asked), ("Effects", effects),
+            ("Structure", structure), ("Cost", cost)]
+
+
+def problems_of(run, damage):
+    """What a reader must know before anything else."""
+    lines = []
+    if run.exit_code:
+        lines.append(f"<b>Exit code {run.exit_code}.</b> {escape(run.message)}")
+    lines += [f"{preload_text(curve)}: incomplete: {escape(str(curve.get('diagnosis', '')))}"
+              for curve in run.summary["curves"] if not curve.get("complete")]
+    lines += [escape(text) for text in [*run.warnings, *damage]]
+    if not lines:
+        return ""
+    items = "".join(f"<li>{line}</li>" for line in lines)
+    return f'<section id="warnings" class=warnings><h2>Warnings</h2><ul>{items}</ul></section>\n'
