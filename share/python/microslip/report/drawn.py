@@ -67,7 +67,7 @@ def columns_of(curve, free, size, damage):
         if curve.preload != "free" and curve.preload != "stuck":
             columns["dissipated_energy"] = curve.energy["dissipated_energy_J"]
     except (RunError, ImportError) as error:
-        damage.append(f"no energies of {curve.name}: {error}")
+        damage.append(f"no damping, no dissipated energy: {error}")
     return {name: numbers(values) for name, values in columns.items()}
 
 

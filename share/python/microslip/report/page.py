@@ -28,7 +28,7 @@ def page(run):
     damage = []
     data = drawn(run, damage)
     title = html.escape(run.title or "microslip run")
-    body = problems_of(run, damage)
+    body = problems_of(run, list(dict.fromkeys(damage)))
     for heading, section in SECTIONS:
         content = section(run, data)
         if content:

@@ -2,6 +2,7 @@
 
 from html import escape
 
+from microslip.files import RunError
 from microslip.plots.numbers import LENGTHS, is_number, plain
 
 UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "length": "m", "area": "m²", "amplitude": "N",
@@ -72,8 +73,12 @@ def harmonics_used(run):
 
 
 def asked(run, data):
+    try:
+        scene = run.scene
+    except RunError as error:
+        return f"<p class=note>{escape(str(error))}</p>"
     rows, folded = [], []
-    for name, content in parts_of(run.scene):
+    for name, content in parts_of(scene):
         first = FIRST.get(name.split()[0], ())
         part = [setting_row(key, content[key]) for key in first if key in content]
         rows += [[f"<b>{escape(name)}</b>" if i == 0 else "", *row] for i, row in enumerate(part)]

@@ -1,0 +1,312 @@
+"""The Python package as a user meets it: runs, results, sweeps, errors, what is missing; the examples of
+share/doc/python.md and the notebook run as they stand; report.html holds what the run holds.
+
+usage: python_package.py PROGRAM SOURCE_FOLDER WORKING_FOLDER
+"""
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from unittest import mock
+
+PROGRAM, SOURCE, WORK = sys.argv[1:4]
+del sys.argv[1:4]
+sys.path.insert(0, os.path.join(SOURCE, "share", "python"))
+sys.dont_write_bytecode = True
+
+import numpy as np
+
+import microslip
+
+CHAIN = os.path.join(SOURCE, "share", "scenes", "chain_2dof.toml")
+ONE_CURVE = {"response.harmonics": 1, "response.preload": [50], "response.optimum": None, "response.optimum_range": None}
+ENVIRONMENT = {**os.environ, "MICROSLIP": PROGRAM, "PYTHONPATH": os.path.join(SOURCE, "share", "python"),
+               "MPLBACKEND": "agg", "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def have(package):
+    return importlib.util.find_spec(package) is not None
+
+
+def fresh(name):
+    folder = os.path.join(WORK, name)
+    shutil.rmtree(folder, ignore_errors=True)
+    return folder
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        os.makedirs(WORK, exist_ok=True)
+        os.environ["MICROSLIP"] = PROGRAM
+        if not hasattr(Case, "run_"):  # one run, plots and page included, serves all
+            Case.run_ = microslip.run(CHAIN, {"response.harmonics": 1, "response.maps": ["peak"]}, folder=fresh("chain"))
+
+    def copy(self, name):
+        """The folder of the run, to be damaged."""
+        return shutil.copytree(self.run_.folder, fresh(name))
+
+
+class Results(Case):
+    def test_curves_are_those_of_the_files(self):
+        curve = self.run_.curves["preload_50"]
+        with open(os.path.join(self.run_.folder, "curves", "preload_50.csv"), encoding="utf-8") as file:
+            head, *rows = file.read().splitlines()
+        column = head.split(",").index("amplitude_m")
+        np.testing.assert_array_equal(curve["amplitude_m"], [float(row.split(",")[column]) for row in rows])
+        self.assertEqual(curve.preload, 50.0)
+        self.assertEqual(list(curve.peaks["amplitude_m"]), [curve.peak["amplitude_m"]])
+        with self.assertRaisesRegex(KeyError, "amplitude_m"):
+            curve["amplitude"]
+
+    def test_peaks_optimum_and_budget_are_those_of_the_summary(self):
+        with open(os.path.join(self.run_.folder, "summary.json"), encoding="utf-8") as file:
+            summary = json.load(file)
+        peaks = self.run_.peaks
+        self.assertEqual(list(peaks["amplitude_m"]), [curve["peak"]["amplitude_m"] for curve in summary["curves"]])
+        self.assertTrue(np.isnan(peaks["preload_N"][peaks["curve"].index("free")]))
+        self.assertEqual(self.run_.optimum["value"], summary["optimum"]["value"])
+        self.assertEqual(list(self.run_.budget["effect"]), [row["effect"] for row in summary["error_budget"]])
+        self.assertEqual(self.run_.scene["response"]["harmonics"], 1)
+
+    def test_the_energy_of_the_motion_is_that_of_the_map(self):
+        curve, contact = self.run_.curves["preload_50"], self.run_.maps["preload_50_peak"]
+        at_peak = np.array(curve["mark"]) == "peak"
+        of_map = np.sum(contact["weights"] * contact["dissipated_energy_J_per_m2"])
+        np.testing.assert_allclose(curve.energy["dissipated_energy_J"][at_peak], of_map, rtol=1e-6)
+
+    def test_a_free_structure_has_its_modal_damping(self):
+        curve = self.run_.curves["free"]  # near the first of two modes: 20.0 and 52.4 Hz
+        at = int(np.argmax(curve["amplitude_m"]))
+        self.assertAlmostEqual(curve.energy["equivalent_damping_ratio"][at], 0.02, delta=2e-4)
+        self.assertLess(np.abs(curve.energy["dissipated_energy_J"]).max(), 1e-9)  # of some 0.4 J of the excitation
+
+    @unittest.skipUnless(have("pandas") and have("xarray"), "pandas and xarray are not installed")
+    def test_pandas_and_xarray(self):
+        frame = self.run_.peaks.frame()
+        self.assertEqual(len(frame), len(self.run_.curves))
+        data = self.run_.maps["preload_50_peak"].dataset()
+        self.assertEqual(dict(data.sizes), {"point": 1, "phase_deg": len(data["phase_deg"])})
+        self.assertEqual(self.run_.curves["free"].dataset().sizes["row"], self.run_.curves["free"].n_rows)
+
+    def test_figures_are_those_of_the_report(self):
+        for figure in (self.run_.plot_curves(), self.run_.plot_peaks(), self.run_.plot_error_budget(), self.run_.plot_map()):
+            self.assertTrue(figure.axes)
+        lines = self.run_.curves["preload_50"].plot().lines
+        self.assertGreater(max(len(line.get_xdata()) for line in lines), 20)
+        with self.assertRaisesRegex(microslip.RunError, "no search"):
+            self.run_.plot_parameter()
+
+    def test_what_has_no_mesh_says_so(self):
+        with self.assertRaisesRegex(microslip.RunError, "only scenes with a mesh"):
+            self.run_.modes.mesh()
+        with self.assertRaisesRegex(microslip.RunError, "no cells"):
+            self.run_.maps["preload_50_peak"].mesh()
+
+
+class Damaged(Case):
+    def test_a_damaged_curve_costs_that_curve(self):
+        folder = self.copy("damaged")
+        path = os.path.join(folder, "curves", "preload_50.csv")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text[:len(text) // 2])
+        run = microslip.open(folder)
+        self.assertGreater(run.curves["free"].n_rows, 20)
+        with self.assertRaisesRegex(microslip.RunError, r"preload_50.csv:\d+: "):
+            run.curves["preload_50"]
+
+    def test_no_run_an_older_one_and_one_that_goes_on(self):
+        folder = self.copy("unfinished")
+        path = os.path.join(folder, "summary.json")
+        with open(path, encoding="utf-8") as file:
+            summary = json.load(file)
+        for content, complaint in (("{", "JSON"), ("[]", "no summary of a run"), ("{\"curves\": [{}]}", r"curves\[0\] lacks")):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(content)
+            with self.assertRaisesRegex(microslip.RunError, complaint):
+                microslip.open(folder)
+        summary.update(exit_code=3, message="the run has not come to its end")
+        for later in ("effects", "error_budget", "optimum"):  # which older versions did not write
+            summary.pop(later)
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(summary, file)
+        with self.assertWarnsRegex(microslip.RunWarning, "not come to its end"):
+            run = microslip.open(folder)
+        self.assertEqual((run.exit_code, run.optimum, run.budget.n_rows), (3, None, 0))
+        self.assertGreater(run.curves["free"].n_rows, 20)
+        with self.assertRaisesRegex(microslip.RunError, "summary.json is missing"):
+            microslip.open(os.path.join(folder, "curves"))
+
+    def test_packages_that_are_missing_are_named(self):
+        for package, use in (("matplotlib", self.run_.plot_curves), ("pandas", self.run_.frame),
+                             ("xarray", self.run_.peaks.dataset), ("meshio", self.run_.maps["preload_50_peak"].mesh)):
+            with self.subTest(package), mock.patch.dict(sys.modules, {package: None}):
+                with self.assertRaisesRegex(microslip.MissingPackage, rf"{package} is not installed.*apt-get.*without it"):
+                    use()
+
+
+class Running(Case):
+    def test_overrides_reach_the_scene(self):
+        run = microslip.run(CHAIN, {**ONE_CURVE, "title": "a \"b\" µ\\", "modes.damping_ratio": np.float64(0.01)},
+                            folder=fresh("overrides"), without=["plots", "maps"])
+        self.assertEqual((run.title, run.scene["modes"]["damping_ratio"]), ("a \"b\" µ\\", 0.01))
+        self.assertEqual((list(run.curves), run.optimum), (["preload_50"], None))
+        self.assertFalse(os.path.exists(os.path.join(run.folder, "plots")))
+
+    def test_errors_carry_message_and_exit_code(self):
+        with self.assertRaises(microslip.BadInput) as caught:
+            microslip.run(CHAIN, {"modes.dampng_ratio": 1}, folder=fresh("bad"))
+        self.assertEqual(caught.exception.exit_code, 1)
+        self.assertIn("damping_ratio", str(caught.exception))
+        with self.assertRaises(microslip.Refused) as caught:
+            microslip.run(self.loose(), folder=fresh("refused"))
+        self.assertEqual(caught.exception.exit_code, 2)
+        with self.assertRaisesRegex(microslip.BadInput, "no/such: no such program"):
+            microslip.run(CHAIN, program="no/such")
+        with self.assertRaisesRegex(TypeError, "a scene holds"):
+            microslip.run(CHAIN, {"title": object()})
+
+    def loose(self):
+        """A scene with a mode that nothing holds."""
+        path = os.path.join(WORK, "loose.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("[model]\nkind = \"modal\"\n[modal]\nfrequency = [0, 41.4]\ndamping_ratio = 0.01\nforce_sine = [0, 0.3]\n"
+                       "output = [0.9, 0.35]\npoints = []\n[response]\nfrequency = [10, 30]\n")
+        return path
+
+    def test_a_sweep_goes_on_past_what_fails(self):
+        sweep = microslip.sweep(CHAIN, {"contact.points[0].friction_coefficient": [0.5, -1], "response.preload": [[50], [100]]},
+                                overrides={**ONE_CURVE}, folder=fresh("sweep"), progress=False)
+        self.assertEqual([point.values["contact.points[0].friction_coefficient"] for point in sweep.failed], [-1, -1])
+        self.assertIn("-1 is out of range", str(sweep.failed[0].error))
+        self.assertEqual(sweep.peaks["curve"], ["preload_50", "preload_100"])
+        once = self.run_.curves["preload_100"].peak["amplitude_m"]
+        self.assertAlmostEqual(sweep.peaks["amplitude_m"][1] / once, 1.0, places=8)
+
+
+class Page(Case):
+    def page(self, folder):
+        with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def data(self, text):
+        return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+
+    def test_the_page_holds_sections_curves_and_budget(self):
+        text = self.page(self.run_.folder)
+        headings = ["Warnings", "Response", "Peak against preload", "Contact maps", "How far the peaks can be trusted",
+                    "What was asked", "Effects", "Structure", "Cost"]
+        self.assertEqual(re.findall(r"<h2>(.*?)</h2>", text), headings)
+        for curve in self.data(text)["curves"]:
+            amplitude = self.run_.curves[curve["name"]]["amplitude_m"]
+            np.testing.assert_allclose(np.array(curve["values"]["amplitude"]) * 1e-3, amplitude, rtol=1e-6)
+            self.assertEqual(curve["stable"], list(self.run_.curves[curve["name"]]["stable"]))
+        largest = max((row for row in self.run_.summary["error_budget"] if row["goal"] == "peak_amplitude"),
+                      key=lambda row: abs(row["effect"]))
+        self.assertIn(f"{100 * largest['effect']:+.2g} %", text)
+        for asked in ("friction coefficient", "tangential stiffness", "amplitude 10", "damping ratio"):
+            self.assertIn(asked, text)
+        self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
+
+    def test_a_title_cannot_end_the_page(self):
+        run = microslip.run(CHAIN, {**ONE_CURVE, "title": "</script><script>alert(1)</script>"}, folder=fresh("title"))
+        text = self.page(run.folder)
+        self.assertEqual(text.count("<script"), 2)
+        self.assertIn("&lt;script&gt;", text)
+
+    def test_a_page_needs_neither_matplotlib_nor_every_file(self):
+        folder = self.copy("lean")
+        os.remove(os.path.join(folder, "scene.toml"))
+        os.remove(os.path.join(folder, "curves", "stuck.csv"))
+        hidden = tempfile.mkdtemp(dir=WORK)
+        with open(os.path.join(hidden, "matplotlib.py"), "w", encoding="utf-8") as file:
+            file.write("raise ModuleNotFoundError('hidden', name='matplotlib')\n")
+        ended = subprocess.run(["/usr/bin/python3", os.path.join(SOURCE, "share", "scripts", "report_run.py"), folder],
+                               capture_output=True, text=True, env={**ENVIRONMENT, "PYTHONPATH": hidden})
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("matplotlib is not installed", ended.stderr)
+        text = self.page(folder)
+        self.assertIn("curves/stuck.csv is missing", text)
+        self.assertIn("scene.toml is missing", text)
+        self.assertEqual(len(self.data(text)["curves"]), len(self.run_.curves) - 1)
+
+    def test_a_browser_draws_it_at_two_widths(self):
+        browser = shutil.which("chromium") or shutil.which("chromium-browser")
+        if not browser:
+            self.skipTest("chromium is not installed: apt-get install chromium")
+        for width in (1200, 420):
+            picture = os.path.join(WORK, f"report_{width}.png")
+            profile = tempfile.mkdtemp(dir=WORK)
+            base = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
+                    f"--window-size={width},4000", "--virtual-time-budget=2000"]
+            target = "file://" + os.path.join(self.run_.folder, "report.html")
+            subprocess.run([*base, f"--screenshot={picture}", target], capture_output=True, timeout=120, check=True)
+            self.assertGreater(os.path.getsize(picture), 20000)
+        drawn = subprocess.run([*base, "--dump-dom", target], capture_output=True, text=True, timeout=120, check=True).stdout
+        paths = re.findall(r'<path d="M[^"]*L', drawn)
+        self.assertGreaterEqual(len(paths), len(self.run_.curves))
+
+
+class Examples(Case):
+    def folder(self, name):
+        """A folder like that of the sources, where runs may be left."""
+        folder = fresh(name)
+        os.makedirs(os.path.join(folder, "share", "examples"))
+        os.symlink(os.path.join(SOURCE, "share", "scenes"), os.path.join(folder, "share", "scenes"))
+        return folder
+
+    def execute(self, script, folder):
+        ended = subprocess.run([sys.executable, "-c", script], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        return ended.stdout
+
+    @unittest.skipUnless(have("pandas"), "pandas is not installed")
+    def test_the_examples_of_the_page_run(self):
+        with open(os.path.join(SOURCE, "share", "doc", "python.md"), encoding="utf-8") as file:
+            blocks = re.findall(r"```python\n(.*?)```", file.read(), re.S)
+        self.assertGreaterEqual(len(blocks), 4)
+        folder = self.folder("examples")
+        told = self.execute("\n".join(blocks), folder)
+        self.assertIn("-1 is negative", told)
+        self.assertTrue(os.path.exists(os.path.join(folder, "limit.png")))
+
+    @unittest.skipUnless(have("pandas"), "pandas is not installed")
+    def test_the_notebook_runs(self):
+        folder = os.path.join(self.folder("notebook"), "share", "examples")
+        notebook = shutil.copy(os.path.join(SOURCE, "share", "examples", "first_steps.ipynb"), folder)
+        if have("nbconvert") and have("ipykernel"):
+            ended = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output", "out.ipynb",
+                                    notebook], cwd=folder, env=ENVIRONMENT, capture_output=True, text=True)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            with open(os.path.join(folder, "out.ipynb"), encoding="utf-8") as file:
+                self.assertGreaterEqual(file.read().count("image/png"), 4)
+            return
+        with open(notebook, encoding="utf-8") as file:
+            cells = [cell["source"] for cell in json.load(file)["cells"] if cell["cell_type"] == "code"]
+        self.execute("\n".join(line for cell in cells for line in "".join(cell).splitlines() if not line.startswith("%")), folder)
+
+    def test_pip_installs_it_without_compiling(self):
+        if not (have("pip") and have("setuptools") and have("wheel")):
+            self.skipTest("pip, setuptools and wheel are not all installed")
+        folder = fresh("pip")
+        package = shutil.copytree(os.path.join(SOURCE, "share", "python"), os.path.join(folder, "package"),
+                                  ignore=shutil.ignore_patterns("__pycache__"))
+        target = os.path.join(folder, "site")
+        ended = subprocess.run([sys.executable, "-m", "pip", "install", "--no-deps", "--no-build-isolation", "--quiet", "--no-index",
+                                "--target", target, package], capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        for file in ("py.typed", "report/page.css", "report/page.js", "report/chart.js", "meshes/nastran.py"):
+            self.assertTrue(os.path.exists(os.path.join(target, "microslip", file)), file)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("error", ResourceWarning)
+    unittest.main(verbosity=2)
