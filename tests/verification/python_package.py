@@ -103,6 +103,29 @@ class Results(Case):
         with self.assertRaisesRegex(microslip.RunError, "no search"):
             self.run_.plot_parameter()
 
+    def test_the_loop_of_the_page_holds_the_energy_of_the_map(self):
+        from microslip.report.drawn import loop_of
+        contact = self.run_.maps["preload_50_peak"]
+        loop = loop_of(contact)  # of 24 phases: the corners of the loop are cut off
+        area = abs(np.trapz(loop["y"], 1e-6 * np.array(loop["x"])))
+        self.assertAlmostEqual(area / np.sum(contact["weights"] * contact["dissipated_energy_J_per_m2"]), 1.0, delta=0.05)
+
+    def test_a_structure_with_a_mesh_has_shapes_and_cells(self):
+        run = microslip.run(os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml"),
+                            {"model.element_size": "20 mm", "modes.count": 2, "response.preload": [300], "response.frequency": 320,
+                             "response.optimum": None, "response.optimum_range": None, "response.maps": ["peak"],
+                             "accuracy.error_budget": "off"}, folder=fresh("blade"), without=["plots"])
+        mesh = run.modes.mesh()
+        self.assertEqual(mesh.point_data["mode_1"].shape, (len(mesh.points), 3))
+        (contact,) = run.maps.values()
+        cells = contact.mesh(90.0)
+        phase = list(contact["phase_deg"]).index(90.0)
+        np.testing.assert_array_equal(cells.cell_data["state"][0], contact["state"][:, phase])
+        self.assertAlmostEqual(contact["weights"].sum(), 6e-4, places=8)  # 60 × 10 mm
+        corners = cells.points[cells.cells[0].data]
+        areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        np.testing.assert_allclose(areas, contact["weights"], rtol=1e-6)
+
     def test_what_has_no_mesh_says_so(self):
         with self.assertRaisesRegex(microslip.RunError, "only scenes with a mesh"):
             self.run_.modes.mesh()

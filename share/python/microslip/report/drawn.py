@@ -44,7 +44,10 @@ def label_of(curve):
         return str(curve.preload)
     if curve.summary.get("preload_scale") is not None:
         return f"preload × {curve.preload:g}"
-    return f"{plain(curve.preload)} N" if curve.preload >= 0 else f"gap ({plain(curve.preload)} N)"
+    if curve.preload >= 0:
+        return f"{plain(curve.preload)} N"
+    gap = curve.summary.get("gap_m")
+    return f"gap {1e6 * gap:.3g} µm" if gap else f"gap ({plain(curve.preload)} N)"
 
 
 def ratio_to_free(table, free):
@@ -142,6 +145,15 @@ def varying(contact, name, label, chosen, scale):
     return {"label": label, "low": float(low), "high": float(high), "data": bytes_of(values.T, low, high)}
 
 
+def loop_of(contact):
+    """Hysteresis of the whole patch along p: mean relative displacement [µm] and friction force [N], closed."""
+    weights = contact["weights"]
+    x = 1e6 * weights @ contact["relative_displacement_m"] / weights.sum()
+    y = weights @ contact["friction_traction_Pa"]
+    return {"x": numbers(np.append(x, x[0])), "y": numbers(np.append(y, y[0])),
+            "phases": numbers(np.append(contact["phase_deg"], 360.0))}
+
+
 def map_entry(contact):
     """A contact map: states and tractions at up to MOST_PHASES phases, sums over the period."""
     phases = contact["phase_deg"]
@@ -155,6 +167,7 @@ def map_entry(contact):
              "states": base64.b64encode(np.ascontiguousarray(contact["state"][:, chosen].T).astype(np.uint8)).decode(),
              "area": numbers(area, 5), "corners": numbers(corners.ravel(), 6), "axes": names,
              "cells": [[int(i) for i in cell] for cell in cells], "n": len(area),
+             "loop": loop_of(contact),
              "varying": [varying(contact, "normal_traction_Pa", "normal traction [MPa]", chosen, 1e-6),
                          varying(contact, "friction_traction_Pa", "friction traction along p [MPa]", chosen, 1e-6)]}
     for name, label, scale in (("dissipated_energy_J_per_m2", "dissipated energy [J/m² per period]", 1.0),

@@ -188,6 +188,7 @@ function showMaps() {
   slider.type = "range"; slider.min = 0; slider.value = 0; slider.setAttribute("aria-label", "phase");
   const told_ = part("p", place, undefined, "note"), canvas = part("canvas", part("div", place)), axes = part("p", place, undefined, "note");
   const key = part("div", place, undefined, "key");
+  const loop = new Chart(host("loop"), { x: "mean displacement along p [µm]", y: "friction force along p [N]", xPad: 0.05 });
   const draw = () => {
     const map = maps[which.selectedIndex], phase = Math.min(+slider.value, map.phases.length - 1), chosen = what.selectedIndex - 1;
     map.draw(canvas, chosen, phase);
@@ -202,6 +203,7 @@ function showMaps() {
     slider.value = map.liveliest();
     what.replaceChildren();
     for (const label of ["state", ...map.varying.map((v) => v.label)]) part("option", what, label);
+    loop.show([loopSeries(map)], {});
     draw();
   };
   which.selectedIndex = liveliest(maps);
@@ -209,6 +211,11 @@ function showMaps() {
   playWith(play, slider, draw);
   new ResizeObserver(draw).observe(place);
   choose();
+}
+
+function loopSeries({ loop }) {
+  return { label: "loop", colour: "#12355b", x: loop.x, y: loop.y, kind: loop.x.map(() => 1), mark: loop.x.map(() => ""),
+    tip: (i) => [`θ = ${told(loop.phases[i], 4)}°`, `${told(loop.x[i])} µm`, `${told(loop.y[i])} N`] };
 }
 
 // The map with most states: the first may be open, or stick, all over.

@@ -10,9 +10,9 @@ UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "leng
          "wear_coefficient": "m²/N", "frequency": "Hz", "preload": "N", "optimum_range": "SI", "masses": "kg",
          "springs": "N/m", "preload_moment": "N·m", "end_stiffness": "N/m", "length_unit": "m"}
 # Keys a reader asks for first; the rest of the scene is folded away.
-FIRST = {"model": ("kind", "file", "element_size", "order"), "material": ("youngs_modulus", "poissons_ratio", "density"),
+FIRST = {"model": ("kind", "file", "element_size", "order", "masses", "springs"), "material": ("youngs_modulus", "poissons_ratio", "density"),
          "supports": ("clamped",), "modes": ("count", "damping_ratio", "residual"),
-         "contact": ("surface", "slip_direction", "friction_coefficient", "normal_stiffness", "tangential_stiffness",
+         "contact": ("surface", "points", "slip_direction", "friction_coefficient", "normal_stiffness", "tangential_stiffness",
                      "roughness", "wear_coefficient"),
          "excitation": ("forces",),
          "response": ("output", "frequency", "method", "harmonics", "preload", "preload_scale", "optimum",
@@ -35,7 +35,9 @@ def number(value, digits=5):
 
 
 def percent(value, digits=2):
-    return f"{100 * value:.{digits}g} %" if is_number(value) else "–"
+    if not is_number(value):
+        return "–"
+    return f"{100 * value:.{digits}g} %" if value >= 1e-5 else "< 0.001 %"
 
 
 def value_text(value):
@@ -123,7 +125,10 @@ def free_peak(run):
 def preload_text(curve):
     scale = curve.get("preload_scale")
     value = curve.get("preload_N") if scale is None else scale
-    return number(value) if is_number(value) else escape(str(value if value is not None else "–"))
+    if not is_number(value):
+        return escape(str(value if value is not None else "–"))
+    gap = curve.get("gap_m")
+    return number(value) + (f" (gap {number(1e6 * gap, 3)} µm)" if gap else "")
 
 
 def peaks(run, data):
@@ -176,7 +181,9 @@ def maps(run, data):
     if not data["maps"]:
         return ""
     return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
-            '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>')
+            '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>'
+            '<h3>Hysteresis of the whole patch</h3><div class=loop data-chart=loop></div>'
+            '<p class=note>Friction force along p over the mean displacement along p; the loop holds the energy of a period.</p>')
 
 
 def bars_of(rows):
