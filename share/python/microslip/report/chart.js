@@ -34,7 +34,7 @@ function ticksOf([low, high], log, count) {
   if (log) {
     const decades = Math.log10(high / low);
     if (decades > 0.7) {
-      const steps = decades < 2.2 ? [1, 2, 5] : [1];
+      const steps = decades < 2.8 ? [1, 2, 5] : [1];
       const every = Math.max(1, Math.ceil(decades / count));
       for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += every)
         for (const step of steps) ticks.push(step * 10 ** power);
@@ -172,6 +172,7 @@ class Chart {
     if (mark === "peak") element("circle", { cx: x, cy: y, r: 4, ...shape }, layer);
     if (mark === "dot") element("circle", { cx: x, cy: y, r: 5, ...shape }, layer);
     if (mark === "fold") element("path", { d: `M${x} ${y - 4}l4 4l-4 4l-4 -4z`, ...shape }, layer);
+    if (mark === "richer") element("text", { x, y: y + 5, "text-anchor": "middle", style: `font-size:15px;fill:${s.colour}` }, layer, "☆");
     if (mark === "best") element("text", { x, y: y + 7, "text-anchor": "middle", style: "font-size:22px;fill:#c1121f" }, layer, "★");
     if (mark === "end") element("path", { d: `M${x - 4} ${y - 4}l8 8m0 -8l-8 8`, stroke: "#c1121f", "stroke-width": 2 }, layer);
   }

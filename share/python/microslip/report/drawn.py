@@ -85,6 +85,10 @@ def curve_entry(curve, free, unit, shade, damage):
     if bar and peak:
         entry["bar"] = {"frequency": peak["frequency_Hz"], "amplitude": peak["amplitude_m"] / size,
                         "of_frequency": bar["peak_frequency"], "of_amplitude": bar["peak_amplitude"]}
+    more = (curve.summary.get("harmonics") or {}).get("with_more") or {}
+    if peak and is_number(more.get("amplitude_m")) and is_number(more.get("frequency_Hz")):
+        entry["richer"] = {"harmonics": more.get("highest"), "amplitude": numbers([peak["amplitude_m"] / size, more["amplitude_m"] / size]),
+                           "frequency": numbers([peak["frequency_Hz"], more["frequency_Hz"]], 9)}
     return entry
 
 

@@ -29,7 +29,8 @@ function showCurves() {
   if (!place) return;
   const tools = document.querySelector("[data-tools=curves]");
   const chart = new Chart(place, { x: "excitation frequency [Hz]" });
-  const show = (quantity) => chart.show(data.curves.map((curve) => curveSeries(curve, quantity)),
+  const richer = (quantity) => (quantity.key === "amplitude" ? data.curves.filter((curve) => curve.richer).map(richerSeries) : []);
+  const show = (quantity) => chart.show([...data.curves.map((curve) => curveSeries(curve, quantity)), ...richer(quantity)],
     { y: quantity.label, yLog: quantity.log });
   choice(tools, data.quantities.map((q) => ({ ...q, label: q.short, axis: q.label })), 0, (q) => show({ ...q, label: q.axis }));
   show(data.quantities[0]);
@@ -38,7 +39,14 @@ function showCurves() {
   data.peaks.forEach((peak) => part("option", peaks, `peak of ${peak.label}, ${told(peak.frequency)} Hz`));
   peaks.onchange = () => { zoomOnPeak(chart, data.peaks[peaks.selectedIndex - 1]); peaks.selectedIndex = 0; };
   part("button", tools, "whole range").onclick = () => { chart.zoom = null; chart.draw(); };
-  legend(place.parentNode.insertBefore(part("div"), place.nextSibling), chart, chart.series);
+  legend(place.parentNode.insertBefore(part("div"), place.nextSibling), chart, data.curves);
+}
+
+// From the highest peak to where more harmonics put it.
+function richerSeries({ label, colour, richer }) {
+  return { label, colour, width: 1, x: richer.frequency, y: richer.amplitude, kind: [-1, -1], mark: ["", "richer"],
+    tip: () => [`${label}: the peak with ${richer.harmonics} harmonics`, `${told(richer.frequency[1], 7)} Hz`,
+      `${told(richer.amplitude[1])} ${data.unit}`] };
 }
 
 // As wide as the peak is at half of its height, and some more.
@@ -192,6 +200,7 @@ function showMaps() {
   const draw = () => {
     const map = maps[which.selectedIndex], phase = Math.min(+slider.value, map.phases.length - 1), chosen = what.selectedIndex - 1;
     map.draw(canvas, chosen, phase);
+    loop.show([loopSeries(map, phase)], {});
     map.key(key, chosen);
     told_.textContent = `θ = ${told(map.phases[phase], 4)}°: ${map.shares(phase)} of the area`;
     axes.textContent = map.cells.length ? `${map.axes[0]} to the right, ${map.axes[1]} upwards; ${sizeOf(map)}`
@@ -203,7 +212,6 @@ function showMaps() {
     slider.value = map.liveliest();
     what.replaceChildren();
     for (const label of ["state", ...map.varying.map((v) => v.label)]) part("option", what, label);
-    loop.show([loopSeries(map)], {});
     draw();
   };
   which.selectedIndex = liveliest(maps);
@@ -213,8 +221,10 @@ function showMaps() {
   choose();
 }
 
-function loopSeries({ loop }) {
-  return { label: "loop", colour: "#12355b", x: loop.x, y: loop.y, kind: loop.x.map(() => 1), mark: loop.x.map(() => ""),
+function loopSeries({ loop, phases }, phase) {
+  const here = loop.phases.indexOf(phases[phase]);
+  return { label: "loop", colour: "#12355b", x: loop.x, y: loop.y, kind: loop.x.map(() => 1),
+    mark: loop.x.map((_, i) => (i === here ? "dot" : "")),
     tip: (i) => [`θ = ${told(loop.phases[i], 4)}°`, `${told(loop.x[i])} µm`, `${told(loop.y[i])} N`] };
 }
 

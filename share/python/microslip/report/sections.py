@@ -164,7 +164,8 @@ def response(run, data):
         return ""
     chart = ('<div class=tools data-tools=curves></div><div class=chart data-chart=curves></div>'
              '<p class=note>Drag to zoom, double-click for the whole range, point at a curve for its numbers, click a name to '
-             'hide it. Solid: stable; dashed: unstable; dotted and pale: stability not judged. ● peak, ◇ fold, ✕ ends here.</p>')
+             'hide it. Solid: stable; dashed: unstable; dotted and pale: stability not judged. ● peak, ◇ fold, ☆ the peak with more '
+             'harmonics, ✕ ends here; crosses: error of the peak.</p>')
     many = any(len(set(entry["frequency"])) > 1 for entry in data["curves"])
     return optimum(run, data) + (chart if many else "") + peaks(run, data)
 
@@ -183,7 +184,8 @@ def maps(run, data):
     return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
             '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>'
             '<h3>Hysteresis of the whole patch</h3><div class=loop data-chart=loop></div>'
-            '<p class=note>Friction force along p over the mean displacement along p; the loop holds the energy of a period.</p>')
+            '<p class=note>Friction force over the mean relative displacement, both along p, at the phases of the map; the point is '
+            'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
 
 
 def bars_of(rows):
