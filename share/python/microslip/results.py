@@ -32,7 +32,8 @@ class Parts(Mapping[str, T]):
     """Parts of a run by name, each read when it is first asked for."""
 
     def __init__(self, what: str, names: list[str], read: Callable[[str], T]) -> None:
-        self._what, self._names, self._read, self._known = what, names, read, {}
+        self._what, self._names, self._read = what, names, read
+        self._known: dict[str, T] = {}
 
     def __getitem__(self, name: str) -> T:
         if name not in self._names:
@@ -117,7 +118,7 @@ class ContactMap(Table):
         """Over `point` and `phase_deg`, p and r as coordinates of the points. MissingPackage without xarray."""
         xarray = package("xarray", "arrays are NumPy's: contact_map[\"state\"]")
         n = len(self["points"])
-        arrays = {name: (("point", "phase_deg"), self[name]) for name in self.wide}
+        arrays: dict[str, Any] = {name: (("point", "phase_deg"), self[name]) for name in self.wide}
         arrays.update({name: (("point",), values) for name, values in self.items() if values.shape == (n,) and n > 1})
         return xarray.Dataset(arrays, coords={"phase_deg": self["phase_deg"], "p": ("point", self["points"][:, 0]),
                                               "r": ("point", self["points"][:, 1])})

@@ -11,7 +11,7 @@ import threading
 from typing import Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
-from microslip.program import Call, Overrides, Path, ProgramError, find_program, words_of
+from microslip.program import Call, Incomplete, Overrides, Path, ProgramError, find_program, words_of
 from microslip.results import Run, peak_row
 from microslip.tables import Table, table_of
 
@@ -105,7 +105,8 @@ class Sweeping:
 
     def __init__(self, program: str, scene: Path, overrides: Overrides, without: Sequence[str]) -> None:
         self.program, self.scene, self.overrides, self.without = program, scene, overrides, without
-        self.lock, self.calls, self.stopped = threading.Lock(), set(), False
+        self.lock, self.stopped = threading.Lock(), False
+        self.calls: set[Call] = set()
 
     def solve(self, point: Point) -> Point:
         """Runs a point on one core. What goes wrong is kept in it: the others go on."""
@@ -122,7 +123,7 @@ class Sweeping:
         finally:
             self.calls.discard(call)
         try:
-            if point.error is None or point.error.exit_code == 3:
+            if point.error is None or isinstance(point.error, Incomplete):
                 point.run = Run(point.folder)
         except RunError as error:
             point.error = point.error or error

@@ -31,7 +31,7 @@ def package(name: str, instead: str) -> Any:
                              f"{DEBIAN[needed]}); without it {instead}", name=needed) from None
 
 
-class Table(Mapping[str, Column]):
+class Table(Mapping[str, Any]):
     """Columns of equal length by name: table["frequency_Hz"] is a NumPy array; of texts a list."""
 
     def __init__(self, columns: Mapping[str, Column]) -> None:

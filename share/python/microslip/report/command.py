@@ -32,9 +32,11 @@ def draw_plots(folder, into):
 def report(folder, into=None, summary=None):
     """Both. The exit code."""
     into = into or folder
+    code = draw_plots(folder, into)
     try:
         write_report_page(folder, into, summary)
     except RunError as error:
-        print(error, file=sys.stderr)
+        if code == 0:  # else the plots have met it, and said so
+            print(error, file=sys.stderr)
         return 1
-    return draw_plots(folder, into)
+    return code

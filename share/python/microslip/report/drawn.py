@@ -84,11 +84,12 @@ def curve_entry(curve, free, unit, shade, damage):
              "values": columns_of(curve, free, size, damage)}
     if bar and peak:
         entry["bar"] = {"frequency": peak["frequency_Hz"], "amplitude": peak["amplitude_m"] / size,
-                        "of_frequency": bar["peak_frequency"], "of_amplitude": bar["peak_amplitude"]}
+                        "of_frequency": bar.get("peak_frequency") or 0.0, "of_amplitude": bar.get("peak_amplitude") or 0.0}
     more = (curve.summary.get("harmonics") or {}).get("with_more") or {}
     if peak and is_number(more.get("amplitude_m")) and is_number(more.get("frequency_Hz")):
-        entry["richer"] = {"harmonics": more.get("highest"), "amplitude": numbers([peak["amplitude_m"] / size, more["amplitude_m"] / size]),
-                           "frequency": numbers([peak["frequency_Hz"], more["frequency_Hz"]], 9)}
+        entry["richer"] = {"harmonics": more.get("highest"),
+                           "amplitude": numbers([place["amplitude_m"] / size for place in (peak, more)]),
+                           "frequency": numbers([place["frequency_Hz"] for place in (peak, more)], 9)}
     return entry
 
 

@@ -69,8 +69,7 @@ def parts_of(scene):
 
 def harmonics_used(run):
     """What the curves were solved with."""
-    most = max((entry.get("harmonics") or {}).get("most", 0) or 0 for entry in run.summary["curves"]) \
-        if run.summary["curves"] else 0
+    most = max(((entry.get("harmonics") or {}).get("most") or 0 for entry in run.summary["curves"]), default=0)
     return f"{most} at most" if most else ""
 
 
