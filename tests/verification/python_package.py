@@ -110,11 +110,17 @@ class Results(Case):
         area = abs(np.trapz(loop["y"], 1e-6 * np.array(loop["x"])))
         self.assertAlmostEqual(area / np.sum(contact["weights"] * contact["dissipated_energy_J_per_m2"]), 1.0, delta=0.05)
 
+    def blade(self):
+        if not hasattr(Case, "blade_"):
+            Case.blade_ = microslip.run(os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml"),
+                                        {"model.element_size": "20 mm", "modes.count": 2, "response.preload": [300],
+                                         "response.frequency": 320, "response.optimum": None, "response.maps": ["peak"],
+                                         "response.optimum_range": None, "accuracy.error_budget": "off"},
+                                        folder=fresh("blade"), without=["plots"])
+        return Case.blade_
+
     def test_a_structure_with_a_mesh_has_shapes_and_cells(self):
-        run = microslip.run(os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml"),
-                            {"model.element_size": "20 mm", "modes.count": 2, "response.preload": [300], "response.frequency": 320,
-                             "response.optimum": None, "response.optimum_range": None, "response.maps": ["peak"],
-                             "accuracy.error_budget": "off"}, folder=fresh("blade"), without=["plots"])
+        run = self.blade()
         mesh = run.modes.mesh()
         self.assertEqual(mesh.point_data["mode_1"].shape, (len(mesh.points), 3))
         (contact,) = run.maps.values()
@@ -125,6 +131,22 @@ class Results(Case):
         corners = cells.points[cells.cells[0].data]
         areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         np.testing.assert_allclose(areas, contact["weights"], rtol=1e-6)
+
+    def test_paraview_shows_the_states_in_their_colours(self):
+        pvbatch = os.environ.get("PVBATCH") or shutil.which("pvbatch")
+        if not pvbatch or not (os.environ.get("DISPLAY") or shutil.which("xvfb-run")):
+            self.skipTest("pvbatch, or a display for it, is not there: share/doc/paraview.md")
+        picture = os.path.join(WORK, "paraview.png")
+        screen = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
+        ended = subprocess.run([*screen, pvbatch, os.path.join(SOURCE, "share", "paraview", "open_run.py"), self.blade().folder,
+                                next(iter(self.blade().maps)), picture], capture_output=True, text=True, timeout=200)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        from matplotlib.image import imread
+        from microslip.states import STATES
+        colours = (imread(picture)[:, 800:, :3] * 255).round().astype(int).reshape(-1, 3)  # the right view
+        state = int(self.blade().maps[next(iter(self.blade().maps))]["state"][0, 0])
+        wanted = [int(STATES[state][2][i:i + 2], 16) for i in (1, 3, 5)]
+        self.assertGreater(np.sum(np.abs(colours - wanted).max(axis=1) <= 2), 5000)
 
     def test_what_has_no_mesh_says_so(self):
         with self.assertRaisesRegex(microslip.RunError, "only scenes with a mesh"):
