@@ -54,7 +54,7 @@ def pair_of(folder, name):
         if name is None or name in (stem(file) for file in pair if file):
             return pair
     sys.exit(f"{folder}: no motion and no contact map{f' of the name {name}' if name else ''}; there are "
-             f"{', '.join(map(stem, motions + maps)) or 'none: give the scene [response] maps'}")
+             f"{', '.join(dict.fromkeys(map(stem, motions + maps))) or 'none: give the scene [response] maps'}")
 
 
 def size_of(source):
@@ -103,11 +103,14 @@ def colours_of_states():
 
 
 def look_along_normal(source, view):
-    """Straight on the patch, its longest side flat: along the axes of its points."""
+    """Straight on the patch, its longest side flat: along the axes of its points. Points in a row have no face."""
     points = vtk_to_numpy(servermanager.Fetch(source).GetPoints().GetData())
+    if np.linalg.matrix_rank(points - points[0], tol=1e-9) < 2:
+        simple.ResetCamera(view)
+        return
     centre = points.mean(axis=0)
     _, _, axes = np.linalg.svd(points - centre, full_matrices=False)
-    long_side, short_side = axes[:2]
+    long_side, short_side = (axis * np.sign(axis[np.abs(axis).argmax()]) for axis in axes[:2])
     sizes = np.ptp((points - centre) @ axes.T, axis=0)
     view.CameraFocalPoint = list(centre)
     view.CameraPosition = list(centre + 2.0 * sizes[0] * np.cross(long_side, short_side))
@@ -123,6 +126,7 @@ def show_map(file, view):
     shown = simple.Show(source, view)
     where = "CELLS" if "state" in source.CellData.keys() else "POINTS"
     simple.ColorBy(shown, (where, "state"))
+    shown.PointSize = 20  # of contacts without cells
     shown.Ambient, shown.Diffuse = 1.0, 0.0  # colours as the legend has them
     table = simple.GetColorTransferFunction("state")
     table.InterpretValuesAsCategories = 1
