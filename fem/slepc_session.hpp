@@ -12,6 +12,7 @@ class SlepcSession {
  public:
   /// Does not read the command line. PETSc's own error handler and signal handler are switched off.
   /// @throws std::logic_error  a second one in the life of the process.
+  /// @throws MemoryError       the address space is limited to less than the libraries need to start.
   SlepcSession();
   ~SlepcSession();
   SlepcSession(const SlepcSession&) = delete;

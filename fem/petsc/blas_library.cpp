@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <dlfcn.h>
+#include <petscblaslapack.h>
 #include <sched.h>
 
 #include "fem/slepc_session.hpp"
@@ -60,6 +61,15 @@ void set_blas_threads(int n_ranks_here) {
   const auto hardware = static_cast<int>(std::thread::hardware_concurrency());
   // mpirun may already have bound each rank to its share of the cores.
   set_threads(std::max(1, std::min(usable_threads(), hardware / std::max(1, n_ranks_here))));
+}
+
+void reserve_blas_memory() {
+  const PetscBLASInt one = 1;
+  const PetscScalar unit = 1.0;
+  PetscScalar triangle = 1.0;
+  PetscScalar solution = 1.0;
+  // A product of small matrices may do without.
+  BLAStrsm_("L", "L", "N", "N", &one, &one, &unit, &triangle, &one, &solution, &one);
 }
 
 void use_one_blas_thread() {

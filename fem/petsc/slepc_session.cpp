@@ -1,6 +1,9 @@
 #include "fem/slepc_session.hpp"
 
+#include <sys/mman.h>
+
 #include <array>
+#include <cstddef>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
@@ -43,6 +46,22 @@ class QuietOptions {
   std::optional<std::string> before_;
 };
 
+/// MPI ends the process, and OpenBLAS never returns, where the address space is limited to less than they take
+/// (`ulimit -v`).
+void require_address_space() {
+  constexpr std::size_t needed =
+      450'000'000;  // MPI, its threads, a buffer of OpenBLAS: some 350 MB
+  void* space =
+      mmap(nullptr, needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (space == MAP_FAILED) {
+    throw MemoryError(
+        "less than " + std::to_string(needed / 1'000'000) +
+        " MB of address space are left, which finite elements need to start; raise the limit "
+        "(ulimit -v)");
+  }
+  munmap(space, needed);
+}
+
 int ranks_on_this_machine() {
   MPI_Comm here = MPI_COMM_NULL;
   int n = 1;
@@ -62,12 +81,14 @@ SlepcSession::SlepcSession() {
   if (over != 0 || alive == PETSC_TRUE) {
     throw std::logic_error("SlepcSession: one per process, and there was one already");
   }
+  require_address_space();
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
   }
   install_error_handler();
   set_blas_threads(ranks_on_this_machine());
+  reserve_blas_memory();
 }
 
 SlepcSession::~SlepcSession() {

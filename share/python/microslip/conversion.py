@@ -17,11 +17,18 @@ def problem_of(source, error):
     return f"{source}: reading it failed: {type(error).__name__}: {' '.join(str(error).split())}"
 
 
+def limit(what, value):
+    """To a value, or to less where the user's own limit is lower."""
+    _, hard = resource.getrlimit(what)
+    lower = value if hard == resource.RLIM_INFINITY else min(value, hard)
+    resource.setrlimit(what, (lower, lower))
+
+
 def run(convert, source, output, facts, seconds, megabytes):
     """convert(source, output, facts) within limits of processor time and address space. Returns 0, or 1 after the last
     line of standard error told what is wrong."""
-    resource.setrlimit(resource.RLIMIT_CPU, (int(float(seconds)) + 1,) * 2)
-    resource.setrlimit(resource.RLIMIT_AS, (int(float(megabytes) * 1e6),) * 2)
+    limit(resource.RLIMIT_CPU, int(float(seconds)) + 1)
+    limit(resource.RLIMIT_AS, int(float(megabytes) * 1e6))
     try:
         convert(source, output, facts)
     except Exception as error:  # whatever a library throws at a damaged file

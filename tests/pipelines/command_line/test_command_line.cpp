@@ -579,6 +579,20 @@ TEST_F(Program, LittleAddressSpaceIsNoHang) {
   }
 }
 
+/// OpenBLAS asks for its buffer for ever where there is none, and MPI ends the process.
+TEST_F(Program, LittleAddressSpaceOfAMeshedSceneIsExitFour) {
+  write(path("scene.toml"),
+        "[model]\nkind = \"blade\"\nelement_size = \"20 mm\"\n[material]\nyoungs_modulus = 2e11\n"
+        "poissons_ratio = 0.3\ndensity = 7800\n[supports]\nclamped = [\"root\"]\n");
+  for (const char* megabytes : {"300", "450"}) {
+    const std::string limit = std::string("ulimit -v ") + megabytes + "000; timeout -s KILL 60";
+    const Outcome outcome = run("modes scene.toml -q -o out", limit);
+    EXPECT_EQ(outcome.code, 4) << megabytes << outcome.err;
+    EXPECT_NE(outcome.err.find("address space"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run("modes scene.toml -q -o out", "ulimit -v 900000; timeout -s KILL 60").code, 0);
+}
+
 TEST_F(Program, ALimitOfTheFileSizeIsExitFour) {
   write(path("scene.toml"), scene_text);
   ASSERT_EQ(run("run scene.toml -q -o out").code, 0);
