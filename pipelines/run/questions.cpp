@@ -193,6 +193,18 @@ Findings slip_angle(const Facts& facts) {
   return findings;
 }
 
+/// Linear elements cannot keep their volume while they bend: the nearer ν is to 0.5 the stiffer they are.
+Findings locking(const Facts& facts) {
+  for (const mesh::ElementBlock& block : facts.mesh->elements()) {
+    if (mesh::is_quadratic(block.type)) continue;
+    Findings findings = poissons_ratio(facts);
+    for (Finding& finding : findings)
+      finding.where = fmt::format("in {} elements", name(block.type));
+    return findings;
+  }
+  return {};
+}
+
 Findings pressure(const Facts& facts) {
   Findings findings;
   for (std::size_t i = 0; i < facts.scene.contacts.size(); ++i) {
@@ -322,6 +334,11 @@ constexpr std::array table{
     Question{Stage::mesh, "the slip direction rises", "degrees", 0.0, 60.0, "",
              "it is nearly the normal, and p is the little of it that lies in the face",
              slip_angle},
+    Question{
+        Stage::mesh, "Poisson's ratio", "", -1.0, 0.45, "",
+        "linear elements of a material that keeps its volume lock, frequencies come out too high; "
+        "use quadratic ones",
+        locking},
     Question{Stage::mesh, "the mean pressure", "Pa", 0.0, 3e9, "yield of steels 3e8 to 2e9",
              "is the preload in newtons, the mesh in its unit?", pressure},
     Question{Stage::mesh, "the nearest node is", "% of an element", 0.0, 100.0, "",

@@ -193,6 +193,20 @@ Lines of_box(const Lines& overrides, double scale = 1.0) {
 
 TEST(Questions, TakeASmallCouponAsItIs) { expect_none(of_box({})); }
 
+TEST(Questions, AskForLinearElementsThatLock) {  // hard case 29
+  const auto of = [](mesh::ElementType type, const char* ratio) {
+    const SceneDescription scene = box_scene({std::string("material.poissons_ratio=") + ratio});
+    mesh::Mesh mesh = test::box_mesh(type, {{0.01, 0.02, 0.1}, {1, 1, 4}, {}});
+    name_points(mesh, scene);
+    return questions(scene, mesh);
+  };
+  expect_question(of(mesh::ElementType::hex8, "0.4999"),
+                  "material.poissons_ratio:", {"0.4999 in hex8", "quadratic"});
+  expect_question(of(mesh::ElementType::tet4, "0.46"), "material.poissons_ratio:", {"tet4"});
+  expect_none(of(mesh::ElementType::hex8, "0.45"));
+  expect_none(of(mesh::ElementType::hex20, "0.4999"));
+}
+
 TEST(Questions, AskForAMeshInAnotherUnit) {
   expect_question(of_box({"points.P=[10, 20, 100]"}, 1000.0),
                   "model.length_unit:", {"100 m", "mass 1.56e+08 kg"});
