@@ -35,7 +35,8 @@ void print_json_line(const Arguments& arguments, int code, const std::string& me
 }
 
 /// A command line that cannot be read.
-int misused(const Arguments& arguments, const std::string& message, int argc, char** argv) {
+int misused(const Arguments& arguments, const std::string& whole, int argc, char** argv) {
+  const std::string message = shortened(whole);
   std::cerr << "microslip: " << message << "\nRun with --help for more information.\n";
   const int code = static_cast<int>(ExitCode::bad_input);
   const std::vector<std::string_view> words(argv, argv + argc);
@@ -57,8 +58,9 @@ int guarded(Arguments& arguments, const Action& action) {
   } catch (const std::exception& error) {
     const ExitCode verdict = exit_code_of(error);
     code = static_cast<int>(verdict);
-    message = verdict == ExitCode::internal ? fmt::format("internal error: {}", error.what())
-                                            : std::string(error.what());
+    message =
+        shortened(verdict == ExitCode::internal ? fmt::format("internal error: {}", error.what())
+                                                : std::string(error.what()));
     if (verdict == ExitCode::refused && message.find(arguments.input) == std::string::npos) {
       message.insert(0, arguments.input + ": ");
     }

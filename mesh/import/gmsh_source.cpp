@@ -14,18 +14,27 @@
 namespace microslip::mesh {
 namespace {
 
+/// Of a file of any size: what is no mesh is told before it is read whole.
 std::string content_of(const std::filesystem::path& file) {
+  constexpr std::size_t longest_preface = 65536;  // before the first section
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw MeshError(file.string() + ": no such file");
   if (!std::filesystem::is_regular_file(file, error))
     throw MeshError(file.string() + ": not a file");
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream && std::filesystem::file_size(file, error) > 0) {
-    throw MeshError(file.string() + ": cannot be read");
-  }
-  return std::move(text).str();
+  std::string text(std::min<std::size_t>(std::filesystem::file_size(file), longest_preface), ' ');
+  const auto read = [&](std::size_t from) {
+    const auto size = static_cast<std::streamsize>(text.size() - from);
+    if (!stream.read(text.data() + from, size)) {
+      throw MeshError(file.string() + ": cannot be read");
+    }
+  };
+  read(0);
+  if (text.find('$') == std::string::npos) return text;
+  const std::size_t begun = text.size();
+  text.resize(std::filesystem::file_size(file));
+  read(std::min(begun, text.size()));
+  return text;
 }
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }

@@ -43,4 +43,18 @@ std::string explained(const CLI::ParseError& error, const CLI::App& app, int arg
   return text;
 }
 
+std::string shortened(const std::string& message) {
+  constexpr std::size_t most = 1500;
+  constexpr std::size_t end = 300;
+  if (message.size() <= most) return message;
+  const auto continues = [&](std::size_t i) {  // a character of several bytes
+    return (static_cast<unsigned char>(message[i]) & 0xC0U) == 0x80U;
+  };
+  std::size_t first = most - end;
+  std::size_t last = message.size() - end;
+  while (first > 0 && continues(first)) --first;
+  while (last < message.size() && continues(last)) ++last;
+  return message.substr(0, first) + " … " + message.substr(last);
+}
+
 }  // namespace microslip::pipelines

@@ -15,4 +15,7 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string explained(const CLI::ParseError& error, const CLI::App& app, int argc,
                                     char** argv);
 
+/// A message with its begin and its end, where it quotes more than anybody reads.
+[[nodiscard]] std::string shortened(const std::string& message);
+
 }  // namespace microslip::pipelines

@@ -261,18 +261,18 @@ Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& 
   const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
   if (plane.flatness > flatness_limit * plane.diameter) {
     throw SceneError(fmt::format(
-        "{}.surface: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
+        "{}: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
         "size {:.3g} m (at most {:.0f} %); name a plane face",
-        contact.key, contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter,
+        contact.place, contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter,
         plane.diameter, 100.0 * flatness_limit));
   }
   const Eigen::Vector3d q = plane.normal;
   const Eigen::Vector3d p = contact.slip_direction - q * q.dot(contact.slip_direction);
   if (p.norm() < 1e-6 * contact.slip_direction.norm()) {
     throw SceneError(fmt::format(
-        "{}.slip_direction: along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
+        "{}: {}.slip_direction is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
         "direction with a part in the plane",
-        contact.key, q.x(), q.y(), q.z(), contact.surface));
+        contact.place, contact.key, q.x(), q.y(), q.z(), contact.surface));
   }
   Eigen::Matrix3d frame;
   frame.row(0) = p.normalized();

@@ -1,8 +1,13 @@
 #include "pipelines/model/conversion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdlib>
 #include <fstream>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -25,6 +30,26 @@ void require_file(const fs::path& file) {
   if (!fs::is_regular_file(file, error)) throw mesh::MeshError(file.string() + ": not a file");
 }
 
+/// What no reader makes anything of, told before a gigabyte of it is read.
+void require_plausible_begin(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> without_lines{"<", "\x89HDF", "CDF", "PK"};
+  constexpr std::size_t longest_line = 65536;
+  std::string begin(longest_line, ' ');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  if (begin.starts_with('\0')) {
+    throw SceneError(
+        fmt::format("{}: begins with a byte of value 0, as no format does", file.string()));
+  }
+  const bool is_text = std::ranges::none_of(
+      without_lines, [&](std::string_view mark) { return begin.starts_with(mark); });
+  if (is_text && begin.size() == longest_line && begin.find_first_of("\r\n") == std::string::npos) {
+    throw SceneError(fmt::format("{}:1: a line of more than {} bytes, as no format has",
+                                 file.string(), longest_line));
+  }
+}
+
 /// MICROSLIP_CONVERTER stands in for the script, as MICROSLIP_MESHER does for the mesher.
 std::vector<std::string> converter(const std::string& script) {
   std::vector<std::string> command = script_command(script);
@@ -39,6 +64,7 @@ std::vector<std::string> converter(const std::string& script) {
 nlohmann::json convert_file(const std::string& script, const fs::path& file, const fs::path& output,
                             const ConverterLimits& limits) {
   require_file(file);
+  require_plausible_begin(file);
   const fs::path facts = output.string() + ".json";
   const double megabytes = static_cast<double>(fs::file_size(file)) / 1e6;
   const double seconds = limits.seconds + megabytes;

@@ -73,6 +73,9 @@ std::array<Eigen::Index, 3> read_size(Lines& lines) {
   }
   if (size[0] != size[1])
     lines.fail(fmt::format("{} rows, {} columns: not square", size[0], size[1]));
+  if (size[0] > size[2]) {  // told before room is made for them
+    lines.fail(fmt::format("{} rows, {} entries: there are rows without any", size[0], size[2]));
+  }
   return size;
 }
 

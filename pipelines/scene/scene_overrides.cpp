@@ -15,6 +15,8 @@
 namespace microslip::pipelines {
 namespace {
 
+constexpr std::size_t most_steps = 100;  // every one is a table in another
+
 struct Step {
   std::string key;
   std::optional<std::size_t> index;  // of a list entry
@@ -41,6 +43,9 @@ std::vector<Step> steps_of(const std::string& path, const std::string& assignmen
       step.key.resize(bracket);
     }
     if (step.key.empty()) refuse(assignment, "a key is empty");
+    if (steps.size() == most_steps) {
+      refuse(assignment, fmt::format("a key of more than {} parts", most_steps));
+    }
     steps.push_back(std::move(step));
   }
   return steps;

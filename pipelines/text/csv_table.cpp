@@ -18,6 +18,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr std::uintmax_t largest_table = 1'000'000'000;  // bytes
+constexpr std::size_t longest_line = 1'000'000;          // bytes: columns for ten thousand modes
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -102,6 +103,10 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
     const std::string_view line = trimmed(text.substr(begin, end - begin));
     begin = end + 1;
     ++line_number;
+    if (line.size() > longest_line) {
+      throw SceneError(fmt::format("{}:{}: a line of {} bytes; at most {} are read", name,
+                                   line_number, line.size(), longest_line));
+    }
     if (line.empty() || line.front() == '#') continue;
     const auto cells = cells_of(line);
     if (table.columns_.empty()) {

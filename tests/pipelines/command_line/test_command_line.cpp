@@ -565,6 +565,22 @@ TEST_F(Program, ASecondInterruptCostsNothing) {
   EXPECT_FALSE(exists("out/.lock"));
 }
 
+/// What is quoted is as long as the user's file makes it; its place and the remedy are still seen.
+TEST_F(Program, LongNamesAreToldInAFewLines) {
+  write(path("key.toml"), scene_text + std::string(1000000, 'k') + " = 1\n");
+  write(path("points.csv"), std::string(2000000, ','));
+  const std::string parts(40000, 'a');
+  for (const std::string& arguments :
+       {std::string("check key.toml"), std::string("cycle points.csv"),
+        "check " + std::string(4000, 'x'), "check key.toml --set " + parts + "=1"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 1) << outcome.err.substr(0, 300);
+    EXPECT_LT(outcome.err.size(), 2000U);
+  }
+  expect("check key.toml", 1, {"key.toml:11: response.kkk", " … ", "known here:"});
+  expect("cycle points.csv", 1, {"points.csv:1: a line of 2000000 bytes"});
+}
+
 /// Under a limit of the address space the threads of OpenBLAS cannot start.
 TEST_F(Program, LittleAddressSpaceIsNoHang) {
   write(path("scene.toml"), scene_text);

@@ -1,7 +1,10 @@
 #include "pipelines/model/mesh_file.hpp"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <functional>
 
@@ -92,6 +95,25 @@ TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   std::string turned = deck;
   turned.replace(turned.find("1, 1, 2, 3"), 10, "1, 2, 1, 3");
   expect_words(refusal(write("turned.inp", turned)), {"bad-mesh", "1"});
+}
+
+TEST_F(MeshFile, WhatIsNoMeshIsToldBeforeItIsReadWhole) {
+  for (const char* ending : {".inp", ".unv", ".vtu", ".e", ".msh"}) {
+    const std::filesystem::path zeros = write(std::string("zeros") + ending, "");
+    std::filesystem::resize_file(zeros, 1U << 30U);
+    const std::clock_t begin = std::clock();
+    expect_words(refusal(zeros), {std::string("zeros") + ending});
+    EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC) << ending;
+  }
+  expect_words(refusal(write("letters.inp", std::string(100000, 'a'))), {"letters.inp:1", "line"});
+}
+
+/// Memory is limited to what the user's own limit leaves (`ulimit -v`).
+TEST_F(MeshFile, IsReadUnderALowerLimitOfTheUser) {
+  const std::filesystem::path file = write("blade.inp", deck);
+  const rlimit low{3600, 3600};  // s of processor time: a limit of memory would bind this test too
+  ASSERT_EQ(setrlimit(RLIMIT_CPU, &low), 0);
+  EXPECT_EQ(refusal(file, {7200.0, 1000.0}), "no error");
 }
 
 TEST_F(MeshFile, AConverterThatMisbehavesIsAnError) {

@@ -50,11 +50,13 @@ TEST(MatrixMarket, WhatIsWrongIsToldWithItsLine) {
       refusal("%%MatrixMarket matrix array real general\n").find("K.mtx:1: expected \"%%Matrix"),
       std::string::npos);
   EXPECT_EQ(refusal(symmetric + "2 3 1\n"), "K.mtx:2: 2 rows, 3 columns: not square");
+  EXPECT_EQ(refusal(symmetric + "3000000000 3000000000 5\n1 1 4\n"),
+            "K.mtx:2: 3000000000 rows, 5 entries: there are rows without any");
   EXPECT_EQ(refusal(symmetric + "2 2 2\n1 1 4\n"),
             "K.mtx: the file ends at line 3; expected more entries, as the size says");
-  EXPECT_EQ(refusal(symmetric + "2 2 1\n1 3 4\n"),
+  EXPECT_EQ(refusal(symmetric + "2 2 2\n1 3 4\n"),
             "K.mtx:3: entry (1, 3) lies outside of 2 rows and columns");
-  EXPECT_EQ(refusal(symmetric + "2 2 1\n1 1 x\n"),
+  EXPECT_EQ(refusal(symmetric + "2 2 2\n1 1 x\n"),
             "K.mtx:3: expected row, column and a finite number");
   EXPECT_EQ(refusal("%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 4\n1 2 1\n2 2 4\n"),
             "K.mtx: the matrix is not symmetric: entry (1, 2) is 1, (2, 1) is 0");
