@@ -162,6 +162,11 @@ void judge(int status, const MesherLimits& limits, const std::string& said) {
          << "; try a larger element_size";
     throw MeshError(text.str());
   }
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGTERM)) {
+    text << "the mesher was ended from outside (" << strsignal(WTERMSIG(status))
+         << "), by somebody or for want of memory" << quoted;
+    throw MeshError(text.str());
+  }
   if (WIFSIGNALED(status)) {
     text << "the mesher crashed (" << strsignal(WTERMSIG(status)) << ")" << quoted
          << "; the geometry may be degenerate";

@@ -153,6 +153,13 @@ TEST_F(Blade, AMesherThatCrashesIsNamed) {
   EXPECT_NE(failure({}, 0.008).find("crashed (Segmentation fault)"), std::string::npos);
 }
 
+TEST_F(Blade, AMesherThatIsKilledIsNotBlamedOnTheGeometry) {
+  use_mesher("kill -KILL $$");
+  const std::string message = failure({}, 0.008);
+  EXPECT_NE(message.find("ended from outside (Killed)"), std::string::npos) << message;
+  EXPECT_EQ(message.find("geometry"), std::string::npos) << message;
+}
+
 TEST_F(Blade, AMesherThatFailsIsQuoted) {
   use_mesher("sleep 0.3; echo no luck; exit 1");
   EXPECT_EQ(failure({}, 0.008), "the mesher failed: no luck");
