@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <unordered_map>
 
 #include "mesh/shape_functions.hpp"
@@ -182,6 +183,18 @@ class MeshMaker {
   Eigen::Index n_repeated_ = 0;
 };
 
+/// Beyond, powers of lengths that stiffness and mass are made of leave the range of numbers.
+void require_size_of_a_body(const Mesh& mesh, const std::string& file) {
+  constexpr double smallest = 1e-12;
+  constexpr double largest = 1e12;
+  const double length = (mesh.upper() - mesh.lower()).maxCoeff();
+  if (length >= smallest && length <= largest) return;
+  std::ostringstream text;
+  text << file << ": the longest side of the mesh is " << length << " m; expected " << smallest
+       << " to " << largest << " m: is length_unit that of the file?";
+  throw MeshError(text.str());
+}
+
 }  // namespace
 
 const GmshType* gmsh_type(std::int64_t number) {
@@ -200,7 +213,9 @@ std::string gmsh_remedy(const GmshType* type) {
 }
 
 Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file) {
-  return MeshMaker(content, length_unit, file).make();
+  Mesh mesh = MeshMaker(content, length_unit, file).make();
+  require_size_of_a_body(mesh, file);
+  return mesh;
 }
 
 }  // namespace microslip::mesh

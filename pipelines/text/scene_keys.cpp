@@ -15,6 +15,10 @@ namespace {
 using enum KeyType;
 using namespace keys;
 
+/// Of E and ρ, with room for systems of units that nobody should use here.
+constexpr double least_material = 1e-15;
+constexpr double most_material = 1e20;
+
 constexpr KeySpec length_key(std::string_view name, std::string_view preset,
                              std::string_view meaning) {
   return {name, number, "m", preset, 0.0, 10.0, true, meaning};
@@ -120,9 +124,9 @@ constexpr std::array modal_model_keys{kind_key};
 
 constexpr std::array bar_model_keys{
     kind_key,
-    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"youngs_modulus", number, "Pa", "", least_material, most_material, false, "E"},
     KeySpec{"area", number, "m^2", "", 0.0, unbounded, true, "A, cross-section"},
-    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+    KeySpec{"density", number, "kg/m^3", "", least_material, most_material, false, "ρ"},
     KeySpec{"length", number, "m", "", 0.0, unbounded, true,
             "L; the left end is x = 0, the right one is free"},
     KeySpec{"end_stiffness", other, "N/m", "\"clamped\"", 0, 0, false,
@@ -167,13 +171,13 @@ constexpr std::array block_model_keys{
 };
 
 constexpr std::array material_keys{
-    KeySpec{"youngs_modulus", number, "Pa", "", 0.0, unbounded, true, "E"},
+    KeySpec{"youngs_modulus", number, "Pa", "", least_material, most_material, false, "E"},
     KeySpec{"poissons_ratio", number, "1", "", -1.0, 0.4999, true, "ν"},
-    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true, "ρ"},
+    KeySpec{"density", number, "kg/m^3", "", least_material, most_material, false, "ρ"},
 };
 
 constexpr std::array given_material_keys{
-    KeySpec{"density", number, "kg/m^3", "", 0.0, unbounded, true,
+    KeySpec{"density", number, "kg/m^3", "", least_material, most_material, false,
             "ρ, where all of the mesh has one: checks the modes given, ΦᵀMΦ = 1", true},
 };
 

@@ -124,6 +124,14 @@ TEST(MeshReader, NamesWhatIsWrong) {
             std::string::npos);
 }
 
+TEST(MeshReader, RefusesABodyOfASizeThatNoneHas) {
+  const std::string good = gmsh_file(curved_element(ElementType::tet10), 2.2, false);
+  for (const double unit : {1e-60, 1e-20, 1e20, 1e60}) {
+    EXPECT_THROW(static_cast<void>(read_gmsh_text(good, "mesh.msh", unit)), MeshError) << unit;
+  }
+  EXPECT_GT(read_gmsh_text(good, "mesh.msh", 1e-6).volume(), 0.0);
+}
+
 // Format 2.2 writes an element once for each group it is in; the same group twice is a repetition.
 TEST(MeshReader, CountsRepeatedElements) {
   GmshContent content;

@@ -397,8 +397,10 @@ TEST(BadScene, NumbersAreCheckedForRangeAndSense) {
     EXPECT_NE(message, "") << assignment;
     expect_complaint(message, parts);
   };
-  refused("material.density=0", {"material.density", "above 0"});
-  refused("material.youngs_modulus=0", {"above 0"});
+  refused("material.density=0", {"material.density", "1e-15 to 1e+20 kg/m^3"});
+  refused("material.density=1e-99", {"1e-15 to"});
+  refused("material.youngs_modulus=0", {"material.youngs_modulus", "1e-15 to 1e+20 Pa"});
+  refused("material.youngs_modulus=1e99", {"to 1e+20"});
   refused("material.youngs_modulus=nan", {"finite"});
   refused("material.youngs_modulus=inf", {"finite"});
   refused("material.youngs_modulus=1e400 Pa", {"youngs_modulus"});
