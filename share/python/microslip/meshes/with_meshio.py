@@ -93,5 +93,6 @@ def _read(path, file_format):
 
 
 def _told(error, said):
-    text = " ".join(f"{said.getvalue()} {'' if isinstance(error, SystemExit) else error}".split())
+    own_words = not isinstance(error, (SystemExit, AttributeError, TypeError))  # else those of a programmer
+    text = " ".join(f"{said.getvalue()} {error if own_words else ''}".split())
     return text or f"meshio gave up without a word ({type(error).__name__})"
