@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages microslip needs, those only that are missing. Safe to run again.
 #
-#   share/scripts/setup.sh [--tests | --tidy]     --tests: also what the tests alone need
-#                                                 --tidy: also what tidy.sh needs
+#   share/scripts/setup.sh [--tests | --tidy | --fuzz]     --tests: also what the tests alone need
+#                                                          --tidy, --fuzz: what tidy.sh, fuzz.sh need
 #
 # Works as root or with sudo; says what it does.
 set -eu
@@ -22,7 +22,8 @@ case "${1:-}" in
   "") ;;
   --tests) wanted="$wanted $test_programs" ;;
   --tidy) wanted="$wanted clang-tidy" ;;
-  *) echo "usage: setup.sh [--tests | --tidy]" >&2; exit 1 ;;
+  --fuzz) wanted="$wanted clang libclang-rt-dev" ;;
+  *) echo "usage: setup.sh [--tests | --tidy | --fuzz]" >&2; exit 1 ;;
 esac
 
 is_installed() {
