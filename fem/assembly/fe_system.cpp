@@ -1,48 +1,10 @@
 #include "fem/assembly/fe_system.hpp"
 
-#include <array>
-
+#include "fem/assembly/own_elements.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
 namespace {
-
-constexpr std::size_t max_nodes = 20;
-
-// Solver node numbers of one element, −1 where held: what MatSetValuesBlocked ignores.
-struct ElementDofs {
-  std::array<PetscInt, max_nodes> index{};
-  int n = 0;
-};
-
-ElementDofs element_dofs(const DofMap& dofs, const mesh::ElementBlock& block,
-                         Eigen::Index element) {
-  ElementDofs result;
-  result.n = mesh::n_nodes(block.type);
-  for (int i = 0; i < result.n; ++i) {
-    result.index[static_cast<std::size_t>(i)] =
-        static_cast<PetscInt>(dofs.solver_node(block.connectivity(element, i)));
-  }
-  return result;
-}
-
-bool touches_own_rows(const DofMap& dofs, const ElementDofs& element) {
-  for (int i = 0; i < element.n; ++i) {
-    const Eigen::Index node = element.index[static_cast<std::size_t>(i)];
-    if (node >= dofs.first() && node < dofs.last()) return true;
-  }
-  return false;
-}
-
-template <typename Visit>
-void for_own_elements(const mesh::Mesh& mesh, const DofMap& dofs, Visit visit) {
-  for (const mesh::ElementBlock& block : mesh.elements()) {
-    for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e) {
-      const ElementDofs element = element_dofs(dofs, block, e);
-      if (touches_own_rows(dofs, element)) visit(block, e, element);
-    }
-  }
-}
 
 // Elements around each own node, in compressed form.
 struct NodeElements {
@@ -114,8 +76,7 @@ MatHandle make_matrix(const DofMap& dofs, const RowCounts& counts) {
 }
 
 // m_ij I as 3 × 3 blocks.
-void expand_mass(const Eigen::MatrixXd& scalar,
-                 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& blocks) {
+void expand_mass(const Eigen::MatrixXd& scalar, NodeBlocks& blocks) {
   blocks.setZero(3 * scalar.rows(), 3 * scalar.cols());
   for (Eigen::Index i = 0; i < scalar.rows(); ++i) {
     for (Eigen::Index j = 0; j < scalar.cols(); ++j) {
@@ -146,7 +107,7 @@ FeSystem assemble(const mesh::Mesh& mesh, const Material& material,
   system.mass_matrix = make_matrix(system.dofs, counts);
 
   ElementMatrices matrices;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> mass_blocks;
+  NodeBlocks mass_blocks;
   Eigen::MatrixX3d coordinates;
   const auto add = [&](const mesh::ElementBlock& block, Eigen::Index e,
                        const ElementDofs& element) {

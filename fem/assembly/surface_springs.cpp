@@ -8,8 +8,6 @@
 namespace microslip::fem {
 namespace {
 
-using RowMajorBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 void check_sizes(const mesh::Surface& surface, const Eigen::SparseMatrix<double>& to_points,
                  const Eigen::VectorXd& weights, const Eigen::MatrixX3d& stiffness) {
   const auto refuse = [](const std::string& what, Eigen::Index is, Eigen::Index expected) {
@@ -34,7 +32,7 @@ void add_springs(FeSystem& system, const mesh::Surface& surface,
   const Mat K = system.stiffness.get();
   std::vector<PetscInt> index;
   std::vector<double> N;
-  RowMajorBlock block;
+  NodeBlocks block;
   for (Eigen::Index c = 0; c < points.rows(); ++c) {
     index.clear();
     N.clear();

@@ -34,15 +34,6 @@ struct RuleTable {
   }
 };
 
-struct Lame {
-  double lambda;
-  double mu;
-  explicit Lame(const Material& m)
-      : lambda(m.youngs_modulus * m.poissons_ratio /
-               ((1.0 + m.poissons_ratio) * (1.0 - 2.0 * m.poissons_ratio))),
-        mu(0.5 * m.youngs_modulus / (1.0 + m.poissons_ratio)) {}
-};
-
 // S = ∫ g gᵀ dV, g the gradients of all shape functions, node after node.
 template <int n>
 using GradientProducts = Eigen::Matrix<double, 3 * n, 3 * n>;
@@ -72,7 +63,7 @@ GradientProducts<n> gradient_products(const RuleTable<n>& table, const NodeMatri
 }
 
 template <int n>
-void stiffness_from_products(const GradientProducts<n>& S, const Lame& lame,
+void stiffness_from_products(const GradientProducts<n>& S, const LameConstants& lame,
                              ElementMatrices& result) {
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
@@ -103,13 +94,14 @@ template <int n>
 void integrate(const RuleTable<n>& stiffness, const RuleTable<n>& mass, const NodeMatrix<n>& nodes,
                const Material& material, ElementMatrices& result) {
   result.stiffness.resize(3 * n, 3 * n);
-  stiffness_from_products<n>(gradient_products<n>(stiffness, nodes), Lame(material), result);
+  stiffness_from_products<n>(gradient_products<n>(stiffness, nodes), LameConstants(material),
+                             result);
   mass_matrix<n>(mass, nodes, material.density, result);
 }
 
 // Edge nodes in the middle of their edges, to 1e-12 of the edge: what is left then changes K by
 // less than rounding does.
-bool has_straight_edges(const NodeMatrix<10>& nodes) {
+bool has_straight_edges(const Eigen::MatrixX3d& nodes) {
   constexpr std::array<std::array<int, 2>, 6> edges{
       {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -121,63 +113,104 @@ bool has_straight_edges(const NodeMatrix<10>& nodes) {
   return true;
 }
 
-void tet10_matrices(const NodeMatrix<10>& nodes, const Material& material, Tet10Rule rule,
+bool takes_four_points(const Eigen::MatrixX3d& nodes, Tet10Rule rule) {
+  return rule == Tet10Rule::four_point || has_straight_edges(nodes);
+}
+
+const QuadratureRule& tet10_stiffness_rule(bool four_points) {
+  static const QuadratureRule four_point = tetrahedron_rule(2);
+  static const QuadratureRule fourteen_point = tetrahedron_rule(5);
+  return four_points ? four_point : fourteen_point;
+}
+
+void tet10_matrices(const Eigen::MatrixX3d& nodes, const Material& material, Tet10Rule rule,
                     ElementMatrices& result) {
   constexpr auto type = mesh::ElementType::tet10;
-  static const RuleTable<10> four_point(type, tetrahedron_rule(2));
-  static const RuleTable<10> fourteen_point(type, tetrahedron_rule(5));
+  static const RuleTable<10> four_point(type, tet10_stiffness_rule(true));
+  static const RuleTable<10> fourteen_point(type, tet10_stiffness_rule(false));
   static const RuleTable<10> straight_mass(type, tetrahedron_rule(4));
   static const RuleTable<10> curved_mass(type, tetrahedron_rule(7));  // N_i N_j: 4, det J: 3
-  const bool straight = has_straight_edges(nodes);
   if (rule == Tet10Rule::four_point) {
     return integrate<10>(four_point, four_point, nodes, material, result);
   }
+  const bool straight = has_straight_edges(nodes);
   integrate<10>(straight ? four_point : fourteen_point, straight ? straight_mass : curved_mass,
                 nodes, material, result);
 }
 
 }  // namespace
 
+const QuadratureRule& stiffness_rule(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
+                                     Tet10Rule rule) {
+  using mesh::ElementType;
+  static const QuadratureRule tet4 = tetrahedron_rule(0);
+  static const QuadratureRule hex8 = hexahedron_rule(2);
+  static const QuadratureRule hex20 = hexahedron_rule(3);
+  static const QuadratureRule wedge6 = wedge_rule(2, 2);
+  static const QuadratureRule wedge15 = wedge_rule(4, 3);
+  static const QuadratureRule pyramid5 = pyramid_rule(2);
+  static const QuadratureRule pyramid13 = pyramid_rule(3);
+  switch (type) {
+    case ElementType::tet4:
+      return tet4;
+    case ElementType::tet10:
+      return tet10_stiffness_rule(takes_four_points(nodes, rule));
+    case ElementType::hex8:
+      return hex8;
+    case ElementType::hex20:
+      return hex20;
+    case ElementType::wedge6:
+      return wedge6;
+    case ElementType::wedge15:
+      return wedge15;
+    case ElementType::pyramid5:
+      return pyramid5;
+    case ElementType::pyramid13:
+      return pyramid13;
+  }
+  throw std::invalid_argument("no element type of this number");
+}
+
 void element_matrices(mesh::ElementType type, const Eigen::MatrixX3d& nodes,
                       const Material& material, Tet10Rule rule, ElementMatrices& result) {
   using mesh::ElementType;
   switch (type) {
     case ElementType::tet4: {
-      static const RuleTable<4> stiffness(type, tetrahedron_rule(0));
+      static const RuleTable<4> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<4> mass(type, tetrahedron_rule(2));
       return integrate<4>(stiffness, mass, nodes, material, result);
     }
     case ElementType::tet10:
       return tet10_matrices(nodes, material, rule, result);
     case ElementType::hex8: {
-      static const RuleTable<8> stiffness(type, hexahedron_rule(2));
+      static const RuleTable<8> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<8> mass(type,
                                      hexahedron_rule(3));  // per direction N_i N_j: 2, det J: 2
       return integrate<8>(stiffness, mass, nodes, material, result);
     }
     case ElementType::hex20: {
-      static const RuleTable<20> stiffness(type, hexahedron_rule(3));
+      static const RuleTable<20> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<20> mass(type,
                                       hexahedron_rule(5));  // per direction N_i N_j: 4, det J: 5
       return integrate<20>(stiffness, mass, nodes, material, result);
     }
     case ElementType::wedge6: {
-      static const RuleTable<6> stiffness(type, wedge_rule(2, 2));
+      static const RuleTable<6> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<6> mass(type, wedge_rule(3, 3));  // N_i N_j: 2 and 2, det J: 1 and 2
       return integrate<6>(stiffness, mass, nodes, material, result);
     }
     case ElementType::wedge15: {
-      static const RuleTable<15> stiffness(type, wedge_rule(4, 3));
+      static const RuleTable<15> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<15> mass(type, wedge_rule(8, 5));  // N_i N_j: 4 and 4, det J: 4 and 5
       return integrate<15>(stiffness, mass, nodes, material, result);
     }
     case ElementType::pyramid5: {
-      static const RuleTable<5> stiffness(type, pyramid_rule(2));
+      static const RuleTable<5> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<5> mass(type, pyramid_rule(3));  // N_i N_j: 2, det J: 2 in a and b
       return integrate<5>(stiffness, mass, nodes, material, result);
     }
     case ElementType::pyramid13: {
-      static const RuleTable<13> stiffness(type, pyramid_rule(3));
+      static const RuleTable<13> stiffness(type, stiffness_rule(type, nodes, rule));
       static const RuleTable<13> mass(type, pyramid_rule(5));  // N_i N_j: 4, det J: 5 in a and b
       return integrate<13>(stiffness, mass, nodes, material, result);
     }

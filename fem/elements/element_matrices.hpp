@@ -25,6 +25,7 @@
 
 #include <Eigen/Core>
 
+#include "fem/elements/quadrature.hpp"
 #include "fem/material.hpp"
 #include "mesh/element_type.hpp"
 
@@ -36,9 +37,16 @@ namespace microslip::fem {
 /// a coarse twisted plate by 2e-3 in the tenth frequency) and agree as the mesh is refined.
 enum class Tet10Rule : std::uint8_t { accurate, four_point };
 
+/// Points at which (1) is integrated, as tabulated above.
+/// @param nodes  n × 3 [m]: straight or curved edges, of tet10 alone.
+[[nodiscard]] const QuadratureRule& stiffness_rule(mesh::ElementType type,
+                                                   const Eigen::MatrixX3d& nodes, Tet10Rule rule);
+
+/// 3 × 3 blocks per pair of nodes, as PETSc takes them.
+using NodeBlocks = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 struct ElementMatrices {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
-      stiffness;         ///< 3n × 3n [N/m]
+  NodeBlocks stiffness;  ///< 3n × 3n [N/m]
   Eigen::MatrixXd mass;  ///< n × n [kg]: the same for x, y and z
 };
 
