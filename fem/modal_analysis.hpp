@@ -15,6 +15,7 @@
 #include "fem/given_matrices.hpp"
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
+#include "fem/rotation.hpp"
 #include "mesh/mesh.hpp"
 
 namespace microslip::fem {
@@ -49,6 +50,14 @@ class Structure {
   Structure(const Structure&) = delete;
   Structure& operator=(const Structure&) = delete;
 
+  /// Lets the body rotate with its supports: K is from now on that of small motions about the static equilibrium
+  /// under the centrifugal load (fem/assembly/rotating_system.hpp), and so are modes and solutions. Once more with
+  /// another speed: begun from the equilibrium before. Springs that were added are gone.
+  /// @param mesh, material  those it was made of.
+  /// @return displacement of the equilibrium, 3 n_nodes [m].
+  /// @throws EigenError  "rotation: …": the body floats, no equilibrium is found, or it is not stable there.
+  Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material,
+                         const Rotation& rotation);
   [[nodiscard]] Eigen::Index n_dofs() const;  ///< free degrees of freedom
   [[nodiscard]] double mass() const;          ///< [kg]
   /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero modes

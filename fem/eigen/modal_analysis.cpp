@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/assembly/given_system.hpp"
+#include "fem/assembly/rotating_system.hpp"
 #include "fem/assembly/surface_springs.hpp"
 #include "fem/eigen/attachment.hpp"
 #include "fem/eigen/mode_search.hpp"
@@ -68,6 +69,8 @@ struct Structure::Implementation {
   double shift = 0.0;                   // of `factor`
   std::optional<Factorisation> factor;  // of K − shift M
   ModalTimings timings;
+  Tet10Rule rule = Tet10Rule::accurate;
+  Eigen::VectorXd displacement{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
 
   void factorise();
   void factorise_shifted();
@@ -242,8 +245,8 @@ Structure::Structure(const mesh::Mesh& mesh, const Material& material,
   const auto start = std::chrono::steady_clock::now();
   FeSystem system = assemble(mesh, material, clamped, rule);
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
-  self_ = std::make_unique<Implementation>(
-      Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
+  self_ = std::make_unique<Implementation>(Implementation{
+      mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}, rule});
   self_->timings.assembly =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -259,6 +262,23 @@ Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices) {
 Structure::~Structure() = default;
 Structure::Structure(Structure&&) noexcept = default;
 Structure& Structure::operator=(Structure&&) noexcept = default;
+
+Eigen::VectorXd Structure::rotate(const mesh::Mesh& mesh, const Material& material,
+                                  const Rotation& rotation) {
+  Implementation& self = *self_;
+  if (self.rigid.cols() > 0) {
+    throw EigenError("rotation: " + std::to_string(self.rigid.cols()) +
+                     " rigid-body modes are free, nothing holds the body against its centrifugal "
+                     "load: clamp what turns with it");
+  }
+  if (self.displacement.size() == 0) {
+    self.displacement = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  }
+  self.factor.reset();
+  self.displacement =
+      rotate_system(self.system, mesh, material, self.rule, rotation, self.displacement);
+  return self.displacement;
+}
 
 Eigen::Index Structure::n_dofs() const { return 3 * self_->system.dofs.n_free_nodes(); }
 double Structure::mass() const { return self_->system.mass; }
