@@ -52,7 +52,8 @@ void write_elements(std::ostream& out, const mesh::Mesh& mesh) {
 }
 
 void write_deck(const fs::path& file, const mesh::Mesh& mesh, const fem::Material& material,
-                const std::vector<std::string>& clamped, int n_modes) {
+                const std::vector<std::string>& clamped, int n_modes,
+                const fem::Rotation& rotation) {
   std::ofstream out(file);
   out << std::setprecision(12) << "*NODE\n";  // a number has room for 20 characters
   for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
@@ -68,7 +69,16 @@ void write_deck(const fs::path& file, const mesh::Mesh& mesh, const fem::Materia
       << material.youngs_modulus << ", " << material.poissons_ratio << "\n*DENSITY\n"
       << material.density << "\n*SOLID SECTION, ELSET=all, MATERIAL=metal\n*BOUNDARY\n";
   for (const Eigen::Index node : held) out << node + 1 << ", 1, 3\n";
-  out << "*STEP\n*FREQUENCY\n" << n_modes << "\n*END STEP\n";
+  if (rotation.speed > 0.0) {
+    const Eigen::Vector3d& o = rotation.origin;
+    const Eigen::Vector3d& e = rotation.direction;
+    out << "*STEP, NLGEOM, INC=100\n*CONTROLS, PARAMETERS=FIELD\n"
+        << "1e-8, 1e-8, , , 1e-8, 1e-8, 1e-8, 1e-8\n*STATIC\n*DLOAD\nall, CENTRIF, "
+        << rotation.speed * rotation.speed << ", " << o.x() << ", " << o.y() << ", " << o.z()
+        << ", " << e.x() << ", " << e.y() << ", " << e.z() << "\n*END STEP\n";
+  }
+  out << (rotation.speed > 0.0 ? "*STEP, PERTURBATION\n" : "*STEP\n") << "*FREQUENCY\n"
+      << n_modes << "\n*END STEP\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
@@ -98,9 +108,10 @@ Eigen::VectorXd read_frequencies(const fs::path& dat, int n_modes) {
 bool has_calculix() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
 
 Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh, const fem::Material& material,
-                                     const std::vector<std::string>& clamped, int n_modes) {
+                                     const std::vector<std::string>& clamped, int n_modes,
+                                     const fem::Rotation& rotation) {
   const TemporaryFolder folder;
-  write_deck(folder.path() / "modes.inp", mesh, material, clamped, n_modes);
+  write_deck(folder.path() / "modes.inp", mesh, material, clamped, n_modes, rotation);
   const std::string command = "cd '" + folder.path().string() + "' && ccx modes > log 2>&1";
   if (std::system(command.c_str()) != 0) {
     throw std::runtime_error("ccx failed: " + text_of(folder.path() / "log"));

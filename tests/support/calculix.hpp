@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "fem/material.hpp"
+#include "fem/rotation.hpp"
 #include "mesh/mesh.hpp"
 
 namespace microslip::test {
@@ -19,10 +20,12 @@ namespace microslip::test {
 /// Node order is that of Abaqus already. Works in a folder of its own below the system's temporary
 /// one and removes it.
 /// @param clamped  names of surfaces or node sets that are held.
+/// @param rotation  with a speed: of the body in static equilibrium with its centrifugal load, large displacements
+///                  (*STATIC with NLGEOM, then *FREQUENCY with PERTURBATION, the load still on).
 /// @throws std::runtime_error  ccx failed or printed fewer frequencies; with its last words.
 [[nodiscard]] Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh,
                                                    const fem::Material& material,
                                                    const std::vector<std::string>& clamped,
-                                                   int n_modes);
+                                                   int n_modes, const fem::Rotation& rotation = {});
 
 }  // namespace microslip::test
