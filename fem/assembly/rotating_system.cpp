@@ -124,12 +124,19 @@ Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh, const Ma
     const double size = norm(rest);
     if (!std::isfinite(size)) break;
     if (step == 0) first = size;
-    if (size <= tolerance * std::max(norm(balance.load), step == 0 ? 0.0 : first)) {
+    const bool balanced = size <= tolerance * std::max(norm(balance.load), step == 0 ? 0.0 : first);
+    Eigen::VectorXd correction = Eigen::VectorXd::Zero(u.size());
+    if (!balanced) {
+      const Factorisation tangent(system.stiffness.get(), FactorKind::indefinite);
+      correction = system.dofs.to_mesh(tangent.solve(rest));
+    }
+    // In thin bodies rounding leaves more out of balance than the load, which no displacement
+    // feels.
+    if (balanced || correction.norm() <= tolerance * u.norm()) {
       require_stable(system, rotation);
       return u;
     }
-    const Factorisation tangent(system.stiffness.get(), FactorKind::indefinite);
-    u += system.dofs.to_mesh(tangent.solve(rest));
+    u += correction;
   }
   throw EigenError("rotation: no static equilibrium is found" + at_speed(rotation) +
                    "; lower the speed, or look whether axis, units and supports are right");
