@@ -24,8 +24,8 @@ bool changes_structure(std::string_view key) {
   if (key.starts_with("contact")) {  // contact.surface, contact[1].surface
     return key.ends_with(".surface") || key.find(".slip_direction") != key.npos;
   }
-  constexpr std::array<std::string_view, 4> structural{
-      "model.", "material.", "supports.",
+  constexpr std::array<std::string_view, 5> structural{
+      "model.", "material.", "supports.", "static.",
       "excitation."};  // the forces: static shapes of theirs may stand behind the modes
   return std::any_of(structural.begin(), structural.end(),
                      [&](std::string_view start) { return key.starts_with(start); });

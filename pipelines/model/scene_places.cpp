@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <variant>
 
@@ -152,6 +153,12 @@ std::vector<std::string> describe_places(const mesh::Mesh& mesh, const SceneDesc
     const Eigen::Vector3d node = mesh.nodes().row(point.node);
     lines.push_back(fmt::format("point {}: the nearest node, at {} m, is {:.3g} m away", point.name,
                                 vector_text(node), rounded(point.distance)));
+  }
+  if (scene.rotation) {
+    lines.push_back(fmt::format("rotation: {:.6g} rpm about {} through {} m",
+                                30.0 * scene.rotation->speed / std::numbers::pi,
+                                vector_text(scene.rotation->direction),
+                                vector_text(scene.rotation->origin)));
   }
   return lines;
 }

@@ -83,6 +83,18 @@ void require_name(const std::string& place, const LookUp& look_up) {
   }
 }
 
+/// From the body at rest to small motions about its equilibrium as it rotates.
+void rotate(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
+            StructureModes& result) {
+  const fem::Rotation& rotation = *scene.rotation;
+  const Eigen::VectorXd u = structure.rotate(mesh, scene.material, rotation);
+  result.notes.push_back(
+      fmt::format("rotating at {:.6g} rpm: the static displacement is at most {:.3g} m; modes are "
+                  "those about it",
+                  30.0 * rotation.speed / std::numbers::pi,
+                  u.reshaped(3, mesh.n_nodes()).colwise().norm().maxCoeff()));
+}
+
 mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   if (const auto* given = std::get_if<MeshFileModel>(&scene.model)) return read_mesh(*given);
   if (const auto* step = std::get_if<StepModel>(&scene.model)) {
@@ -156,6 +168,7 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   StructureModes result;
   result.n_dofs = structure.n_dofs();
   result.mass = structure.mass();
+  if (scene.rotation && scene.rotation->speed > 0.0) rotate(structure, mesh, scene, result);
   fem::ModalOptions options;
   options.n_modes = scene.settings.basis.n_modes;
   result.basis = structure.solve_modes(options);

@@ -36,7 +36,7 @@ struct StructureModes {
       residuals;  ///< of the contact surfaces, one each; empty: none
   /// How the attachment shapes of `basis` were chosen, "" without them.
   std::string attachment_text;
-  std::vector<std::string> notes, warnings;  ///< about modes of another code
+  std::vector<std::string> notes, warnings;  ///< about modes of another code, or rotation
   fem::ModalTimings timings;
   std::optional<fem::RicherBasis> richer;  ///< with attachment shapes of one degree more
 };
@@ -45,7 +45,8 @@ struct StructureModes {
 /// @throws mesh::MeshError, SceneError  a surface or point that is not there, a face that is not plane.
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 
-/// Assembles and solves; modes of another code are read instead (given_modes.hpp). Collective over the MPI ranks. The residual flexibility of a structure that
+/// Assembles and solves, of a structure that rotates about its static equilibrium; modes of another code are read
+/// instead (given_modes.hpp). Collective over the MPI ranks. The residual flexibility of a structure that
 /// floats is that of inertia relief.
 [[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
 

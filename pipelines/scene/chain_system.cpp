@@ -92,7 +92,7 @@ ChainSystem from_modes(const SectionReader& s) {
   return system;
 }
 
-std::vector<std::string> read_coordinates(const SectionReader& s, Eigen::Index n) {
+std::vector<std::string> coordinates_in(const SectionReader& s, Eigen::Index n) {
   std::vector<std::string> names;
   if (!s.given("coordinates")) {
     for (Eigen::Index i = 0; i < n; ++i) names.push_back(fmt::format("m{}", i + 1));
@@ -195,7 +195,7 @@ ChainSystem read_chain_system(const SectionReader& s) {
   ChainSystem system = given[0] == 0   ? from_masses(s)
                        : given[0] == 1 ? from_matrices(s)
                                        : from_modes(s);
-  system.coordinates = read_coordinates(s, system.shapes.rows());
+  system.coordinates = coordinates_in(s, system.shapes.rows());
   return system;
 }
 

@@ -17,6 +17,7 @@
 
 #include "contact/patch.hpp"
 #include "fem/material.hpp"
+#include "fem/rotation.hpp"
 #include "mesh/blade_geometry.hpp"
 #include "pipelines/scene/discretisation.hpp"
 #include "pipelines/scene/field_description.hpp"
@@ -209,6 +210,8 @@ struct SceneDescription {
   fem::Material material;
   std::vector<std::string> clamped;
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
+  std::optional<fem::Rotation>
+      rotation;  ///< of the whole structure; speed 0 where only an axis is given
   ModesDescription modes;
   std::vector<ContactDescription> contacts;  ///< kinds with a mesh; none: nothing rubs
   contact::SurfaceRules rules;               ///< of modal scenes

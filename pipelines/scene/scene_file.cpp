@@ -20,6 +20,7 @@
 #include "pipelines/scene/points_section.hpp"
 #include "pipelines/scene/response_section.hpp"
 #include "pipelines/scene/scene_overrides.hpp"
+#include "pipelines/scene/static_section.hpp"
 #include "pipelines/scene/write_scene.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/csv_table.hpp"
@@ -173,6 +174,7 @@ SectionReader read_structure(Reading& reading, const std::string& kind, SceneDes
     scene.clamped.push_back(name_in_mesh(scene.points, name));
   }
   scene.clamped_place = supports.place("clamped");
+  scene.rotation = read_rotation(reading.section("static", "static"));
   const SectionReader modes = reading.section("modes", "modes");
   scene.settings.basis = read_basis(modes);
   scene.modes = read_modes(modes, scene.settings.basis.n_modes);

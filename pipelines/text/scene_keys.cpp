@@ -186,6 +186,24 @@ constexpr std::array support_keys{
             "names of surfaces, or sets of edges or nodes, that are held"},
 };
 
+constexpr std::array static_keys{
+    KeySpec{
+        "speed", other, "rad/s", "", 0.0, unbounded, false,
+        "of rotation, blade and supports together: \"3000 rpm\", \"50 Hz\" (turns per second) or "
+        "rad/s. Modes are then those about the static equilibrium under the centrifugal load",
+        true},
+    KeySpec{"axis", other, "", "", 0, 0, false,
+            "of rotation: { origin = [x, y, z], direction = [x, y, z] }; the origin is a point of "
+            "it, default [0, 0, 0]",
+            true},
+};
+
+constexpr std::array axis_keys{
+    KeySpec{"origin", other, "m", "[0, 0, 0]", -unbounded, unbounded, false,
+            "a point of the axis, global x, y, z"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "of the axis, global x, y, z"},
+};
+
 constexpr KeySpec damping_key{
     "damping_ratio",
     other,
@@ -476,7 +494,7 @@ constexpr std::array accuracy_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 44> sections{{
+constexpr std::array<SectionSpec, 46> sections{{
     {"model.blade", blade_keys},
     {"model.step", step_keys},
     {"faces", named_by_the_user},
@@ -488,6 +506,8 @@ constexpr std::array<SectionSpec, 44> sections{{
     {"model.modal", modal_model_keys},
     {"material", material_keys},
     {"supports", support_keys},
+    {"static", static_keys},
+    {"static.axis", axis_keys},
     {"modes", mode_keys},
     {"points", named_by_the_user},
     {"contact", contact_keys},
@@ -523,12 +543,12 @@ constexpr std::array<SectionSpec, 44> sections{{
     {"response.block", block_response_keys},
 }};
 
-constexpr std::array<std::string_view, 10> mesh_sections{
-    "model",   "material",   "supports", "modes",   "points",
+constexpr std::array<std::string_view, 11> mesh_sections{
+    "model",   "material",   "supports", "static",  "modes",   "points",
     "contact", "excitation", "response", "effects", "accuracy"};
-constexpr std::array<std::string_view, 11> step_sections{
-    "model",   "faces",      "material", "supports", "modes",   "points",
-    "contact", "excitation", "response", "effects",  "accuracy"};
+constexpr std::array<std::string_view, 12> step_sections{
+    "model",  "faces",   "material",   "supports", "static",  "modes",
+    "points", "contact", "excitation", "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 6> modal_sections{"model",    "modal",   "contact",
                                                          "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 9> given_modes_sections{"model",    "material", "modes",
