@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -26,11 +27,13 @@
 #include "pipelines/model/step_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
+#include "pipelines/scene/static_section.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/text/json_entry.hpp"
+#include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -176,7 +179,7 @@ int check(Arguments& arguments) {
   return static_cast<int>(ExitCode::complete);
 }
 
-int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&)) {
+int run_scene(Arguments& arguments, const Study& study) {
   if (arguments.dry_run) return check(arguments);
   const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
@@ -212,7 +215,39 @@ int write_geometry(const BladeModel& blade, const std::filesystem::path& file, b
   return static_cast<int>(ExitCode::complete);
 }
 
+/// FROM TO N of --speeds.
+Eigen::VectorXd speeds_in(const std::vector<std::string>& words) {
+  constexpr int most = 10'000;
+  std::array<double, 2> ends{};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    try {
+      ends[i] = rotation_speed(words[i]);
+    } catch (const UnitError& error) {
+      throw SceneError(fmt::format("--speeds: {}", error.what()));
+    }
+  }
+  if (!(ends[0] < ends[1])) {
+    throw SceneError(
+        fmt::format("--speeds {} {}: expected the lower speed first", words[0], words[1]));
+  }
+  int n = 0;
+  const char* const last = words[2].data() + words[2].size();
+  const auto [end, error] = std::from_chars(words[2].data(), last, n);
+  if (error != std::errc() || end != last || n < 2 || n > most) {
+    throw SceneError(
+        fmt::format("--speeds: \"{}\" is no number of speeds; expected 2 to {}", words[2], most));
+  }
+  return Eigen::VectorXd::LinSpaced(n, ends[0], ends[1]);
+}
+
 }  // namespace
+
+int campbell(Arguments& arguments) {
+  const CampbellRequest request{speeds_in(arguments.speeds), arguments.engine_orders};
+  return run_scene(arguments, [&](const SceneDescription& scene, const RunOptions& options) {
+    return campbell_study(scene, request, options);
+  });
+}
 
 int mesh(Arguments& arguments) {
   if (arguments.dry_run) return check(arguments);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -25,6 +26,8 @@ struct Arguments {
   std::optional<std::string> plot_folder;
   std::optional<std::string> picture;  // of `check`
   std::vector<std::string> without;    // of parts_of_a_run
+  std::vector<std::string> speeds;     // of `campbell`: from, to, how many
+  int engine_orders = 8;               // of `campbell`: the highest
   std::string tolerance;
   std::string budget;
   bool resume = false;
@@ -42,8 +45,11 @@ void refuse_idle_options(const Arguments& arguments);
 
 // One command each. All return the exit code and throw what exit_code_of() knows.
 int check(Arguments& arguments);
-/// `run` and `modes`, by the study.
-int run_scene(Arguments& arguments, int (*study)(const SceneDescription&, const RunOptions&));
+/// `run`, `modes`, `converge`, `campbell`, by the study.
+using Study = std::function<int(const SceneDescription&, const RunOptions&)>;
+int run_scene(Arguments& arguments, const Study& study);
+/// Natural frequencies over speed.
+int campbell(Arguments& arguments);
 int mesh(Arguments& arguments);
 /// What names a mesh file has.
 int surfaces(Arguments& arguments);

@@ -2,17 +2,21 @@
 
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/accuracy/convergence.hpp"
 #include "pipelines/files/plot_script.hpp"
+#include "pipelines/files/write_campbell.hpp"
 #include "pipelines/files/write_ladder.hpp"
 #include "pipelines/files/write_report.hpp"
+#include "pipelines/model/campbell.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/model_family.hpp"
@@ -29,6 +33,7 @@
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -161,6 +166,34 @@ int converge_study(const SceneDescription& scene, const RunOptions& options) {
       run_plot_script("plot_converge.py", {folder.string()}, std::chrono::seconds(120));
   if (!failure.empty()) std::cerr << "warning: " << failure << '\n';
   say("written: " + folder.string());
+  return static_cast<int>(ExitCode::complete);
+}
+
+int campbell_study(const SceneDescription& scene, const CampbellRequest& request,
+                   const RunOptions& options) {
+  require_rotation(scene);
+  const std::filesystem::path folder = options.output / "campbell";
+  make_folder(folder);
+  require_writable(folder);
+  const auto say = [&](const std::string& sentence) {
+    if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::flush;
+  };
+  const TemporaryFolder scratch;
+  const mesh::Mesh mesh = obtain_mesh(scene, scratch.path() / "mesh.msh");
+  check_names(mesh, scene);
+  const CampbellDiagram diagram = campbell_diagram(
+      mesh, scene, request.speeds, [&](double speed, const Eigen::VectorXd& frequency) {
+        say(fmt::format("{:10.6g} rpm: {:.6g} Hz\n", 30.0 * speed / std::numbers::pi,
+                        fmt::join(frequency / (2.0 * std::numbers::pi), ", ")));
+      });
+  const std::vector<Crossing> found = crossings(diagram, request.highest_engine_order);
+  write_campbell(folder, diagram, found);
+  say(crossings_text(found));
+  const std::string failure = run_plot_script(
+      "plot_campbell.py", {folder.string(), std::to_string(request.highest_engine_order)},
+      std::chrono::seconds(120));
+  if (!failure.empty()) std::cerr << "warning: " << failure << '\n';
+  say("written: " + folder.string() + '\n');
   return static_cast<int>(ExitCode::complete);
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "pipelines/model/campbell.hpp"
 #include "pipelines/run/check_study.hpp"
 #include "pipelines/run/run_options.hpp"
 #include "pipelines/scene/scene_description.hpp"
@@ -19,6 +20,9 @@ int modes_study(const SceneDescription& scene, const RunOptions& options);
 int mesh_study(const SceneDescription& scene, const RunOptions& options);
 /// `converge`: every ladder of the discretisation, tables in converge/ and plots.
 int converge_study(const SceneDescription& scene, const RunOptions& options);
+/// `campbell`: natural frequencies over speed, tables and plot in campbell/.
+int campbell_study(const SceneDescription& scene, const CampbellRequest& request,
+                   const RunOptions& options);
 /// `report`: plots and report from a run folder.
 int report_study(const std::filesystem::path& folder);
 

@@ -38,6 +38,25 @@ CLI::App* with_output(CLI::App* command, Arguments& a, const char* what) {
   return command;
 }
 
+void add_campbell(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = with_scene(
+      add_command(
+          app, a, chosen, "campbell",
+          "natural frequencies over the speed of rotation, and where engine orders meet them",
+          [&] { return campbell(a); }),
+      a);
+  command
+      ->add_option("--speeds", a.speeds,
+                   "FROM TO N: so many speeds, e.g. 0 \"6000 rpm\" 13; rpm, rad/s, or Hz for turns "
+                   "per second; a number alone is in rad/s. The axis is the scene's [static] axis")
+      ->expected(3)
+      ->required();
+  command->add_option("--engine-orders", a.engine_orders, "the highest of the lines ω = kΩ")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  with_output(command, a, "folder for campbell/; default runs/SCENE");
+}
+
 void add_cycle(CLI::App& app, Arguments& a, Action& chosen) {
   auto* cycle_command =
       add_command(app, a, chosen, "cycle", "steady friction cycles of single contact points",
@@ -132,6 +151,7 @@ void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
       ->take_all()
       ->expected(1)
       ->check(CLI::IsMember({"plots", "maps", "bracket"}));
+  add_campbell(app, a, chosen);
   add_cycle(app, a, chosen);
   auto* converge_command = with_scene(
       add_command(app, a, chosen, "converge",

@@ -129,6 +129,27 @@ constexpr std::array ladder_table{
     Column<RungResult>{"curve", "", "its name", [](const auto& r) { return r.curve; }},
 };
 
+constexpr std::array campbell_table{
+    Column<CampbellRow>{"speed_rpm", "rpm", "of rotation",
+                        [](const auto& r) { return format_number(60.0 * r.speed / two_pi); }},
+    Column<CampbellRow>{"mode", "1", "number at this speed, from 1",
+                        [](const auto& r) { return fmt::format("{}", r.mode + 1); }},
+    Column<CampbellRow>{"frequency_Hz", "Hz", "natural frequency without contact",
+                        [](const auto& r) { return format_number(r.frequency / two_pi); }},
+};
+
+constexpr std::array crossing_table{
+    Column<Crossing>{"engine_order", "1", "excitations per turn",
+                     [](const auto& c) { return fmt::format("{}", c.engine_order); }},
+    Column<Crossing>{"mode", "1", "number, from 1",
+                     [](const auto& c) { return fmt::format("{}", c.mode + 1); }},
+    Column<Crossing>{"speed_rpm", "rpm", "at which they meet",
+                     [](const auto& c) { return format_number(60.0 * c.speed / two_pi); }},
+    Column<Crossing>{
+        "frequency_Hz", "Hz", "of both",
+        [](const auto& c) { return format_number(c.engine_order * c.speed / two_pi); }},
+};
+
 constexpr std::array mode_table{
     Column<ModeRow>{"mode", "1", "number, from 1",
                     [](const auto& m) { return fmt::format("{}", m.mode); }},
@@ -246,6 +267,8 @@ std::span<const Column<ResponsePoint>> curve_columns() { return curve_table; }
 std::span<const Column<CycleReport>> patch_columns() { return patch_table; }
 std::span<const Column<TrustedAmplitude>> trust_columns() { return trust_table; }
 std::span<const Column<RungResult>> ladder_columns() { return ladder_table; }
+std::span<const Column<CampbellRow>> campbell_columns() { return campbell_table; }
+std::span<const Column<Crossing>> crossing_columns() { return crossing_table; }
 std::span<const Column<ModeRow>> mode_columns() { return mode_table; }
 std::span<const Column<OptimumRow>> optimum_columns(bool of_preload) {
   return of_preload ? std::span<const Column<OptimumRow>>(preload_table) : parameter_table;
@@ -275,6 +298,8 @@ std::string columns_text() {
   add_table(text, "curves/NAME.csv, where its error is told ([accuracy])", trust_table);
   add_table(text, "curves/NAME.csv, for each of several contacts", patch_table, "CONTACT.");
   add_table(text, "converge/KNOB.csv", ladder_table);
+  add_table(text, "campbell/frequencies.csv", campbell_table);
+  add_table(text, "campbell/crossings.csv", crossing_table);
   add_table(text, "modes.csv", mode_table);
   add_table(text, "peak_against_preload.csv (peak_against_parameter.csv: `value` in front)",
             preload_table);

@@ -14,6 +14,7 @@
 #include "contact/modal_force.hpp"
 #include "contact/patch.hpp"
 #include "pipelines/accuracy/convergence.hpp"
+#include "pipelines/model/campbell.hpp"
 #include "solver/peak.hpp"
 #include "solver/response_curve.hpp"
 
@@ -52,6 +53,17 @@ struct ModeRow {
   bool is_attachment = false;
 };
 [[nodiscard]] std::span<const Column<ModeRow>> mode_columns();
+
+/// campbell/frequencies.csv, a row per speed and mode.
+struct CampbellRow {
+  double speed = 0.0;  ///< Ω [rad/s]
+  Eigen::Index mode = 0;
+  double frequency = 0.0;  ///< ω [rad/s]
+};
+[[nodiscard]] std::span<const Column<CampbellRow>> campbell_columns();
+
+/// campbell/crossings.csv, a row per crossing.
+[[nodiscard]] std::span<const Column<Crossing>> crossing_columns();
 
 /// peak_against_preload.csv and peak_against_parameter.csv, a row per value tried.
 struct OptimumRow {

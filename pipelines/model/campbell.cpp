@@ -1,0 +1,66 @@
+#include "pipelines/model/campbell.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fem/modal_analysis.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+
+void require_rotation(const SceneDescription& scene) {
+  const std::string file = scene.file.string();
+  if (scene.kind != "blade" && scene.kind != "mesh") {
+    throw SceneError(
+        fmt::format("{}: model.kind: \"{}\" has no elements that a rotation could load; campbell "
+                    "is for \"blade\" "
+                    "and \"mesh\"",
+                    file, scene.kind));
+  }
+  if (!scene.rotation) {
+    throw SceneError(fmt::format(
+        "{}: static.axis: is missing; campbell needs [static] axis = {{ origin = [x, y, z], "
+        "direction = [x, y, z] }}",
+        file));
+  }
+}
+
+CampbellDiagram campbell_diagram(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                 const Eigen::VectorXd& speeds,
+                                 const std::function<void(double, const Eigen::VectorXd&)>& tell) {
+  require_rotation(scene);
+  fem::Structure structure(mesh, scene.material, scene.clamped);
+  const Eigen::Index n_modes = scene.settings.basis.n_modes;
+  CampbellDiagram diagram{speeds, Eigen::MatrixXd(speeds.size(), n_modes)};
+  fem::Rotation rotation = *scene.rotation;
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) {
+    if (interrupt_requested()) throw InterruptedError("interrupted");
+    rotation.speed = speeds[i];
+    static_cast<void>(structure.rotate(mesh, scene.material, rotation));
+    const Eigen::VectorXd frequency = structure.solve_modes({.n_modes = n_modes}).frequency;
+    diagram.frequency.row(i) = frequency;
+    tell(speeds[i], frequency);
+  }
+  return diagram;
+}
+
+std::vector<Crossing> crossings(const CampbellDiagram& diagram, int highest_engine_order) {
+  std::vector<Crossing> found;
+  for (int order = 1; order <= highest_engine_order; ++order) {
+    for (Eigen::Index mode = 0; mode < diagram.frequency.cols(); ++mode) {
+      const Eigen::ArrayXd square = diagram.speeds.array().square();
+      const Eigen::ArrayXd above =
+          diagram.frequency.col(mode).array().square() - order * order * square;
+      for (Eigen::Index i = 0; i + 1 < square.size(); ++i) {
+        if ((above[i] > 0.0) == (above[i + 1] > 0.0)) continue;
+        const double share = above[i] / (above[i] - above[i + 1]);
+        found.push_back({order, mode, std::sqrt(square[i] + share * (square[i + 1] - square[i]))});
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace microslip::pipelines
