@@ -11,6 +11,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "mesh/surface.hpp"
 #include "pipelines/model/contact_stage.hpp"
@@ -150,6 +151,18 @@ Findings size(const Facts& facts) {
   const bool blade = std::holds_alternative<BladeModel>(facts.scene.model);
   return {{blade ? "model.span" : "model.length_unit", longest_side(*facts.mesh),
            fmt::format("and the mass {:.3g} kg", mass)}};
+}
+
+Findings circumferential_speed(const Facts& facts) {
+  if (!facts.scene.rotation) return {};
+  const fem::Rotation& rotation = *facts.scene.rotation;
+  double radius = 0.0;
+  for (const auto& node : facts.mesh->nodes().rowwise()) {
+    const Eigen::Vector3d arm = node.transpose() - rotation.origin;
+    radius = std::max(radius, rotation.direction.cross(arm).norm());
+  }
+  return {
+      {"static.speed", rotation.speed * radius, fmt::format("({:.3g} m off the axis)", radius)}};
 }
 
 /// Share of the nodes of every place in a role that are held.
@@ -325,6 +338,10 @@ constexpr std::array table{
              "is it in millimetres? give the unit", element_size_of_step},
     Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 6.0, "blades 0.02 to 3",
              "is the file in another unit than length_unit says?", size},
+    Question{Stage::mesh, "the speed of the outermost point", "m/s", 0.0, 900.0,
+             "blades 200 to 600",
+             "is it in rpm? give the unit; does the axis stand where it should, in metres?",
+             circumferential_speed},
     Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 50.0, "",
              "what is held does not rub", held_contact},
     Question{Stage::mesh, "the clamped share", "% of the nodes", 0.0, 99.0, "",

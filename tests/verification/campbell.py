@@ -91,6 +91,13 @@ class Campbell(unittest.TestCase):
         checked = run("check", scene("checked"), "--set", "static.speed=100")
         self.assertIn("rotation: 954.93 rpm about (0, 0, 1) through (0, -0.2, 0) m", checked.stdout)
 
+    def test_a_speed_no_blade_stands_is_questioned(self):
+        checked = run("check", scene("fast"), "--set", "static.speed=9000")
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertRegex(checked.stdout, r"static.speed: the speed of the outermost point is 2\d\d\d m/s \(0.3\d* m off the axis")
+        usual = run("check", scene("usual"), "--set", 'static.speed="9000 rpm"')
+        self.assertNotIn("outermost", usual.stdout)
+
     def refused(self, code, words, *command):
         finished = run(*command)
         self.assertEqual(finished.returncode, code, finished.stderr)
