@@ -199,7 +199,8 @@ int run_scene(Arguments& arguments, const Study& study) {
   }
   const InterruptWatch watch;  // after MPI, which sets handlers of its own
   const int code = study(scene, options_of(arguments, arguments.output));
-  if (arguments.json && arguments.rank == 0 && arguments.command != "converge") {
+  const bool leaves_summary = arguments.command == "run" || arguments.command == "modes";
+  if (arguments.json && arguments.rank == 0 && leaves_summary) {
     arguments.findings = results_in(arguments.output);
   }
   return code;
