@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "pipelines/files/plot_script.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
@@ -22,14 +23,26 @@ namespace {
 /// Twenty curves with maps take about 15 s on one slow core.
 constexpr std::chrono::seconds plot_limit{180};
 
+/// Of a run with a budget what is left of it, at least a second.
+std::chrono::milliseconds time_for_plots() {
+  constexpr double least = 1.0;
+  const double seconds = std::max(seconds_left(), least);
+  const double limit = std::chrono::duration<double>(plot_limit).count();
+  return std::chrono::milliseconds(static_cast<long>(1e3 * std::min(seconds, limit)));
+}
+
 /// plots/ and report.html. While a run goes on, its summary.json does not yet say how it ended.
 std::string draw(const std::filesystem::path& folder, const std::filesystem::path& into,
                  const std::string& summary) {
   const TemporaryFolder scratch;
   const std::filesystem::path ended = scratch.path() / "summary.json";
   write_whole(ended, summary);
-  return run_plot_script("report_run.py", {folder.string(), into.string(), ended.string()},
-                         plot_limit);
+  std::string failure = run_plot_script(
+      "report_run.py", {folder.string(), into.string(), ended.string()}, time_for_plots());
+  if (!failure.empty() && seconds_left() < 1.0) {
+    failure += fmt::format("; out of time: microslip report {} draws them", folder.string());
+  }
+  return failure;
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ std::vector<EffectRecord> effects_of(const SceneDescription& scene, const Reduce
       "a linear scene is stable");
   add_second_direction(scene, model, effects);
   add("higher_harmonics", scene.settings.harmonics.highest > 1, harmonics_text(scene),
-      "response.harmonics = 1");
+      harmonics_text(scene));
   add("roughness", is_rough(scene), "the surfaces are rough", "no roughness is given");
   add("rate_dependence", is_rate_dependent(scene),
       "the friction coefficient follows the slip speed", "the friction coefficient is constant");

@@ -96,6 +96,7 @@ void keep_budgets(const Solution& solution, RunRecord& record) {
   for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
     record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
   }
+  record.keep_bounds();
 }
 
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {

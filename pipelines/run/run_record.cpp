@@ -16,6 +16,7 @@
 
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
+#include "pipelines/accuracy/effect_bounds.hpp"
 #include "pipelines/files/model_file.hpp"
 #include "pipelines/files/write_csv.hpp"
 #include "pipelines/files/write_map.hpp"
@@ -236,6 +237,11 @@ void RunRecord::begin_again() {
   summary_.error_budget.clear();
   resumable_ = false;
   if (writes_) checkpoint_.forget_parts();
+}
+
+void RunRecord::keep_bounds() {
+  const std::lock_guard lock(mutex_);
+  tell_bounds(summary_.error_budget, summary_.effects);
 }
 
 void RunRecord::keep_accuracy(AccuracySummary accuracy) {

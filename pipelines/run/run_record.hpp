@@ -66,6 +66,8 @@ class RunRecord {
   void keep_model(const ReducedModel& model);
   /// Forgets curves and errors, and what a resumed run would start from: those of finer settings come.
   void begin_again();
+  /// What the budgets kept so far say about effects left out.
+  void keep_bounds();
   /// The accuracy asked for and whether it is reached; not reached ends the run as one that is out of time.
   void keep_accuracy(AccuracySummary accuracy);
   /// What the curves kept so far say about the harmonics chosen.

@@ -19,9 +19,9 @@ using StructurePointer = std::shared_ptr<const SolvedStructure>;
 struct Solution {
   SceneDescription scene;
   StructurePointer structure;  ///< nullptr: a kind that gives its modes itself
-  ReducedModel model;
-  std::vector<CurveResult> curves;
-  std::vector<CurveBudget> budgets;  ///< one per curve; none where they are not asked for
+  ReducedModel model{};
+  std::vector<CurveResult> curves{};
+  std::vector<CurveBudget> budgets{};  ///< one per curve; none where they are not asked for
 };
 
 }  // namespace microslip::pipelines

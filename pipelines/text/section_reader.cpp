@@ -18,19 +18,6 @@
 namespace microslip::pipelines {
 namespace {
 
-/// Names that later versions know: refused as what they are, not as a typing error.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> later_keys{{
-    {"contact", "roughness"},
-    {"contact", "preload_field"},
-    {"contact", "preload_moment"},
-    {"response", "detached_branches"},
-}};
-
-bool comes_later(std::string_view section, std::string_view key) {
-  return std::find(later_keys.begin(), later_keys.end(), std::pair{section, key}) !=
-         later_keys.end();
-}
-
 void copy_into(toml::table& table, std::string_view key, const toml::node& node) {
   node.visit([&](const auto& value) { table.insert_or_assign(key, value); });
 }
@@ -79,7 +66,6 @@ SectionReader::SectionReader(const toml::table* table, SectionSpec spec, std::st
     for (const auto& [key, node] : *given_) {
       const std::string_view name = key.str();
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      if (comes_later(path_, name)) fail(name, "is not available in this version", &node);
       const std::string near = nearest_name(name, names);
       fail(name,
            near.empty() ? fmt::format("unknown key; known here: {}", fmt::join(names, ", "))

@@ -421,7 +421,7 @@ TEST(BadScene, NumbersAreCheckedForRangeAndSense) {
   refused("contact.normal_stiffness=rgid", {"rigid"});
   refused("contact.fit=-1", {"degree"});
   refused("contact.surface=5", {"text in quotes"});
-  refused("contact.surface=", {"text in quotes"});
+  refused("contact.surface=", {"is missing"});
   refused("supports.clamped=root", {"list"});
   refused("supports.clamped=[1]", {"quotes"});
   refused("excitation.forces=5", {"list"});

@@ -282,10 +282,9 @@ TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
   chosen.n_harmonics = 30;
   chosen.harmonic_tolerance = 0.01;
   const Optimum optimum = minimise_peak(family, chosen, options);
-  std::printf(
-      "%.4g N, %.4g m with chosen harmonics, %ld evaluations; %.4g N, %.4g m with 9, %ld\n",
-      optimum.best.parameter, optimum.best.amplitude, optimum.contact_evaluations,
-      reference.best.parameter, reference.best.amplitude, reference.contact_evaluations);
+  std::printf("%.4g N, %.4g m with chosen harmonics, %ld evaluations; %.4g N, %.4g m with 9, %ld\n",
+              optimum.best.parameter, optimum.best.amplitude, optimum.contact_evaluations,
+              reference.best.parameter, reference.best.amplitude, reference.contact_evaluations);
   EXPECT_TRUE(optimum.found) << optimum.message;
   EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude,
               chosen.harmonic_tolerance * reference.best.amplitude);
