@@ -109,7 +109,8 @@ void refuse_idle_options(const Arguments& arguments) {
   for (const auto& [given, name] : {std::pair{!arguments.tolerance.empty(), "--tolerance"},
                                     std::pair{!arguments.budget.empty(), "--budget"}}) {
     if (given && !solves) {
-      throw SceneError(fmt::format("{}: {} solves no curve", name, arguments.command));
+      throw SceneError(
+          fmt::format("{}: goes with run and check, not with {}", name, arguments.command));
     }
   }
   if (arguments.resume && arguments.command != "run" && arguments.command != "modes") {
@@ -134,7 +135,9 @@ namespace {
 /// What --json tells of a run: its peaks, best value and bars, as summary.json has them.
 nlohmann::ordered_json results_in(const std::filesystem::path& folder) {
   const auto summary = parse_json(read_summary(folder), (folder / "summary.json").string());
-  nlohmann::ordered_json results{{"warnings", summary.at("warnings")}};
+  nlohmann::ordered_json results{{"warnings", summary.at("warnings")},
+                                 {"message", summary.at("message")},
+                                 {"accuracy", summary.at("accuracy")}};
   results["frequency_Hz"] = nlohmann::ordered_json::array();
   for (const auto& mode : summary.at("modes")) {
     results["frequency_Hz"].push_back(mode.at("frequency_Hz"));

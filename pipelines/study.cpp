@@ -93,7 +93,7 @@ void find_optimum(const Solution& solution, const RunOptions& options, RunRecord
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
   record.keep_optimum(solution.model, *scene.response->optimum, search.best());
-  if (options.bracket && !time_is_short()) record.keep_bracket(search.bracket());
+  if (options.bracket && !cut_short()) record.keep_bracket(search.bracket());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace microslip::fem {
 /// Finds the equilibrium (1) and leaves (2) as the stiffness of the system.
 /// @param system  of this mesh, material and rule.
 /// @param start   displacement to begin with, 3 n_nodes [m], 0 where held.
-/// @return u, complete on every rank, 3 n_nodes [m]; out-of-balance force 1e-9 of the load.
+/// @return u, complete on every rank, 3 n_nodes [m]; out-of-balance force 1e-9 of the load, or a last correction 1e-9 of u.
 /// @throws EigenError  "rotation: …": no equilibrium is found, or K has negative eigenvalues there.
 [[nodiscard]] Eigen::VectorXd rotate_system(FeSystem& system, const mesh::Mesh& mesh,
                                             const Material& material, Tet10Rule rule,

@@ -70,8 +70,9 @@ bool is_unsettled(const solver::ResponseCurve& curve) {
 }
 
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
+/// @param is_told  the curve was solved with chosen harmonics, or more of them are known to do nothing.
 void add_harmonics(CurveBudget& budget, const CurveResult& result,
-                   const solver::ResponsePoint& peak) {
+                   const solver::ResponsePoint& peak, bool is_told) {
   const solver::SettledPeak& settled = result.curve.settled_peak;
   if (!result.richer && settled.amplitude > 0.0) {
     const double change = settled.amplitude / peak.amplitude - 1.0;
@@ -79,7 +80,7 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
              {change + std::copysign(settled.left_out, change),
               settled.frequency / peak.frequency - 1.0},
              true, 0.0);
-  } else if (!result.richer && is_unsettled(result.curve)) {
+  } else if (!result.richer && (is_unsettled(result.curve) || !is_told)) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
@@ -117,10 +118,16 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
   if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
     return budget;
   }
+  if (!result.curve.complete) {  // its highest peak need not be there
+    budget.unknown = richer.unknown;
+    budget.unknown.emplace_back("harmonics");
+    return budget;
+  }
   budget.unknown = richer.unknown;
-  add_harmonics(budget, result, *peak);
+  const bool is_told = scene.settings.harmonics.chosen() || !result.curve.certificate.empty();
+  add_harmonics(budget, result, *peak, is_told);
   for (const RicherModel& other : richer.models) {
-    if (time_is_short()) {
+    if (cut_short()) {
       budget.unknown.push_back(other.source);
       continue;
     }

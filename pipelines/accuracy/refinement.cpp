@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -14,10 +15,10 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double wanted = 0.95;           // of the tolerance: estimates are no better
+constexpr double closest_choice = 1e-5;  // of harmonics
 constexpr double idle = 0.05;             // of the tolerance: not worth a refinement
 constexpr double step_on_the_way = 0.15;  // of the error of harmonics
 constexpr int most_points = 20000;        // of a patch
-constexpr int highest_degree = 4;         // of tractions
 constexpr double finest_mesh = 0.25;      // of the element size at hand, at once
 constexpr double least_refined = 0.85;    // likewise: less is not worth a mesh
 
@@ -59,7 +60,6 @@ class Refiner {
     if (source == "cells" && meshed) return add_cells(error);
     if (source == "fit" && meshed) return leave_out_fit(error);
     if (source == "second_direction") return add_direction(error);
-    if (source == "basis" && meshed) return add_shapes(error);
     if (source == "mesh") return refine_mesh(error);
     return false;
   }
@@ -79,7 +79,8 @@ class Refiner {
     // Where the time may run out a step on the way is worth its price.
     const bool hurried = std::isfinite(result_.scene.accuracy.budget) && std::isfinite(error);
     if (hurried) now = std::max(now, std::min(step_on_the_way * error, 0.5 * before));
-    if (now < 1e-5) return false;
+    now = std::max(now, closest_choice);
+    if (!(now < before)) return false;
     harmonics = {.highest = most_automatic_harmonics, .orders = {}, .tolerance = now};
     texts_.push_back(fmt::format("harmonics chosen to {:.2g} %", 100.0 * now));
     error = std::min(error, now);
@@ -118,25 +119,15 @@ class Refiner {
     return true;
   }
 
-  bool add_shapes(double& error) {
-    BasisSettings& basis = result_.scene.settings.basis;
-    // A degree that was chosen is one that misses little already.
-    if (!basis.attachment_degree || *basis.attachment_degree >= highest_degree) return false;
-    const int degree = ++*basis.attachment_degree;
-    result_.new_basis = true;
-    texts_.push_back(fmt::format("attachment shapes of degree {}", degree));
-    error *= 0.25;
-    return true;
-  }
-
   bool refine_mesh(double& error) {
-    auto* blade = std::get_if<BladeModel>(&result_.scene.model);
-    if (blade == nullptr) return false;
+    if (!element_size_of(result_.scene)) return false;
     const double factor =
         std::clamp(std::sqrt(0.4 * tolerance_ / error), finest_mesh, least_refined);
-    blade->element_size *= factor;
+    result_.scene = with_elements_scaled(std::move(result_.scene), factor);
     result_.new_mesh = true;
-    texts_.push_back(fmt::format("elements of {:.3g} mm", 1e3 * blade->element_size));
+    result_.factor /= factor * factor;
+    texts_.push_back(
+        fmt::format("elements of {:.3g} mm", 1e3 * *element_size_of(result_.scene)));
     error *= factor * factor;
     return true;
   }
@@ -150,15 +141,26 @@ class Refiner {
 }  // namespace
 
 double largest_bar(const std::vector<CurveBudget>& budgets) {
+  constexpr double none = std::numeric_limits<double>::infinity();
   double largest = 0.0;
+  bool any = false;
   for (const CurveBudget& budget : budgets) {
-    if (budget.rows.empty() && budget.unknown.empty()) continue;
-    if (!budget.has_bar()) return std::numeric_limits<double>::infinity();
+    if (budget.rows.empty() && budget.unknown.empty()) continue;  // a linear limit
+    if (!budget.has_bar()) return none;
+    any = true;
     for (const char* goal : {peak_amplitude_goal, peak_frequency_goal}) {
       largest = std::max(largest, bar_of(budget.rows, budget.rows.front().curve, goal));
     }
   }
-  return largest;
+  return any ? largest : none;
+}
+
+std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets) {
+  std::set<std::string> names;
+  for (const CurveBudget& budget : budgets) {
+    names.insert(budget.unknown.begin(), budget.unknown.end());
+  }
+  return {names.begin(), names.end()};
 }
 
 std::optional<Refinement> refinement(const SceneDescription& scene,

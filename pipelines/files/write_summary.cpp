@@ -138,6 +138,7 @@ Json to_json(const AccuracySummary& accuracy) {
   const bool known = std::isfinite(accuracy.reached);
   return {{"asked", accuracy.asked > 0.0 ? Json(accuracy.asked) : Json("off")},
           {"reached", known ? Json(accuracy.reached) : Json(nullptr)},
+          {"not_known", accuracy.not_known},
           {"refined", accuracy.refined},
           {"out_of_time", accuracy.out_of_time},
           {"message", accuracy.message}};

@@ -12,11 +12,11 @@ namespace microslip::pipelines {
 
 void require_rotation(const SceneDescription& scene) {
   const std::string file = scene.file.string();
-  if (scene.kind != "blade" && scene.kind != "mesh") {
+  if (scene.kind != "blade" && scene.kind != "mesh" && scene.kind != "step") {
     throw SceneError(
         fmt::format("{}: model.kind: \"{}\" has no elements that a rotation could load; campbell "
-                    "is for \"blade\" "
-                    "and \"mesh\"",
+                    "is for \"blade\", "
+                    "\"mesh\" and \"step\"",
                     file, scene.kind));
   }
   if (!scene.rotation) {

@@ -120,7 +120,7 @@ solver::Optimum OptimumSearch::best() {
 /// The peak at a value, traced with the harmonics given and solved again with more.
 std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int highest) {
   const auto go_on = [](const solver::ResponsePoint&) {
-    return !interrupt_requested() && !time_is_short();
+    return !interrupt_requested() && !cut_short();
   };
   ReducedModel richer = model_;
   richer.effects.n_harmonics = highest;
@@ -129,7 +129,7 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int hig
   try {
     const solver::ResponseCurve curve =
         solver::trace_response(scene_at(value, {}), continuation_options(scene_, model_), go_on);
-    if (interrupt_requested() || time_is_short()) return std::nullopt;
+    if (interrupt_requested() || cut_short()) return std::nullopt;
     return solver::richer_peak(scene_at(value, more), continuation_options(scene_, richer), curve,
                                highest);
   } catch (const RefusedError&) {  // a neighbour that the search need not have visited

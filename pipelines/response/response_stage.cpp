@@ -196,7 +196,7 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.orders = harmonics.orders;
   options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = response.search_starts;
-  options.stop = [] { return interrupt_requested() || time_is_short(); };
+  options.stop = [] { return interrupt_requested() || cut_short(); };
   if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
     options.corrector = solver::ContinuationOptions::Corrector::few_jacobians;
@@ -240,7 +240,7 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
   const auto begin = std::chrono::steady_clock::now();
   const solver::ResponseCurve curve = solver::trace_response(
       balanced_scene(model, load, options), options,
-      [](const auto&) { return !interrupt_requested() && !time_is_short(); });
+      [](const auto&) { return !interrupt_requested() && !cut_short(); });
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const solver::ResponsePoint* peak = highest_peak(curve);
   if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
@@ -256,7 +256,7 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   const solver::ResponseCurve& curve = result.curve;
   const int highest = harmonics_to_check(model, scene);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
-  if (curve.diagnosis == "interrupted" || interrupt_requested() || time_is_short()) return;
+  if (curve.diagnosis == "interrupted" || interrupt_requested() || cut_short()) return;
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;

@@ -1,18 +1,24 @@
 #include "pipelines/run/accurate_curves.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pipelines/accuracy/refinement.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/run/curve_family.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
@@ -23,18 +29,14 @@ constexpr int most_rounds = 6;
 /// Where the mesher writes a mesh that may not be kept.
 struct Round {
   Solution solution;
-  TemporaryFolder folder;
-  [[nodiscard]] std::filesystem::path mesh_file() const { return folder.path() / "mesh.msh"; }
+  std::vector<std::string> warnings;
+  std::unique_ptr<TemporaryFolder> folder = std::make_unique<TemporaryFolder>();
+  [[nodiscard]] std::filesystem::path mesh_file() const { return folder->path() / "mesh.msh"; }
 };
 
 StructurePointer structure_of(const Solution& before, const Refinement& step, const Round& round) {
-  if (!before.structure) return nullptr;
-  if (step.new_mesh) {
-    return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
-  }
-  if (!step.new_basis) return before.structure;
-  return std::make_shared<const SolvedStructure>(
-      SolvedStructure{before.structure->mesh, solve_structure(before.structure->mesh, step.scene)});
+  if (!before.structure || !step.new_mesh) return before.structure;
+  return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
 }
 
 /// Solves the scene of a step. @return false: the time was over before its end.
@@ -43,13 +45,40 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   Solution& now = round.solution;
   now.scene = step.scene;
   now.structure = structure_of(before, step, round);
-  if (time_is_short()) return false;
-  std::vector<std::string> warnings;  // those of the scene are told already
-  now.model = model_of(now.scene, now.structure.get(), warnings);
+  if (cut_short()) return false;
+  now.model = model_of(now.scene, now.structure.get(), round.warnings);
   now.curves = trace_unkept(now.model, now.scene, jobs, progress);
-  if (time_is_short()) return false;
+  if (cut_short()) return false;
   now.budgets = budgets_of(now.model, now.scene, now.structure.get(), jobs, now.curves, progress);
-  return !time_is_short();
+  return !cut_short();
+}
+
+bool is_complete(const std::vector<CurveResult>& curves) {
+  return std::ranges::all_of(curves, [](const CurveResult& one) { return one.curve.complete; });
+}
+
+/// Refined, and no worse. @return why it is not; empty: it is.
+std::string objection(const Solution& before, const Solution& now) {
+  if (is_complete(before.curves) && !is_complete(now.curves)) return "a curve is not complete then";
+  if (largest_bar(now.budgets) > largest_bar(before.budgets)) return "the errors are larger then";
+  return {};
+}
+
+/// The round of a step. @return empty: not done, and `obstacle` says why; "" where time was over.
+std::optional<Round> refined(const Solution& before, const Refinement& step, int jobs,
+                             Progress& progress, std::string& obstacle) {
+  try {
+    std::optional<Round> round(std::in_place);
+    if (!solve(before, step, jobs, progress, *round)) return std::nullopt;
+    obstacle = objection(before, round->solution);
+    if (!obstacle.empty()) return std::nullopt;
+    return round;
+  } catch (const InterruptedError&) {
+    throw;
+  } catch (const std::exception& error) {  // what is there stays
+    obstacle = error.what();
+    return std::nullopt;
+  }
 }
 
 /// In the place of what the record has.
@@ -61,13 +90,14 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
                                std::filesystem::copy_options::overwrite_existing);
     record.keep_mesh(now.structure->mesh, now.scene.material.density);
   }
-  if (step.new_mesh || step.new_basis) {
+  if (step.new_mesh) {
     const StructureModes& modes = now.structure->modes;
     record.keep_modes(
         now.structure->mesh, modes,
         damping_ratios(now.scene.modes, modes.basis.frequency, modes.basis.n_attachment));
     record.keep_structure(now.structure->mesh, modes.basis);
   }
+  for (const std::string& warning : round.warnings) record.progress().warning(warning);
   record.keep_effects(effects_of(now.scene, &now.model));
   record.keep_model(now.model);
   for (const CurveResult& curve : now.curves) record.keep_curve(curve, now.model);
@@ -77,17 +107,26 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
-std::string reached_text(double asked, double reached) {
-  return fmt::format("asked for {}, reached {}", percent(asked),
-                     std::isfinite(reached) ? percent(reached) : "no bar for every curve");
+std::string reached_text(const AccuracySummary& accuracy) {
+  std::string text = fmt::format(
+      "asked for {}, reached {}", percent(accuracy.asked),
+      std::isfinite(accuracy.reached) ? percent(accuracy.reached) : "no bar for every curve");
+  if (!accuracy.not_known.empty()) {
+    text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));
+  }
+  return text;
 }
 
-/// What is still to be done, in one sentence.
-std::string missing_text(const std::optional<Refinement>& next, const std::string& left,
-                         double seconds) {
-  if (!next) return fmt::format("this program cannot refine what is left: {}", left);
-  const double price = seconds * std::max(next->factor, 2.0);
-  return fmt::format("next: {}, some {:.2g} s or more", next->text, price);
+void look_at(const Solution& solution, AccuracySummary& accuracy) {
+  accuracy.reached = largest_bar(solution.budgets);
+  accuracy.not_known = not_in_bars(solution.budgets);
+}
+
+/// Only limits, or no contact: nothing has an error that is told.
+bool has_budgets(const Solution& solution) {
+  return std::ranges::any_of(solution.budgets, [](const CurveBudget& one) {
+    return !one.rows.empty() || !one.unknown.empty();
+  });
 }
 
 }  // namespace
@@ -100,46 +139,49 @@ void keep_budgets(const Solution& solution, RunRecord& record) {
 }
 
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
-  const double tolerance = solution.scene.accuracy.tolerance;
-  AccuracySummary summary{.asked = tolerance,
-                          .reached = largest_bar(solution.budgets),
-                          .refined = {},
-                          .out_of_time = time_is_short(),
-                          .message = {}};
-  std::optional<Refinement> next;
-  std::string left;
+  AccuracySummary accuracy;
+  accuracy.asked = solution.scene.accuracy.tolerance;
+  if (accuracy.asked == 0.0) return;
+  look_at(solution, accuracy);
   double seconds = seconds_spent();
-  for (int i = 0; tolerance > 0.0 && i < most_rounds; ++i) {
-    next.reset();
-    if (summary.reached <= tolerance) break;
-    next = refinement(solution.scene, solution.budgets, tolerance, left);
-    if (!next || time_is_short()) break;
-    record.progress().info(
-        fmt::format("{}; refined: {}", reached_text(tolerance, summary.reached), next->text));
+  std::string missing = "more rounds of refinement would be needed";
+  for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
+    if (accuracy.reached <= accuracy.asked) break;
+    std::string left;
+    const auto next = refinement(solution.scene, solution.budgets, accuracy.asked, left);
+    missing = next ? fmt::format("next: {}, some {:.2g} s or more", next->text,
+                                 seconds * std::max(next->factor, 2.0))
+                   : fmt::format("this program cannot refine what is left: {}", left);
+    // A mesh that is begun cannot be stopped.
+    const bool too_long = next && next->new_mesh && seconds * next->factor > seconds_left();
+    if (!next || cut_short() || (too_long && leave_out())) break;
+    record.progress().info(fmt::format("{}; refined: {}", reached_text(accuracy), next->text));
     const double begin = seconds_spent();
-    Round round;
-    const bool done = solve(solution, *next, jobs, record.progress(), round);
+    std::string obstacle;
+    std::optional<Round> round = refined(solution, *next, jobs, record.progress(), obstacle);
     seconds = std::max(seconds, seconds_spent() - begin);
-    if (!done) break;
-    keep(round, *next, record);
-    solution = std::move(round.solution);
-    summary.refined.push_back(next->text);
-    summary.reached = largest_bar(solution.budgets);
+    if (!round) {
+      if (!obstacle.empty()) missing = fmt::format("{} cannot be kept: {}", next->text, obstacle);
+      break;
+    }
+    keep(*round, *next, record);
+    solution = std::move(round->solution);
+    accuracy.refined.push_back(next->text);
+    look_at(solution, accuracy);
   }
-  const bool met = tolerance == 0.0 || summary.reached <= tolerance;
-  summary.out_of_time = time_is_short() && (!met || tolerance == 0.0);
-  if (!met) {
-    summary.message =
-        fmt::format("{}{}; {}", summary.out_of_time ? "out of time: " : "",
-                    reached_text(tolerance, summary.reached), missing_text(next, left, seconds));
-    record.progress().warning(summary.message);
-  } else if (summary.out_of_time) {
-    summary.message = "out of time: what was solved until then is there";
-    record.progress().warning(summary.message);
-  } else if (tolerance > 0.0) {
-    record.progress().info(reached_text(tolerance, summary.reached));
+  const bool met = accuracy.reached <= accuracy.asked;
+  accuracy.out_of_time = !met && was_cut_short();
+  if (met) {
+    record.progress().info(reached_text(accuracy));
+  } else if (!has_budgets(solution)) {
+    accuracy.message = "no curve has an error that this program tells";
+    record.progress().warning(accuracy.message);
+  } else {
+    accuracy.message = fmt::format("{}{}; {}", accuracy.out_of_time ? "out of time: " : "",
+                                   reached_text(accuracy), missing);
+    record.progress().warning(accuracy.message);
   }
-  if (tolerance > 0.0 || summary.out_of_time) record.keep_accuracy(std::move(summary));
+  record.keep_accuracy(std::move(accuracy));
 }
 
 }  // namespace microslip::pipelines

@@ -24,7 +24,7 @@ double fraction_of(const SceneDescription& scene, const solver::ResponsePoint& p
   return width == 0.0 ? 1.0 : (frequency_hz - range.frequency_begin_hz) / width;
 }
 
-bool goes_on() { return !interrupt_requested() && !time_is_short(); }
+bool goes_on() { return !interrupt_requested() && !cut_short(); }
 
 void stop_if_interrupted(const std::string& kept) {
   if (!interrupt_requested()) return;
@@ -57,7 +57,9 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       results[i] = std::move(*before);
     } else {
       results[i] = trace_curve(model, scene, requests[i], observe);
-      if (goes_on()) record.keep_finished(results[i]);  // else it may be cut short
+      if (!interrupt_requested() && results[i].curve.diagnosis != "interrupted") {
+        record.keep_finished(results[i]);
+      }
     }
     ++done;
     const std::lock_guard lock(order);  // summary.json lists the curves in the scene's order
@@ -93,8 +95,11 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
                                     std::vector<CurveResult>& curves, Progress& progress) {
   if (!scene.accuracy.error_budget || model.patches.empty()) return {};
   RicherModels richer;
-  if (time_is_short()) {
+  if (cut_short()) {
     richer.note = "out of time: errors but those of the harmonics are not told";
+    if (structure != nullptr) {
+      richer.unknown = {"mesh", "basis", "cells", "fit", "second_direction"};
+    }
   } else {
     richer = richer_models(model, scene, structure);
   }
@@ -114,7 +119,7 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, RunRecord& record) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     stop_if_interrupted("curves");
-    if (time_is_short()) {
+    if (cut_short()) {
       record.progress().warning("out of time: maps are left out");
       return;
     }

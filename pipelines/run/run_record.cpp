@@ -29,6 +29,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/run_folder.hpp"
 #include "pipelines/run/run_messages.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
@@ -170,7 +171,7 @@ int RunRecord::finish() {
   progress_.finish();
   const std::lock_guard lock(mutex_);
   summary_.exit_code = verdict();
-  summary_.message = summary_.accuracy ? summary_.accuracy->message : "";
+  summary_.message = ending();
   if (place_) place_->remove_earlier();
   write_summary_file();
   if (writes_) checkpoint_.end();
@@ -387,6 +388,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
                                              amplitude_text(optimum.best))
                                : fmt::format("{}: not found: {}{}", what, optimum.message,
                                              lowest_text(optimum)));
+  for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
   const std::lock_guard lock(mutex_);
   OptimumSummary& summary = summary_.optimum.emplace();
@@ -431,7 +433,7 @@ void RunRecord::keep_report() {
     write_summary_file();  // the plots are drawn of it
     ended = summary_;
     ended.exit_code = verdict();
-    ended.message = ended.accuracy ? ended.accuracy->message : "";
+    ended.message = ending();
   }
   if (!plots_) {
     write_whole(staged_ / "report.md", report_text(summary_json(ended), {}));
@@ -480,10 +482,15 @@ void RunRecord::tell_failure(ExitCode code, const std::string& message) {
   show_what_is_new();
 }
 
+std::string RunRecord::ending() const {
+  if (summary_.accuracy && !summary_.accuracy->message.empty()) return summary_.accuracy->message;
+  return was_cut_short() ? "out of time: what was solved until then is there" : "";
+}
+
 ExitCode RunRecord::verdict() const {
   const bool complete = std::all_of(summary_.curves.begin(), summary_.curves.end(),
                                     [](const CurveSummary& curve) { return curve.complete; });
-  if (summary_.accuracy && summary_.accuracy->out_of_time) return ExitCode::exhausted;
+  if (was_cut_short()) return ExitCode::exhausted;
   return complete ? ExitCode::complete : ExitCode::incomplete;
 }
 

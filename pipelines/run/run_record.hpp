@@ -68,7 +68,7 @@ class RunRecord {
   void begin_again();
   /// What the budgets kept so far say about effects left out.
   void keep_bounds();
-  /// The accuracy asked for and whether it is reached; not reached ends the run as one that is out of time.
+  /// The accuracy asked for and whether it is reached.
   void keep_accuracy(AccuracySummary accuracy);
   /// What the curves kept so far say about the harmonics chosen.
   void keep_harmonics(const SceneDescription& scene);
@@ -109,6 +109,8 @@ class RunRecord {
   void fail(ExitCode code, const std::string& message);
   void tell_failure(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;
+  /// Why the accuracy asked for is not reached, or that time was over; empty: neither. Under the mutex.
+  [[nodiscard]] std::string ending() const;
 
   /// Takes the folder over from an earlier run.
   void begin();

@@ -269,7 +269,9 @@ std::optional<double> number_or_off(const SectionReader& s, std::string_view key
   return s.number_or_word_in(node, key, words);
 }
 
-AccuracyRequest read_accuracy(const SectionReader& s, SceneDescription& scene) {
+/// @param closer_is_asked  the scene has a response.harmonic_tolerance of its own, which may be the smaller one.
+AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
+                              SceneDescription& scene) {
   constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
   AccuracyRequest accuracy;
   accuracy.error_budget = s.word("error_budget", budgets) == "auto";
@@ -285,7 +287,10 @@ AccuracyRequest read_accuracy(const SectionReader& s, SceneDescription& scene) {
            s.node("tolerance"));
   }
   HarmonicSettings& harmonics = scene.settings.harmonics;
-  if (harmonics.chosen()) harmonics.tolerance = share_of_harmonics * accuracy.tolerance;
+  const double share = share_of_harmonics * accuracy.tolerance;
+  if (harmonics.chosen()) {
+    harmonics.tolerance = closer_is_asked ? std::min(harmonics.tolerance, share) : share;
+  }
   return accuracy;
 }
 
@@ -315,7 +320,9 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   const SectionReader effects = reading.section("effects", "effects");
   scene.effects = read_effects(effects, scene);
   scene.settings.second_direction = read_second_direction(effects);
-  scene.accuracy = read_accuracy(reading.section("accuracy", "accuracy"), scene);
+  scene.accuracy = read_accuracy(
+      reading.section("accuracy", "accuracy"),
+      static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }

@@ -12,12 +12,14 @@ using Clock = std::chrono::steady_clock;
 
 std::atomic<double> allowed{std::numeric_limits<double>::infinity()};
 std::atomic<Clock::time_point> begin{Clock::now()};
+std::atomic<bool> was_cut{false};
 
 }  // namespace
 
 void begin_deadline(double seconds) {
   begin = Clock::now();
   allowed = seconds;
+  was_cut = false;
 }
 
 double seconds_spent() {
@@ -31,5 +33,18 @@ bool time_is_short() {
   constexpr double least = 2.0;
   return seconds_left() < std::max(share * allowed, least);
 }
+
+bool cut_short() {
+  if (!time_is_short()) return false;
+  was_cut = true;
+  return true;
+}
+
+bool leave_out() {
+  was_cut = true;
+  return true;
+}
+
+bool was_cut_short() { return was_cut; }
 
 }  // namespace microslip::pipelines

@@ -14,4 +14,10 @@ void begin_deadline(double seconds);
 /// write down what there is.
 [[nodiscard]] bool time_is_short();
 
+/// The same, asked by what then leaves something out: remembered until the next begin_deadline().
+[[nodiscard]] bool cut_short();
+/// Remembered likewise, of what would take longer than there is time. @return true
+bool leave_out();
+[[nodiscard]] bool was_cut_short();
+
 }  // namespace microslip::pipelines

@@ -14,7 +14,7 @@ ResponseCurve trace_choosing(const Scene& scene, const ContinuationOptions& opti
   const auto first = [&](const HarmonicSet& set) {
     ContinuationOptions given = with_harmonics(options, set);
     given.search_starts = 0;
-    return trace_response(scene, given);
+    return trace_response(scene, given, until_stopped(options));
   };
   bool is_first = true;
   const auto trace = [&](const HarmonicSet& set) {

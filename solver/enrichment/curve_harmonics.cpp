@@ -38,27 +38,30 @@ std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& rang
   return places;
 }
 
-/// Relative, of a peak to what it is with more harmonics, and of that to what it should be. Empty: no such peak is
-/// within the tolerance.
-std::optional<double> distance_to(const std::vector<SettledPeak>& known, const LocalPeak& peak,
-                                  double tolerance) {
-  std::optional<double> nearest;
-  for (const SettledPeak& rich : known) {
-    const double change = std::abs(rich.amplitude / peak.amplitude - 1.0);
-    const double shift = std::abs(rich.frequency / peak.point.parameter - 1.0);
-    const double distance = change + rich.left_out;
-    if (shift > tolerance || distance > tolerance) continue;
-    nearest = std::min(distance, nearest.value_or(distance));
+/// Within a share of the frequency; nullptr: none.
+const SettledPeak* nearest_of(const std::vector<SettledPeak>& known, double frequency,
+                              double share) {
+  const SettledPeak* nearest = nullptr;
+  double least = share;
+  for (const SettledPeak& one : known) {
+    const double shift = std::abs(one.frequency / frequency - 1.0);
+    if (shift > least) continue;
+    least = shift;
+    nearest = &one;
   }
   return nearest;
 }
 
-bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
-
-void keep_settled(const std::vector<SettledPeak>& known, ResponseCurve& curve) {
-  if (known.empty()) return;
-  curve.settled_peak = *std::ranges::max_element(known, {}, &SettledPeak::amplitude);
+/// Relative, of a peak to what it is with more harmonics, and of that to what it should be; of the nearest in
+/// frequency. Empty: none is near.
+std::optional<double> distance_to(const std::vector<SettledPeak>& known, const LocalPeak& peak,
+                                  double tolerance) {
+  const SettledPeak* nearest = nearest_of(known, peak.point.parameter, tolerance);
+  if (nearest == nullptr) return std::nullopt;
+  return std::abs(nearest->amplitude / peak.amplitude - 1.0) + nearest->left_out;
 }
+
+bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
 
 void count(CurveHarmonics& sum, const PeakWork& work) {
   sum.iterations += work.iterations;
@@ -87,6 +90,8 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
     chosen.settled = true;
     chosen.left_out = 0.0;
     chosen.known.clear();
+    chosen.highest = {};
+    bool is_first = true;
     bool is_lost = false;
     for (const Place& place : places_of(scene, range, of_now, *now)) {
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
@@ -94,6 +99,8 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       chosen.left_out = std::max(chosen.left_out, found.left_out);
       chosen.settled = chosen.settled && found.settled;
       if (found.peak) chosen.known.push_back(found.richest);
+      if (found.peak && is_first) chosen.highest = found.richest;
+      is_first = false;
       is_lost = is_lost || !found.peak;
     }
     count(chosen, choice.work());
@@ -129,7 +136,7 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
                                 const CurveOfSet& first, const CurveOfSet& trace) {
   HarmonicSet set = least_harmonics(scene);
   ResponseCurve curve = first(set);
-  CurveHarmonics work{set, 0.0, true, curve.iterations, curve.contact_evaluations};
+  CurveHarmonics work{set, 0.0, true, curve.iterations, curve.contact_evaluations, {}, {}};
   const auto add = [&](const CurveHarmonics& done) {
     work.iterations += done.iterations;
     work.contact_evaluations += done.contact_evaluations;
@@ -146,13 +153,13 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
       if (!richer.complete &&
           is_stopped(range)) {  // a whole curve is worth more than half of a better one
         work.settled = false;
-        keep_settled(chosen.known, curve);
+        curve.settled_peak = chosen.highest;
         break;
       }
       set = chosen.set;
       curve = std::move(richer);
     }
-    keep_settled(chosen.known, curve);
+    curve.settled_peak = chosen.highest;
     const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
     add(checked);
     if (!is_new) break;

@@ -21,6 +21,7 @@ struct CurveHarmonics {
   bool settled = true;    ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
+  SettledPeak highest;             ///< that of the curve's highest place; amplitude 0: lost
   std::vector<SettledPeak> known;  ///< high points solved for with more than the set has
 };
 
@@ -45,6 +46,11 @@ struct CurveHarmonics {
 /// @param trace  traces the curve that is given.
 [[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
                                               const CurveOfSet& first, const CurveOfSet& trace);
+
+/// Observes nothing and ends a curve where the options ask for it.
+[[nodiscard]] inline PointObserver until_stopped(const ContinuationOptions& options) {
+  return [stop = options.stop](const ResponsePoint&) { return !(stop && stop()); };
+}
 
 /// The options with a set given in the place of the tolerance.
 [[nodiscard]] ContinuationOptions with_harmonics(const ContinuationOptions& range,

@@ -16,7 +16,7 @@ ContinuationOptions with_common_harmonics(const SceneFamily& family,
     const auto trace = [&](const HarmonicSet& harmonics) {
       ContinuationOptions given = with_harmonics(range, harmonics);
       given.search_starts = 0;
-      return trace_response(scene, given);
+      return trace_response(scene, given, until_stopped(range));
     };
     const ResponseCurve curve = trace(least);
     const CurveHarmonics chosen = choose_harmonics(scene, range, least, curve, trace);

@@ -443,6 +443,8 @@ Optimum search_with_chosen(const SceneFamily& family, const ContinuationOptions&
   ContinuationOptions lean = with_harmonics(range, least.united(HarmonicSet(few).orders()));
   lean.search_starts = 0;
   const Optimum first = Search(family, lean, first_options).run();
+  const auto is_stopped = [](const Optimum& one) { return one.objection == out_of_time; };
+  if (is_stopped(first)) return first;
   if (!first.found) return Search(family, range, options).run();
   PeakWork work;
   const ContinuationOptions chosen =
@@ -453,11 +455,12 @@ Optimum search_with_chosen(const SceneFamily& family, const ContinuationOptions&
   const double best = result.best.parameter;
   const bool left = (best <= near.lower + rounding && near.lower > options.lower) ||
                     (best >= near.upper - rounding && near.upper < options.upper);
-  if (left) result = Search(family, chosen, options).run();
+  const bool again = left && !is_stopped(result);
+  if (again) result = Search(family, chosen, options).run();
   result.iterations += first.iterations + work.iterations;
   result.contact_evaluations += first.contact_evaluations + work.contact_evaluations;
   result.n_curves += first.n_curves;
-  if (!left) {
+  if (!again) {
     result.notes.push_back(sentence("with few harmonics the best value is ", first.best.parameter) +
                            sentence("; searched with those that it needs from ", near.lower) +
                            sentence(" to ", near.upper));

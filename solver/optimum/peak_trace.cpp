@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/optimum/common_harmonics.hpp"
 
 namespace microslip::solver {
@@ -160,8 +161,7 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
   const Scene scene = family_(parameter(position));
   ContinuationOptions range = range_;
   range.search_starts = std::max(range.search_starts, search_starts);
-  const ResponseCurve curve = trace_response(
-      scene, range, [&](const ResponsePoint&) { return !(range.stop && range.stop()); });
+  const ResponseCurve curve = trace_response(scene, range, until_stopped(range));
   if (curve.diagnosis == "interrupted") throw SearchStopped{};
   ++result_.n_curves;
   result_.iterations += curve.iterations;

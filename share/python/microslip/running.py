@@ -11,7 +11,7 @@ import threading
 from typing import Any, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
-from microslip.program import Call, Incomplete, Overrides, Path, ProgramError, find_program, words_of
+from microslip.program import Call, Exhausted, Incomplete, Overrides, Path, ProgramError, find_program, words_of
 from microslip.results import Run, peak_row
 from microslip.tables import Table, table_of
 
@@ -123,7 +123,7 @@ class Sweeping:
         finally:
             self.calls.discard(call)
         try:
-            if point.error is None or isinstance(point.error, Incomplete):
+            if point.error is None or isinstance(point.error, (Incomplete, Exhausted)):
                 point.run = Run(point.folder)
         except RunError as error:
             point.error = point.error or error

@@ -81,7 +81,23 @@ TEST(Refinement, NamesWhatItCannotRefine) {
   EXPECT_EQ(left, "mesh");
 }
 
-TEST(Refinement, CurvesWithoutABudgetHaveNoError) { EXPECT_EQ(largest_bar({CurveBudget{}}), 0.0); }
+TEST(Refinement, WithoutABudgetNothingIsKnown) {
+  EXPECT_TRUE(std::isinf(largest_bar({CurveBudget{}})));
+  EXPECT_DOUBLE_EQ(largest_bar({CurveBudget{}, budget({{"cells", 0.01}})}), 0.01);
+  CurveBudget partial = budget({{"cells", 0.01}});
+  partial.unknown.emplace_back("mesh");
+  EXPECT_EQ(not_in_bars({partial, partial}), std::vector<std::string>{"mesh"});
+}
+
+TEST(Refinement, HarmonicsAreChosenAsCloselyAsCanBe) {
+  std::string left;
+  SceneDescription scene = blade();
+  const auto step = refinement(scene, {budget({{"harmonics", 0.5}})}, 1e-5, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_DOUBLE_EQ(step->scene.settings.harmonics.tolerance, 1e-5);
+  EXPECT_FALSE(refinement(step->scene, {budget({{"harmonics", 2e-5}})}, 1e-5, left).has_value());
+  EXPECT_EQ(left, "harmonics");
+}
 
 }  // namespace
 }  // namespace microslip::pipelines

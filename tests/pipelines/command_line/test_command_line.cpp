@@ -146,8 +146,8 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
 
 TEST_F(Program, RefusesOptionsThatACommandDoesNotKnow) {
   write(path("scene.toml"), scene_text);
-  expect("--tolerance 1% modes scene.toml", 1, {"--tolerance", "modes solves no curve"});
-  expect("mesh --budget 60s scene.toml -o m.msh", 1, {"--budget", "mesh solves no curve"});
+  expect("--tolerance 1% modes scene.toml", 1, {"--tolerance", "not with modes"});
+  expect("mesh --budget 60s scene.toml -o m.msh", 1, {"--budget", "not with mesh"});
   expect("--tolerance fast run scene.toml", 1, {"accuracy.tolerance", "off"});
   expect("converge --resume scene.toml", 1, {"--resume", "converge"});
   EXPECT_FALSE(exists("runs"));

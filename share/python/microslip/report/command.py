@@ -32,11 +32,9 @@ def draw_plots(folder, into):
 def report(folder, into=None, summary=None):
     """Both. The exit code."""
     into = into or folder
-    code = draw_plots(folder, into)
     try:
-        write_report_page(folder, into, summary)
+        write_report_page(folder, into, summary)  # first: it is quick, and a run may be short of time
     except RunError as error:
-        if code == 0:  # else the plots have met it, and said so
-            print(error, file=sys.stderr)
+        print(error, file=sys.stderr)
         return 1
-    return code
+    return draw_plots(folder, into)

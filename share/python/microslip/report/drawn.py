@@ -124,9 +124,11 @@ def trace_entry(run, size, damage):
     except RunError as error:
         damage.append(str(error))
         return None
-    best = {"value": optimum["value"], "frequency": optimum["frequency_Hz"], "amplitude": optimum["amplitude_m"] / size}
+    best = None
+    if optimum.get("found"):
+        best = {"value": optimum["value"], "frequency": optimum["frequency_Hz"], "amplitude": optimum["amplitude_m"] / size}
     return {"parameter": parameter, "value": numbers(trace[:, 0]), "frequency": numbers(trace[:, 1], 9),
-            "amplitude": numbers(trace[:, 2] / size), "best": best if optimum.get("found") else None}
+            "amplitude": numbers(trace[:, 2] / size), "best": best}
 
 
 def peak_entries(curves, shades, size):
