@@ -122,6 +122,21 @@ std::optional<LocalPeak> PeakHarmonicsChoice::solved(const HarmonicSet& from, co
   return level_point(richer, start, range_, work_, farthest);
 }
 
+/// A peak that is far is nearer by steps: the lowest harmonic first.
+std::optional<LocalPeak> PeakHarmonicsChoice::solved_one_by_one(HarmonicSet set, LocalPeak peak,
+                                                                std::vector<int> orders) {
+  if (orders.size() < 2) return std::nullopt;
+  std::ranges::sort(orders);
+  for (const int order : orders) {
+    const HarmonicSet next = set.united({order});
+    std::optional<LocalPeak> there = solved(set, peak, next);
+    if (!there) return std::nullopt;
+    set = next;
+    peak = std::move(*there);
+  }
+  return peak;
+}
+
 PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPeak& peak,
                                           const HarmonicSet& more) {
   PeakHarmonics result{set.united(more.orders()), peak};
@@ -152,6 +167,7 @@ void PeakHarmonicsChoice::settle(PeakHarmonics& result) {
     }
     HarmonicSet larger = result.set.united(orders);
     std::optional<LocalPeak> next = solved(result.set, *result.peak, larger);
+    if (!next) next = solved_one_by_one(result.set, *result.peak, orders);
     if (next && small) {
       result.confirmed = std::abs(next->amplitude - result.peak->amplitude) / next->amplitude;
       result.settled = same(*result.peak, *next, tolerance);

@@ -66,6 +66,8 @@ class PeakHarmonicsChoice {
   [[nodiscard]] bool same(const LocalPeak& a, const LocalPeak& b, double tolerance) const;
   [[nodiscard]] std::optional<LocalPeak> solved(const HarmonicSet& from, const LocalPeak& peak,
                                                 const HarmonicSet& to);
+  [[nodiscard]] std::optional<LocalPeak> solved_one_by_one(HarmonicSet set, LocalPeak peak,
+                                                           std::vector<int> orders);
   void settle(PeakHarmonics& result);
   void prune(PeakHarmonics& result, const HarmonicSet& least);
   [[nodiscard]] std::optional<PeakHarmonics> without(const PeakHarmonics& rich,
