@@ -181,6 +181,11 @@ int campbell_study(const SceneDescription& scene, const CampbellRequest& request
   const TemporaryFolder scratch;
   const mesh::Mesh mesh = obtain_mesh(scene, scratch.path() / "mesh.msh");
   check_names(mesh, scene);
+  SceneDescription fastest = scene;
+  fastest.rotation->speed = request.speeds.maxCoeff();
+  for (const std::string& question : questions(fastest, mesh)) {
+    std::cerr << "warning: " << question << '\n';
+  }
   const CampbellDiagram diagram = campbell_diagram(
       mesh, scene, request.speeds, [&](double speed, const Eigen::VectorXd& frequency) {
         say(fmt::format("{:10.6g} rpm: {:.6g} Hz\n", 30.0 * speed / std::numbers::pi,

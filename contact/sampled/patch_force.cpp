@@ -61,10 +61,12 @@ PatchForce::PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces
   require(instants_ >= 16, std::to_string(instants_) + " instants, must be 16 or more");
 }
 
-/// Grows with the harmonics in steps of two, so that what is chosen for few is not upset by many.
+/// Grows with the harmonics by halves, so that what is chosen for few is not upset by many.
 PatchForce::Grid PatchForce::grid(int n_harmonics, int force_harmonics) {
+  const int needed = std::max(8 * (n_harmonics + 1), 4 * (force_harmonics + 1));
   int n = instants_;
-  while (n < 8 * (n_harmonics + 1) || n < 4 * (force_harmonics + 1)) n *= 2;
+  while (n + n / 2 < needed) n *= 2;
+  if (n < needed) n += n / 2;
   const auto table = [&](int harmonics) {
     auto found = tables_.find({n, harmonics});
     if (found == tables_.end()) {

@@ -80,7 +80,9 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
              {change + std::copysign(settled.left_out, change),
               settled.frequency / peak.frequency - 1.0},
              true, 0.0);
-  } else if (!result.richer && (is_unsettled(result.curve) || !is_told)) {
+  } else if (!result.richer && !is_told) {
+    budget.unknown.emplace_back("harmonics");
+  } else if (!result.richer && is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
     add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);

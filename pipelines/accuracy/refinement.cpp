@@ -15,7 +15,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double wanted = 0.95;           // of the tolerance: estimates are no better
-constexpr double closest_choice = 1e-5;  // of harmonics
+constexpr double closest_choice = 1e-5;   // of harmonics
 constexpr double idle = 0.05;             // of the tolerance: not worth a refinement
 constexpr double step_on_the_way = 0.15;  // of the error of harmonics
 constexpr int most_points = 20000;        // of a patch
@@ -126,8 +126,7 @@ class Refiner {
     result_.scene = with_elements_scaled(std::move(result_.scene), factor);
     result_.new_mesh = true;
     result_.factor /= factor * factor;
-    texts_.push_back(
-        fmt::format("elements of {:.3g} mm", 1e3 * *element_size_of(result_.scene)));
+    texts_.push_back(fmt::format("elements of {:.3g} mm", 1e3 * *element_size_of(result_.scene)));
     error *= factor * factor;
     return true;
   }

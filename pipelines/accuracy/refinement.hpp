@@ -14,7 +14,7 @@ namespace microslip::pipelines {
 /// A scene with finer settings.
 struct Refinement {
   SceneDescription scene;
-  std::string text;        ///< what is refined, for the log
+  std::string text;       ///< what is refined, for the log
   bool new_mesh = false;  ///< mesh and modes are solved for again
   double factor = 1.0;    ///< about, of the time that a round takes
 };

@@ -238,9 +238,9 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
     *end = std::clamp(*end, (1.0 - beside) * top, (1.0 + beside) * top);
   }
   const auto begin = std::chrono::steady_clock::now();
-  const solver::ResponseCurve curve = solver::trace_response(
-      balanced_scene(model, load, options), options,
-      [](const auto&) { return !interrupt_requested() && !cut_short(); });
+  const solver::ResponseCurve curve =
+      solver::trace_response(balanced_scene(model, load, options), options,
+                             [](const auto&) { return !interrupt_requested() && !cut_short(); });
   richer.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const solver::ResponsePoint* peak = highest_peak(curve);
   if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;

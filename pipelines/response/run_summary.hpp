@@ -86,8 +86,8 @@ struct OptimumSummary {
 
 /// The accuracy that was asked for.
 struct AccuracySummary {
-  double asked = 0.0;                ///< relative; 0: settings as written
-  double reached = 0.0;              ///< the largest bar of all curves; infinite: not known
+  double asked = 0.0;                  ///< relative; 0: settings as written
+  double reached = 0.0;                ///< the largest bar of all curves; infinite: not known
   std::vector<std::string> not_known;  ///< sources that a bar leaves out
   std::vector<std::string> refined;    ///< what was refined, round by round
   bool out_of_time = false;  ///< what was asked for is not there, with more time it would be

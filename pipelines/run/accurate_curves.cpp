@@ -108,9 +108,10 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
 std::string reached_text(const AccuracySummary& accuracy) {
-  std::string text = fmt::format(
-      "asked for {}, reached {}", percent(accuracy.asked),
-      std::isfinite(accuracy.reached) ? percent(accuracy.reached) : "no bar for every curve");
+  std::string text =
+      fmt::format("asked for {}, reached {}", percent(accuracy.asked),
+                  std::isfinite(accuracy.reached) ? percent(accuracy.reached)
+                                                  : "what is not known of every curve");
   if (!accuracy.not_known.empty()) {
     text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));
   }
@@ -155,12 +156,13 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     // A mesh that is begun cannot be stopped.
     const bool too_long = next && next->new_mesh && seconds * next->factor > seconds_left();
     if (!next || cut_short() || (too_long && leave_out())) break;
-    record.progress().info(fmt::format("{}; refined: {}", reached_text(accuracy), next->text));
+    record.progress().info(fmt::format("{}; now with {}", reached_text(accuracy), next->text));
     const double begin = seconds_spent();
     std::string obstacle;
     std::optional<Round> round = refined(solution, *next, jobs, record.progress(), obstacle);
     seconds = std::max(seconds, seconds_spent() - begin);
     if (!round) {
+      missing = fmt::format("next: {}, more than {:.2g} s", next->text, seconds_spent() - begin);
       if (!obstacle.empty()) missing = fmt::format("{} cannot be kept: {}", next->text, obstacle);
       break;
     }

@@ -120,7 +120,7 @@ void draw_maps(const ReducedModel& model, const SceneDescription& scene,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     stop_if_interrupted("curves");
     if (cut_short()) {
-      record.progress().warning("out of time: maps are left out");
+      record.progress().warning("out of time: maps and motions at the peaks are left out");
       return;
     }
     for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);

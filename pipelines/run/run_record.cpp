@@ -283,6 +283,12 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
 /// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
 void RunRecord::warn_of_unsolved(const CurveResult& result) {
   for (const solver::SolverEvent& event : result.curve.log) {
+    if (event.remedy == "harmonics-kept" && !result.curve.points.empty()) {
+      progress_.warning(fmt::format(
+          "harmonics-kept: curve {}: the choice of its harmonics did not come to its end: it has "
+          "{}",
+          result.name, std::max<std::size_t>(result.curve.points.front().orders.size(), 1)));
+    }
     if (event.remedy != "peak-unsolved" && event.remedy != "fold-unsolved") continue;
     progress_.warning(fmt::format("{}: curve {}: near {:.8g} Hz the nearest point found is marked",
                                   event.remedy, result.name, to_hz * event.frequency));

@@ -320,9 +320,9 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   const SectionReader effects = reading.section("effects", "effects");
   scene.effects = read_effects(effects, scene);
   scene.settings.second_direction = read_second_direction(effects);
-  scene.accuracy = read_accuracy(
-      reading.section("accuracy", "accuracy"),
-      static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);
+  scene.accuracy =
+      read_accuracy(reading.section("accuracy", "accuracy"),
+                    static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);
   scene.complete_toml = scene_as_toml(reading.complete, kind);
   return scene;
 }
