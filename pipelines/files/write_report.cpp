@@ -264,12 +264,26 @@ std::string not_known_text(const JsonEntry& bar) {
   return text.empty() ? "–" : text;
 }
 
+/// What was asked for, what was reached and by what; empty without a tolerance.
+std::string accuracy_text(const JsonEntry& run) {
+  if (!run.has("accuracy")) return {};
+  constexpr double percent = 100.0;
+  const JsonEntry accuracy = run.at("accuracy");
+  std::string text =
+      fmt::format("Asked for {:.2g} % of every peak, ", percent * accuracy.number("asked"));
+  text += accuracy.has("reached")
+              ? fmt::format("reached {:.2g} %", percent * accuracy.number("reached"))
+              : "reached what is not known of every curve";
+  for (const JsonEntry& step : accuracy.list("refined")) text += "; then with " + step.as_text();
+  return text + ".\n\n";
+}
+
 /// How far the peaks can be trusted; empty without a budget.
 std::string budget_text(const JsonEntry& run) {
   if (!run.has("error_budget") || run.list("error_budget").empty()) return {};
   constexpr double percent = 100.0;
   std::string text =
-      "\n## How far the peaks can be trusted\n\n"
+      "\n## How far the peaks can be trusted\n\n" + accuracy_text(run) +
       "What would be added to the amplitude of the highest peak if one choice were refined to its "
       "end, solved for each; all of them together are the half width.\n\n"
       "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | not known |\n"

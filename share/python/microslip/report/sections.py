@@ -198,6 +198,18 @@ def bars_of(rows):
     return lines
 
 
+def asked_accuracy(run):
+    """What was asked for, what was reached and by what; empty without a tolerance."""
+    accuracy = run.summary.get("accuracy")
+    if not accuracy:
+        return ""
+    reached = accuracy.get("reached")
+    words = [f"Asked for {percent(accuracy['asked'])} of every peak",
+             f"reached {percent(reached)}" if is_number(reached) else "reached what is not known of every curve",
+             *(f"then with {escape(step)}" for step in accuracy.get("refined") or [])]
+    return f"<p>{'; '.join(words)}.</p>"
+
+
 def budget(run, data):
     text = ""
     for curve in run.summary["curves"]:
@@ -211,7 +223,7 @@ def budget(run, data):
                  f'amplitude ± {percent(bar.get("peak_amplitude"))}, frequency ± {percent(bar.get("peak_frequency"))}</h3>'
                  + (bars_of(rows) if rows else "<p class=note>no effect above 0.001 %</p>")
                  + (f"<p class=note>not known: {escape(unknown)}</p>" if unknown else "") + "</div>")
-    return text and ("<p>What each choice of the discretisation does to the amplitude of the highest peak, if it were refined to "
+    return text and (asked_accuracy(run) + "<p>What each choice of the discretisation does to the amplitude of the highest peak, if it were refined to "
                      f"its end.</p><div class=budgets>{text}</div>")
 
 
