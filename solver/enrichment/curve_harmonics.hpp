@@ -21,8 +21,8 @@ struct CurveHarmonics {
   bool settled = true;    ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
-  SettledPeak highest;             ///< that of the curve's highest place; amplitude 0: lost
-  std::vector<SettledPeak> known;  ///< high points solved for with more than the set has
+  SettledPeak highest{};             ///< that of the curve's highest place; amplitude 0: lost
+  std::vector<SettledPeak> known{};  ///< high points solved for with more than the set has
 };
 
 /// @param range  with `harmonic_tolerance` > 0.

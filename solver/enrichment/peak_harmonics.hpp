@@ -32,7 +32,7 @@ struct PeakHarmonics {
   std::optional<LocalPeak> peak;
   double left_out =
       0.0;  ///< |δA| / A of pruned harmonics, solved, and Σ |δA| / A of the others, estimated
-  SettledPeak richest;     ///< before pruning
+  SettledPeak richest{};   ///< before pruning
   double confirmed = 0.0;  ///< |δA| / A by the block that was solved for last
   bool settled = false;  ///< false: the peak is not found, or the highest order allowed is reached
 };

@@ -435,7 +435,6 @@ OptimumOptions about(const OptimumOptions& options, double best) {
 Optimum search_with_chosen(const SceneFamily& family, const ContinuationOptions& range,
                            const OptimumOptions& options) {
   constexpr int few = 3;
-  constexpr double rough = 1e-2;
   OptimumOptions first_options = options;
   first_options.search_starts = 0;
   first_options.relative_tolerance = std::max(options.relative_tolerance, rough);

@@ -78,7 +78,8 @@ TEST_F(MeshFile, IsReadWithTheUnitGiven) {
 }
 
 TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
-  const MeshFileModel model{write("blade.inp", deck), std::nullopt, "blade.toml:4: model.file"};
+  const MeshFileModel model{
+      write("blade.inp", deck), std::nullopt, "blade.toml:4: model.file", {}, {}};
   EXPECT_FALSE(read_mesh(model.file, std::nullopt).length_unit.has_value());
   expect_words(message_of([&] { static_cast<void>(read_mesh(model)); }),
                {"blade.toml:4", "model.length_unit", "60 x 60 x 60 m", "60 x 60 x 60 mm",
