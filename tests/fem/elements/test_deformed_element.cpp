@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "tests/fem/elements/bent_box.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::fem {
@@ -12,12 +13,8 @@ namespace {
 
 using mesh::ElementType;
 
-const Material titanium{1.14e11, 0.32, 4430.0};
-
-Eigen::Vector3d bend(const Eigen::Vector3d& x) {
-  return {x[0] + 0.2 * x[1] * x[1] + 0.1 * x[2], x[1] * (1.0 + 0.3 * x[0]) - 0.1 * x[0] * x[0],
-          x[2] + 0.15 * x[0] * x[1] + 0.1 * x[2] * x[2]};
-}
+using test::bend;
+using test::titanium;
 
 class DeformedElementOf : public testing::TestWithParam<ElementType> {
  protected:

@@ -13,6 +13,7 @@
 
 #include "fem/elements/quadrature.hpp"
 #include "mesh/shape_functions.hpp"
+#include "tests/fem/elements/bent_box.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::fem {
@@ -20,13 +21,8 @@ namespace {
 
 using mesh::ElementType;
 
-const Material titanium{1.14e11, 0.32, 4430.0};
-
-// A bowed, sheared and tapered box: no edge of a quadratic element stays straight.
-Eigen::Vector3d bend(const Eigen::Vector3d& x) {
-  return {x[0] + 0.2 * x[1] * x[1] + 0.1 * x[2], x[1] * (1.0 + 0.3 * x[0]) - 0.1 * x[0] * x[0],
-          x[2] + 0.15 * x[0] * x[1] + 0.1 * x[2] * x[2]};
-}
+using test::bend;
+using test::titanium;
 
 class ElementMatricesOf : public testing::TestWithParam<ElementType> {
  protected:
