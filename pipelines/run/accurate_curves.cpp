@@ -89,8 +89,6 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
     std::filesystem::copy_file(round.mesh_file(), record.mesh_file(),
                                std::filesystem::copy_options::overwrite_existing);
     record.keep_mesh(now.structure->mesh, now.scene.material.density);
-  }
-  if (step.new_mesh) {
     const StructureModes& modes = now.structure->modes;
     record.keep_modes(
         now.structure->mesh, modes,

@@ -57,7 +57,8 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       results[i] = std::move(*before);
     } else {
       results[i] = trace_curve(model, scene, requests[i], observe);
-      if (!interrupt_requested() && results[i].curve.diagnosis != "interrupted") {
+      // Else it may be cut short, or have fewer harmonics than it was to have.
+      if (!interrupt_requested() && !time_is_short()) {
         record.keep_finished(results[i]);
       }
     }
