@@ -28,11 +28,18 @@ def draw_engine_orders(axes, highest, speeds, top):
                       color="0.5", annotation_clip=False)
 
 
+def frequency_of_interest(table, highest, speeds):
+    """Upper end of the diagram: a little above the last engine order and the first mode; what lies higher meets nothing."""
+    first = table["frequency_Hz"][table["mode"] == table["mode"].min()].max()
+    return min(1.05 * table["frequency_Hz"].max(), 1.2 * max(first, highest * speeds[-1] / 60.0))
+
+
 def plot_campbell(folder, highest):
     """FOLDER/campbell.svg and .png."""
     table = read_table(os.path.join(folder, "frequencies.csv"), ("speed_rpm", "mode", "frequency_Hz"))
     met = read_table(os.path.join(folder, "crossings.csv"), ("speed_rpm", "frequency_Hz"))
-    speeds, top = np.unique(table["speed_rpm"]), 1.05 * table["frequency_Hz"].max()
+    speeds = np.unique(table["speed_rpm"])
+    top = frequency_of_interest(table, int(highest), speeds)
     figure, axes = subplots(1, 1, (6.4, 4.4))
     draw_engine_orders(axes, int(highest), speeds, top)
     draw_modes(axes, table)

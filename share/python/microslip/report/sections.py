@@ -142,7 +142,7 @@ def peaks(run, data):
                      percent(bar.get("peak_amplitude")), "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−"),
                      ", ".join(number(fold, 6) for fold in curve.get("folds_Hz") or []) or "–",
                      unjudged(data, curve["name"]), state_of(curve)])
-    head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "±",
+    head = ["preload scale" if data["scaled"] else "preload [N]", "peak [Hz]", f"peak [{data['unit']}]", "peak ±",
             "against free", "folds [Hz]", "stability not judged", "state"]
     return table(head, rows, (0, 1, 2, 3, 4, 6)) if rows else ""
 
