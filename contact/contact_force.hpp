@@ -18,6 +18,7 @@
 #include "contact/contact_effects.hpp"
 #include "contact/contact_map.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/motion_coordinates.hpp"
 #include "contact/patch.hpp"
 #include "contact/surface/surface_law.hpp"
 #include "contact/transient_force.hpp"
@@ -42,9 +43,11 @@ class ContactForce {
  public:
   /// @param patches  of one scene, ≥ 1; borrowed for the life of this object, not of what it gives.
   /// @param load     of a curve, by the measure of the patches (patch/patch_load.hpp).
+  /// @param coordinates  of forces sampled in time, of as many modes as the patches have.
   /// @throws LoadError  no such load.
   /// @throws std::invalid_argument  a constant out of its range.
-  ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects, double load);
+  ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects, double load,
+               MotionCoordinates coordinates = {});
 
   /// Of all patches together.
   [[nodiscard]] std::unique_ptr<ModalForce> modal_force() const;
@@ -74,6 +77,7 @@ class ContactForce {
   const std::vector<Patch>& patches_;
   ContactEffects effects_;
   double load_;
+  MotionCoordinates coordinates_;
   std::vector<std::vector<PointParameters>> points_;  // of the cells, per patch
 };
 

@@ -10,7 +10,8 @@ namespace microslip::fem {
 
 class SlepcSession {
  public:
-  /// Does not read the command line. PETSc's own error handler and signal handler are switched off.
+  /// On several MPI ranks (fem/ranks.hpp): each has its share of the cores for BLAS, and rank 0, which does alone what
+  /// is not solved on all, may use the cores of all that are on its machine. Does not read the command line. PETSc's own error handler and signal handler are switched off.
   /// @throws std::logic_error  a second one in the life of the process.
   /// @throws MemoryError       the address space is limited to less than the libraries need to start.
   SlepcSession();
@@ -20,8 +21,7 @@ class SlepcSession {
   SlepcSession(SlepcSession&&) = delete;
   SlepcSession& operator=(SlepcSession&&) = delete;
 
-  [[nodiscard]] int rank() const;
-  [[nodiscard]] int n_ranks() const;
+  [[nodiscard]] static bool is_open();
 };
 
 /// From here on, where cores are shared among curves and not within a matrix: the same bits for any number of

@@ -20,4 +20,9 @@ namespace microslip::fem {
                                                  const mesh::Surface& surface,
                                                  const Eigen::Matrix3d& frame);
 
+/// Load vector ∫ N_i n dA of a unit traction along the outward normal n, wherever it points: 3 nodes.rows() [m²].
+/// @note Of a closed surface the forces sum to zero.
+[[nodiscard]] Eigen::VectorXd normal_traction(const Eigen::MatrixX3d& nodes,
+                                              const mesh::Surface& surface);
+
 }  // namespace microslip::fem

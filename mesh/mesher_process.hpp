@@ -20,6 +20,10 @@ struct MesherLimits {
   std::function<bool()> stop;  ///< asked every few milliseconds: true ends the mesher; empty: never
 };
 
+/// The program that does it: beside the running one, or one level up in bin/ (tests); MICROSLIP_MESHER overrides.
+/// @throws MeshError  it is not there.
+[[nodiscard]] std::filesystem::path mesher_program();
+
 /// Meshes the blade into `file` (gmsh 4.1), second order, curved; a name that ends in .step takes its geometry.
 /// @param element_size  target edge length [m], > 0.
 /// @throws MeshError  the mesher failed, crashed, was stopped, ran out of time or memory; names which, with the

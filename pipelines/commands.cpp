@@ -19,12 +19,13 @@
 #include "pipelines/files/columns.hpp"
 #include "pipelines/files/write_faces.hpp"
 #include "pipelines/files/write_report.hpp"
-#include "pipelines/model/mesh_file.hpp"
-#include "pipelines/model/mesh_names.hpp"
-#include "pipelines/model/mesh_scene.hpp"
-#include "pipelines/model/mesher_limits.hpp"
-#include "pipelines/model/step_mesh.hpp"
-#include "pipelines/model/step_scene.hpp"
+#include "pipelines/files/write_summary.hpp"
+#include "pipelines/import/mesh_file.hpp"
+#include "pipelines/import/mesh_names.hpp"
+#include "pipelines/import/mesh_scene.hpp"
+#include "pipelines/import/mesher_limits.hpp"
+#include "pipelines/import/step_mesh.hpp"
+#include "pipelines/import/step_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/scene/static_section.hpp"
@@ -32,18 +33,23 @@
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/system/result_cache.hpp"
 #include "pipelines/text/json_entry.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
+std::filesystem::path cache_of(const Arguments& arguments) {
+  return arguments.no_cache ? std::filesystem::path() : cache_folder();
+}
+
 RunOptions options_of(const Arguments& arguments, const std::filesystem::path& output) {
   RunOptions options;
   options.output = output;
   options.jobs = arguments.jobs;
   if (arguments.resume) options.start = RunStart::resumed;
-  options.rank = arguments.rank;
+  options.cache = cache_of(arguments);
   if (arguments.quiet) options.verbosity = Verbosity::quiet;
   if (arguments.verbose) options.verbosity = Verbosity::verbose;
   const auto with = [&](const char* part) {
@@ -91,6 +97,10 @@ void require_picture_name(const std::string& file) {
 
 void require_mesh_format(const std::string& file) {
   if (mesh_format(file) != MeshFormat::unknown) return;
+  if (is_step_file(file)) {
+    throw SceneError(
+        fmt::format("{}: a STEP file has no mesh yet; `microslip faces` tells its faces", file));
+  }
   throw SceneError(
       fmt::format("{}: meshes are read from files that end in {}", file, mesh_endings()));
 }
@@ -120,8 +130,11 @@ void refuse_idle_options(const Arguments& arguments) {
   const bool reads_scene = arguments.command != "init" && arguments.command != "cycle" &&
                            arguments.command != "report" && arguments.command != "columns" &&
                            arguments.command != "surfaces" && arguments.command != "faces";
-  if (!reads_scene && !arguments.overrides.empty()) {
-    throw SceneError(fmt::format("--set: {} reads no scene", arguments.command));
+  for (const auto& [given, name] : {std::pair{!arguments.overrides.empty(), "--set"},
+                                    std::pair{arguments.no_cache, "--no-cache"}}) {
+    if (given && !reads_scene) {
+      throw SceneError(fmt::format("{}: {} reads no scene", name, arguments.command));
+    }
   }
   if (arguments.dry_run && (arguments.command == "init" || arguments.command == "report" ||
                             arguments.command == "columns" || arguments.command == "surfaces" ||
@@ -161,7 +174,10 @@ nlohmann::ordered_json results_in(const std::filesystem::path& folder) {
 int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
   if (arguments.picture) require_picture_name(*arguments.picture);
+  std::unique_ptr<fem::SlepcSession> session;
+  if (has_static_preload(scene)) session = std::make_unique<fem::SlepcSession>();
   const InterruptWatch watch;
+  const ResultCache cache(cache_of(arguments), [](const auto& line) { std::cout << line << '\n'; });
   const CheckResult result = check_study(scene, arguments.picture.value_or(""), std::cout);
   const Forecast& forecast = result.forecast;
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
@@ -171,13 +187,7 @@ int check(Arguments& arguments) {
           {"memory_GB", forecast.memory_gb}};
   if (forecast.curves_seconds_along_r)
     cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
-  nlohmann::ordered_json& effects = arguments.findings["effects"] = nlohmann::ordered_json::array();
-  for (const EffectRecord& effect : result.effects) {
-    effects.push_back({{"name", effect.name},
-                       {"setting", effect.setting},
-                       {"simulated", effect.simulated},
-                       {"reason", effect.reason}});
-  }
+  arguments.findings["effects"] = nlohmann::ordered_json::parse(effects_json(result.effects));
   arguments.findings["warnings"] = result.warnings;
   return static_cast<int>(ExitCode::complete);
 }
@@ -196,14 +206,13 @@ int run_scene(Arguments& arguments, const Study& study) {
   }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may leave; the run is for its folder
   std::unique_ptr<fem::SlepcSession> session;  // modal scenes need no finite elements
-  if (!std::holds_alternative<ModalModel>(scene.model)) {
+  if (!std::holds_alternative<ModalModel>(scene.model) && !fem::SlepcSession::is_open()) {
     session = std::make_unique<fem::SlepcSession>();
-    arguments.rank = session->rank();
   }
   const InterruptWatch watch;  // after MPI, which sets handlers of its own
   const int code = study(scene, options_of(arguments, arguments.output));
   const bool leaves_summary = arguments.command == "run" || arguments.command == "modes";
-  if (arguments.json && arguments.rank == 0 && leaves_summary) {
+  if (arguments.json && leaves_summary) {
     arguments.findings = results_in(arguments.output);
   }
   return code;

@@ -31,11 +31,11 @@ struct Arguments {
   std::string tolerance;
   std::string budget;
   bool resume = false;
+  bool no_cache = false;
   bool dry_run = false;
   bool quiet = false;
   bool verbose = false;
   bool json = false;
-  int rank = 0;
   nlohmann::ordered_json findings = nlohmann::ordered_json::object();  // results, for --json
 };
 

@@ -1,5 +1,6 @@
 /// @file
-/// The program `microslip`: reads the command line, calls one study, turns its end into an exit code.
+/// The program `microslip`: reads the command line, calls one study, turns its end into an exit code. Started by mpirun
+/// it does so on rank 0.
 
 #include <algorithm>
 #include <csignal>
@@ -9,14 +10,17 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "fem/ranks.hpp"
+#include "fem/slepc_session.hpp"
 #include "pipelines/command_line/command_line.hpp"
 #include "pipelines/command_line/command_options.hpp"
 #include "pipelines/commands.hpp"
+#include "pipelines/model/on_all_ranks.hpp"
 #include "pipelines/system/exit_code.hpp"
+#include "pipelines/system/little_memory.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace {
@@ -58,15 +62,13 @@ int guarded(Arguments& arguments, const Action& action) {
   } catch (const std::exception& error) {
     const ExitCode verdict = exit_code_of(error);
     code = static_cast<int>(verdict);
-    message =
-        shortened(verdict == ExitCode::internal ? fmt::format("internal error: {}", error.what())
-                                                : std::string(error.what()));
+    message = shortened(message_of(error));
     if (verdict == ExitCode::refused && message.find(arguments.input) == std::string::npos) {
       message.insert(0, arguments.input + ": ");
     }
-    if (arguments.rank == 0) std::cerr << "microslip: " << message << '\n';
+    std::cerr << "microslip: " << message << '\n';
   }
-  if (arguments.json && arguments.rank == 0) {
+  if (arguments.json) {
     print_json_line(arguments, code, message);
     if (!std::cout && code == 0) {
       std::cerr << "microslip: " << unwritable_output << '\n';
@@ -99,15 +101,35 @@ int answer(int argc, char** argv) {
   return guarded(arguments, chosen);
 }
 
+int answer_whatever_comes(int argc, char** argv) {
+  try {
+    return answer(argc, argv);
+  } catch (const std::exception& error) {  // outside of what `guarded` watches
+    std::cerr << "microslip: " << message_of(error) << '\n';
+    return static_cast<int>(exit_code_of(error));
+  }
+}
+
+/// Rank 0 is the program; the others take part in what it solves.
+int answer_on_ranks(int argc, char** argv) {
+  const fem::SlepcSession session;
+  if (fem::rank() > 0) return serve_rank_zero();
+  const int code = answer_whatever_comes(argc, argv);
+  fem::dismiss(code);
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is an error of the writer, told as such
+  prepare_for_little_memory();
+  if (!fem::started_in_parallel()) return answer_whatever_comes(argc, argv);
   try {
-    return answer(argc, argv);
-  } catch (const std::exception& error) {  // outside of what `guarded` watches
-    std::cerr << "microslip: internal error: " << error.what() << '\n';
-    return static_cast<int>(ExitCode::internal);
+    return answer_on_ranks(argc, argv);
+  } catch (const std::exception& error) {  // MPI itself has failed: mpirun ends the others
+    std::cerr << "microslip: " << error.what() << '\n';
+    return static_cast<int>(exit_code_of(error));
   }
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "fem/ranks.hpp"
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/accuracy/convergence.hpp"
@@ -21,6 +22,8 @@
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/model_family.hpp"
 #include "pipelines/model/scene_places.hpp"
+#include "pipelines/model/scene_warnings.hpp"
+#include "pipelines/model/static_preload.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -32,6 +35,7 @@
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/system/result_cache.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -43,16 +47,29 @@ void ask(RunRecord& record, const What&... what) {
   for (const std::string& question : questions(what...)) record.progress().warning(question);
 }
 
+void tell_ranks(Progress& progress) {
+  if (fem::n_ranks() == 1) return;
+  progress.info(fmt::format("{} MPI ranks solve for the modes together, rank 0 does the rest",
+                            fem::n_ranks()));
+  if (fem::n_ranks_here() <= fem::n_cores()) return;
+  progress.warning(fmt::format(
+      "{} MPI ranks share {} cores of this machine and wait for each other: {} would be faster",
+      fem::n_ranks_here(), fem::n_cores(), fem::n_cores()));
+}
+
 /// mesh → modes. nullptr: a kind that gives its modes itself.
 StructurePointer solve(const SceneDescription& scene, RunRecord& record) {
   ask(record, scene);
   if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
+  tell_ranks(record.progress());
   record.stage("mesh");
+  record.keep_inputs(scene);
   const auto finished = record.finished_mesh();
   mesh::Mesh mesh =
       finished ? reread_mesh(scene, *finished) : obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);
   record.keep_mesh(mesh, scene.material.density);
+  record.keep_inputs(scene);
   for (const std::string& line : describe_places(mesh, scene)) record.progress().info(line);
   ask(record, scene, mesh);
   record.stage("modes");
@@ -73,6 +90,10 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   std::vector<std::string> warnings = scene_warnings(scene);
   ReducedModel model = model_of(scene, structure.get(), warnings);
   for (const std::string& warning : warnings) record.progress().warning(warning);
+  if (model.static_preload) {
+    record.progress().info(
+        describe_static_preload(structure->mesh, scene, *structure->modes.static_face));
+  }
   ask(record, scene, model);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
@@ -84,6 +105,23 @@ ReducedModel reduce(const SceneDescription& scene, const StructurePointer& struc
   record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);
   if (structure) record.keep_structure(structure->mesh, structure->modes.basis);
+  return model;
+}
+
+/// Curves of chosen harmonics may have fewer points than a picture wants.
+ReducedModel model_of_maps(const Solution& solution) {
+  Discretisation settings = solution.scene.settings;
+  bool any_more = false;
+  for (std::size_t i = 0; i < settings.patches.size(); ++i) {
+    const int given = contact_points(settings, i);
+    if (settings.patches[i].n_points || given >= points_of_maps) continue;
+    settings.patches[i].n_points = points_of_maps;
+    any_more = true;
+  }
+  if (!any_more || cut_short()) return solution.model;
+  std::vector<std::string> warnings;  // told already
+  ReducedModel model = model_with(settings, solution.scene, solution.structure.get(), warnings);
+  model.effects = solution.model.effects;
   return model;
 }
 
@@ -102,6 +140,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
   require_response(scene);
   begin_deadline(scene.accuracy.budget);
   RunRecord record(scene, options);
+  const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] {
     Solution solution{.scene = scene, .structure = solve(scene, record)};
     solution.model = reduce(scene, solution.structure, record);
@@ -110,16 +149,17 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     record.stage("curves");
     fem::use_one_blas_thread();
     solution.curves = trace_family(solution.model, scene, options.jobs, record);
-    record.keep_harmonics(scene);
+    record.keep_choices(scene);
     record.stage("accuracy");
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);
     refine_to_tolerance(solution, options.jobs, record);
+    record.tell_effects();
     if (solution.structure) ask(record, scene, solution.structure->mesh, solution.curves);
     if (options.maps) {
       record.stage("maps");
-      draw_maps(solution.model, solution.scene, solution.curves, record);
+      draw_maps(model_of_maps(solution), solution.scene, solution.curves, record);
     }
     if (scene.response->optimum) find_optimum(solution, options, record);
     record.stage("report");
@@ -129,10 +169,14 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
 
 int modes_study(const SceneDescription& scene, const RunOptions& options) {
   RunRecord record(scene, options);
+  const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });
   return record.run([&] { static_cast<void>(reduce(scene, solve(scene, record), record)); });
 }
 
 int mesh_study(const SceneDescription& scene, const RunOptions& options) {
+  const ResultCache cache(options.cache, [&](const std::string& line) {
+    if (options.verbosity != Verbosity::quiet) std::cout << line << '\n';
+  });
   const mesh::Mesh mesh = obtain_mesh(scene, options.output);
   if (interrupt_requested()) throw InterruptedError("interrupted after the mesh was written");
   check_names(mesh, scene);
@@ -178,6 +222,7 @@ int campbell_study(const SceneDescription& scene, const CampbellRequest& request
   const auto say = [&](const std::string& sentence) {
     if (options.verbosity != Verbosity::quiet) std::cout << sentence << std::flush;
   };
+  const ResultCache cache(options.cache, [&](const std::string& line) { say(line + '\n'); });
   const TemporaryFolder scratch;
   const mesh::Mesh mesh = obtain_mesh(scene, scratch.path() / "mesh.msh");
   check_names(mesh, scene);

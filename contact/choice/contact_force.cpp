@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
+#include "contact/force/fewer_coordinates.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
@@ -130,6 +132,32 @@ Stack stacked(std::span<const Patch> patches, const ContactEffects& effects) {
   return all;
 }
 
+void require_fitting(const MotionCoordinates& coordinates, Eigen::Index n_modes) {
+  const bool fits = coordinates.of_modes.cols() == n_modes &&
+                    coordinates.motion.rows() == n_modes &&
+                    coordinates.motion.cols() == coordinates.of_modes.rows();
+  if (!fits) throw std::invalid_argument("ContactForce: coordinates of another number of modes");
+}
+
+void see_through(ModalShapes& shapes, const Eigen::MatrixXd& motion) {
+  for (Eigen::MatrixXd* shape : {&shapes.u, &shapes.v, &shapes.w}) {
+    if (shape->size() > 0) *shape *= motion;
+  }
+}
+
+/// Sampled in lanes, seen through the coordinates given.
+std::unique_ptr<ModalForce> lanes_of(Stack stack, std::vector<SurfaceLaw> surfaces, int instants,
+                                     const MotionCoordinates& coordinates) {
+  if (!coordinates.all_modes()) {
+    require_fitting(coordinates, stack.shapes.u.cols());
+    see_through(stack.shapes, coordinates.motion);
+  }
+  auto force = std::make_unique<sampled::PatchForce>(std::move(stack.weights), std::move(surfaces),
+                                                     std::move(stack.shapes), instants);
+  if (coordinates.all_modes()) return force;
+  return std::make_unique<FewerCoordinates>(coordinates.of_modes, std::move(force));
+}
+
 template <typename Item>
 std::vector<Item> joined(std::span<const std::vector<Item>> lists) {
   std::vector<Item> all;
@@ -144,8 +172,8 @@ bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects) {
 }
 
 ContactForce::ContactForce(const std::vector<Patch>& patches, const ContactEffects& effects,
-                           double load)
-    : patches_(patches), effects_(effects), load_(load) {
+                           double load, MotionCoordinates coordinates)
+    : patches_(patches), effects_(effects), load_(load), coordinates_(std::move(coordinates)) {
   const std::vector<PatchLoad> loads = shared_load(patches_, load_);
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     points_.push_back(point_parameters(patches_[i], patches_[i].cells, effects_, loads[i]));
@@ -169,9 +197,8 @@ std::unique_ptr<ModalForce> ContactForce::force_of(std::size_t begin, std::size_
       return std::make_unique<PatchForce>(ContactPatch(stack.weights, joined(points)),
                                           std::move(stack.shapes));
     case Method::lanes:
-      return std::make_unique<sampled::PatchForce>(std::move(stack.weights), surfaces(begin, end),
-                                                   std::move(stack.shapes),
-                                                   instants_for(patches, effects_));
+      return lanes_of(std::move(stack), surfaces(begin, end), instants_for(patches, effects_),
+                      coordinates_);
     case Method::point_methods:
       break;
   }

@@ -84,7 +84,9 @@ PlanarTransient::Motions PlanarTransient::all_motions(const ModalMotion& motion)
     if (q.size() == 0) {
       columns.setZero();
     } else {
-      columns << shapes_.u * q, shapes_.v * q, shapes_.w * q;
+      columns.col(0).noalias() = shapes_.u * q;
+      columns.col(1).noalias() = shapes_.v * q;
+      columns.col(2).noalias() = shapes_.w * q;
     }
     return columns;
   };

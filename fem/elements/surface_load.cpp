@@ -12,8 +12,9 @@ namespace {
 // dA is smooth and leaves about 1e-10.
 constexpr int face_degree = 8;
 
-void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block,
-                    Eigen::VectorXd& areas) {
+/// Calls add(node, N_i, n dA) at every point of quadrature of every face; n outward.
+template <typename Add>
+void integrate_faces(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block, const Add& add) {
   const QuadratureRule rule = face_rule(block.type, face_degree);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::Vector2d xi = rule.points.row(q).head<2>().transpose();
@@ -23,8 +24,8 @@ void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block,
       for (Eigen::Index i = 0; i < N.size(); ++i) {
         tangents += nodes.row(block.connectivity(face, i)).transpose() * dN.row(i);
       }
-      const double dA = rule.weights[q] * tangents.col(0).cross(tangents.col(1)).norm();
-      for (Eigen::Index i = 0; i < N.size(); ++i) areas[block.connectivity(face, i)] += dA * N[i];
+      const Eigen::Vector3d area = rule.weights[q] * tangents.col(0).cross(tangents.col(1));
+      for (Eigen::Index i = 0; i < N.size(); ++i) add(block.connectivity(face, i), N[i], area);
     }
   }
 }
@@ -33,7 +34,11 @@ void add_face_areas(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block,
 
 Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(nodes.rows());
-  for (const mesh::FaceBlock& block : surface.faces) add_face_areas(nodes, block, areas);
+  for (const mesh::FaceBlock& block : surface.faces) {
+    integrate_faces(nodes, block, [&](Eigen::Index node, double N, const Eigen::Vector3d& area) {
+      areas[node] += area.norm() * N;
+    });
+  }
   return areas;
 }
 
@@ -44,6 +49,16 @@ Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Su
   for (Eigen::Index i = 0; i < nodes.rows(); ++i)
     loads.middleRows<3>(3 * i) = areas[i] * frame.transpose();
   return loads;
+}
+
+Eigen::VectorXd normal_traction(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * nodes.rows());
+  for (const mesh::FaceBlock& block : surface.faces) {
+    integrate_faces(nodes, block, [&](Eigen::Index node, double N, const Eigen::Vector3d& area) {
+      load.segment<3>(3 * node) += N * area;
+    });
+  }
+  return load;
 }
 
 }  // namespace microslip::fem

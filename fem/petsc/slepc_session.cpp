@@ -14,6 +14,7 @@
 
 #include "fem/petsc/blas_library.hpp"
 #include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
 
 namespace microslip::fem {
 
@@ -62,32 +63,25 @@ void require_address_space() {
   munmap(space, needed);
 }
 
-int ranks_on_this_machine() {
-  MPI_Comm here = MPI_COMM_NULL;
-  int n = 1;
-  check(MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
-  check(MPI_Comm_size(here, &n));
-  check(MPI_Comm_free(&here));
-  return n;
-}
-
 }  // namespace
 
 SlepcSession::SlepcSession() {
   int over = 0;
   check(MPI_Finalized(&over));
-  PetscBool alive = PETSC_FALSE;
-  check(SlepcInitialized(&alive));
-  if (over != 0 || alive == PETSC_TRUE) {
+  if (over != 0 || is_open()) {
     throw std::logic_error("SlepcSession: one per process, and there was one already");
   }
   require_address_space();
+  // Ranks that wait for each other leave the core to those that work, where others use the machine
+  // as well.
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
   }
   install_error_handler();
-  set_blas_threads(ranks_on_this_machine());
+  meet_ranks();
+  set_blas_threads(n_ranks_here());
   reserve_blas_memory();
 }
 
@@ -96,16 +90,10 @@ SlepcSession::~SlepcSession() {
   SlepcFinalize();
 }
 
-int SlepcSession::rank() const {
-  int value = 0;
-  check(MPI_Comm_rank(PETSC_COMM_WORLD, &value));
-  return value;
-}
-
-int SlepcSession::n_ranks() const {
-  int value = 0;
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &value));
-  return value;
+bool SlepcSession::is_open() {
+  PetscBool open = PETSC_FALSE;
+  check(SlepcInitialized(&open));
+  return open == PETSC_TRUE;
 }
 
 std::vector<std::pair<std::string, std::string>> library_versions() {

@@ -30,18 +30,6 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-/// Beside the running program, or one level up in bin/ (tests); MICROSLIP_MESHER overrides.
-fs::path mesher_program() {
-  if (const char* given = std::getenv("MICROSLIP_MESHER")) return given;
-  std::error_code error;
-  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& candidate :
-       {here / "microslip-mesher", here.parent_path() / "bin" / "microslip-mesher"}) {
-    if (fs::exists(candidate, error)) return candidate;
-  }
-  throw MeshError("the program microslip-mesher is not beside microslip; build all targets");
-}
-
 std::string blade_job(const BladeGeometry& g, double element_size) {
   std::ostringstream text = job_text();
   text << "blade\nelement_size " << element_size << "\nroot_width " << g.root_width
@@ -183,6 +171,17 @@ void judge(int status, const MesherLimits& limits, const std::string& said) {
 }
 
 }  // namespace
+
+fs::path mesher_program() {
+  if (const char* given = std::getenv("MICROSLIP_MESHER")) return given;
+  std::error_code error;
+  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& candidate :
+       {here / "microslip-mesher", here.parent_path() / "bin" / "microslip-mesher"}) {
+    if (fs::exists(candidate, error)) return candidate;
+  }
+  throw MeshError("the program microslip-mesher is not beside microslip; build all targets");
+}
 
 std::ostringstream job_text() {
   std::ostringstream text;

@@ -10,27 +10,34 @@
 namespace microslip::pipelines {
 namespace {
 
-std::optional<double> largest_change(const std::vector<ErrorRow>& budget,
-                                     const std::string& source) {
+std::optional<double> largest_change(const std::vector<ErrorRow>& rows, const std::string& source) {
   std::optional<double> largest;
-  for (const ErrorRow& row : budget) {
+  for (const ErrorRow& row : rows) {
     if (row.source != source) continue;
     largest = std::max(std::abs(row.effect), largest.value_or(0.0));
   }
   return largest;
 }
 
+std::string objection_of(double bound) {
+  if (std::isinf(bound)) {
+    return "left out, and with it the highest peak is not found from that without";
+  }
+  return fmt::format("left out, and having it changes the highest peaks by up to {:.2g} %",
+                     100.0 * bound);
+}
+
 }  // namespace
 
-void tell_bounds(const std::vector<ErrorRow>& budget, std::vector<EffectRecord>& effects) {
-  constexpr double percent = 100.0;
+void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
+                 std::vector<EffectRecord>& effects) {
   for (EffectRecord& effect : effects) {
+    if (effect.simulated == Simulated::yes) continue;
     const bool harmonics = effect.name == "higher_harmonics";
-    if (effect.simulated || (!harmonics && effect.name != "second_direction")) continue;
-    const auto change = largest_change(budget, harmonics ? "harmonics" : effect.name);
+    const auto change = largest_change(rows, harmonics ? "harmonics" : effect.name);
     if (!change) continue;
-    effect.reason += fmt::format("; having it would change the highest peaks by {:.2g} % at most",
-                                 percent * *change);
+    effect.bound = change;
+    effect.objection = *change > tolerance ? objection_of(*change) : "";
   }
 }
 

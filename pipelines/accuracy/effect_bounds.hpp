@@ -9,8 +9,11 @@
 
 namespace microslip::pipelines {
 
-/// Friction along r and harmonics above the first, where they are left out: the largest change of a highest peak,
-/// amplitude or frequency, that having them makes. Nothing is added where it has not been told.
-void tell_bounds(const std::vector<ErrorRow>& budget, std::vector<EffectRecord>& effects);
+/// EffectRecord::bound of effects that are left out: the largest change of a highest peak, amplitude or frequency, that
+/// having them makes. Beyond the tolerance that is an objection; within it, it answers the one of the indicator. Nothing
+/// is told where no row does.
+/// @param rows  of error budgets, and of rows_left_out().
+void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
+                 std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

@@ -14,6 +14,7 @@ namespace microslip::pipelines {
 struct CurveBudget {
   std::vector<ErrorRow> rows;
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
+  std::vector<ErrorRow> left_out{};  ///< effects of physics (left_out.hpp): no part of the bar
   /// Whether the rows bound the error: not where more harmonics give another curve, which outweighs all others.
   [[nodiscard]] bool has_bar() const;
 };

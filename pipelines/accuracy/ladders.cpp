@@ -57,7 +57,7 @@ Ladder of_attachment_degree(const SceneDescription& scene) {
 
 Ladder of_cells(const SceneDescription& scene) {
   Ladder ladder{"cells", "cells", {}};
-  const int given = scene.settings.patches.front().n_points;
+  const int given = contact_points(scene.settings, 0);
   for (const int n : {given / 16, given / 4, given, 4 * given, 16 * given}) {
     if (n < 1) continue;
     ladder.rungs.push_back(rung(scene, fmt::format("{}", n), 1.0 / n, [&](auto& other) {

@@ -48,7 +48,7 @@ double sum(const Errors& errors) {
 class Refiner {
  public:
   Refiner(const SceneDescription& scene, Errors errors, double tolerance)
-      : errors_(std::move(errors)), tolerance_(tolerance) {
+      : given_(scene.settings), errors_(std::move(errors)), tolerance_(tolerance) {
     result_.scene = scene;
   }
 
@@ -89,13 +89,14 @@ class Refiner {
 
   bool add_cells(double& error) {
     const double factor = std::clamp(2.0 * error / (0.25 * tolerance_), 4.0, 64.0);
-    auto& patches = result_.scene.settings.patches;
-    const auto refined = [&](const PatchSettings& patch) {
-      return static_cast<int>(factor * patch.n_points);
-    };
-    const int most = refined(*std::ranges::max_element(patches, {}, &PatchSettings::n_points));
+    Discretisation& settings = result_.scene.settings;
+    std::vector<int> points;
+    for (std::size_t i = 0; i < settings.patches.size(); ++i) {
+      points.push_back(static_cast<int>(factor * contact_points(given_, i)));
+    }
+    const int most = std::ranges::max(points);
     if (most > most_points) return false;
-    for (PatchSettings& patch : patches) patch.n_points = refined(patch);
+    for (std::size_t i = 0; i < points.size(); ++i) settings.patches[i].n_points = points[i];
     texts_.push_back(fmt::format("{} contact points at least", most));
     result_.factor *= factor;
     error /= factor;
@@ -132,6 +133,7 @@ class Refiner {
   }
 
   Refinement result_;
+  Discretisation given_;  // what the errors are of
   Errors errors_;
   double tolerance_;
   std::vector<std::string> texts_;

@@ -13,9 +13,9 @@ namespace {
 /// The model with other settings of its patches; effects as decided for the model at hand.
 RicherModel with_patches(const char* source, const ReducedModel& model,
                          const SceneDescription& scene, const SolvedStructure& structure,
-                         void (*change)(PatchSettings&)) {
+                         void (*change)(Discretisation&, std::size_t patch)) {
   Discretisation settings = scene.settings;
-  std::ranges::for_each(settings.patches, change);
+  for (std::size_t i = 0; i < settings.patches.size(); ++i) change(settings, i);
   std::vector<std::string> warnings;  // those of the scene itself are told already
   RicherModel richer{source, model_with(settings, scene, &structure, warnings)};
   richer.model.effects = model.effects;
@@ -31,8 +31,10 @@ Eigen::Index n_cells(const ReducedModel& model) {
 /// Four times as many cells: the error falls as their number grows (theory 14), and that of both is told.
 RicherModel with_more_cells(const ReducedModel& model, const SceneDescription& scene,
                             const SolvedStructure& structure) {
-  RicherModel richer = with_patches("cells", model, scene, structure,
-                                    [](PatchSettings& patch) { patch.n_points *= 4; });
+  RicherModel richer = with_patches(
+      "cells", model, scene, structure, [](Discretisation& settings, std::size_t patch) {
+        settings.patches[patch].n_points = 4 * contact_points(settings, patch);
+      });
   const auto more = static_cast<double>(n_cells(richer.model));
   const auto given = static_cast<double>(n_cells(model));
   richer.share = more > given ? more / (more - given) : 1.0;
@@ -94,9 +96,10 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
   };
   if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
   if (asked("fit") && is_fitted(scene)) {
-    result.models.push_back(with_patches("fit", model, scene, *structure, [](PatchSettings& patch) {
-      patch.fit = PatchSettings::Fit::none;
-    }));
+    result.models.push_back(with_patches("fit", model, scene, *structure,
+                                         [](Discretisation& settings, std::size_t patch) {
+                                           settings.patches[patch].fit = PatchSettings::Fit::none;
+                                         }));
   }
   if (asked("basis")) keep("basis", with_more_shapes(model, scene, *structure));
   if (asked("second_direction")) {

@@ -13,13 +13,14 @@
 namespace microslip::pipelines {
 
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  const std::string word = argv[1];
+  if (argc >= 2 && argv[1][0] == '-') return {};
+  const std::string word = argc < 2 ? "" : argv[1];
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_name() == word) return {};
     names.push_back(command->get_name());
   }
+  if (word.empty()) return fmt::format("expected a command: {}", fmt::join(names, ", "));
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string near = nearest_name(word, views);
   return near.empty() ? fmt::format("unknown command \"{}\"; the commands are: {}", word,

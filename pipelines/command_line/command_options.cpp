@@ -90,6 +90,10 @@ void add_global_options(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_flag("--resume", a.resume, "go on with a run that was interrupted or killed");
+  app.add_flag(
+      "--no-cache", a.no_cache,
+      "mesh and solve anew: take nothing of earlier runs and keep nothing for later ones (the "
+      "folder: MICROSLIP_CACHE, else XDG_CACHE_HOME/microslip, else ~/.cache/microslip)");
   app.add_option("--tolerance", a.tolerance,
                  "accuracy asked for of every peak, e.g. 1%: accuracy.tolerance of the scene");
   app.add_option("--budget", a.budget, "wall time allowed, e.g. 60s: accuracy.budget of the scene");

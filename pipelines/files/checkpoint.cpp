@@ -1,31 +1,24 @@
 #include "pipelines/files/checkpoint.hpp"
 
-#include <concepts>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <system_error>
 #include <tuple>
-#include <type_traits>
 
 #include <fmt/format.h>
 
-#include "pipelines/files/byte_archive.hpp"
+#include "pipelines/model/structure_members.hpp"
+#include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/sealed_bytes.hpp"
 #include "pipelines/text/json_entry.hpp"
 
 namespace fs = std::filesystem;
 
 // Structured bindings name every member: one that is added and not kept does not compile.
 namespace microslip {
-namespace {
-
-template <typename T, typename U>
-concept Is = std::same_as<std::remove_const_t<T>, U>;
-
-}  // namespace
+using pipelines::Is;
 
 namespace contact {
 auto members(Is<Harmonics> auto& value) { return std::tie(value.rows()); }
@@ -34,25 +27,6 @@ auto members(Is<CycleReport> auto& value) {
   return std::tie(stick, slip, separated, three_states, work, awake);
 }
 }  // namespace contact
-
-namespace fem {
-auto members(Is<ModalBasis> auto& value) {
-  auto& [frequency, shapes, residual, n_rigid_body, inertia_count, n_attachment] = value;
-  return std::tie(frequency, shapes, residual, n_rigid_body, inertia_count, n_attachment);
-}
-auto members(Is<RicherBasis> auto& value) {
-  auto& [basis, embedding] = value;
-  return std::tie(basis, embedding);
-}
-auto members(Is<ResidualFlexibility> auto& value) {
-  auto& [row_sums] = value;
-  return std::tie(row_sums);
-}
-auto members(Is<ModalTimings> auto& value) {
-  auto& [assembly, factorisation, ordering, eigensolve, inertia] = value;
-  return std::tie(assembly, factorisation, ordering, eigensolve, inertia);
-}
-}  // namespace fem
 
 namespace solver {
 auto members(Is<ResponsePoint> auto& value) {
@@ -91,11 +65,6 @@ auto members(Is<PatchShares> auto& value) {
   auto& [patch, reports] = value;
   return std::tie(patch, reports);
 }
-auto members(Is<StructureModes> auto& value) {
-  auto& [n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings, richer] = value;
-  return std::tie(n_dofs, mass, basis, residuals, attachment_text, notes, warnings, timings,
-                  richer);
-}
 auto members(Is<CurveResult> auto& value) {
   auto& [name, preload, curve, maps, patch_shares, gap, integrated, richer, bar] = value;
   static_cast<void>(maps);  // drawn in a stage of their own, after the curves
@@ -107,13 +76,8 @@ namespace {
 
 /// First line of a part: another version, or another layout of what it holds, is refused by it.
 std::string header() {
-  return fmt::format("microslip {} checkpoint {}.{}.{}\n", MICROSLIP_VERSION,
+  return fmt::format("microslip {} checkpoint {}.{}.{}", MICROSLIP_VERSION,
                      sizeof(solver::ResponseCurve), sizeof(CurveResult), sizeof(StructureModes));
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// The values of a completed scene by their path; repeated sections are numbered.
@@ -172,6 +136,18 @@ std::uint64_t fingerprint_of(const mesh::Mesh& mesh) {
 
 std::uint64_t fingerprint_of(const fs::path& file) { return fingerprint(bytes_of(file)); }
 
+std::vector<fs::path> files_of_structure(const SceneDescription& scene) {
+  if (const auto* step = std::get_if<StepModel>(&scene.model)) return {step->file};
+  const auto* mesh = std::get_if<MeshFileModel>(&scene.model);
+  if (mesh == nullptr) return {};
+  std::vector<fs::path> files{mesh->file};
+  if (mesh->modes) files.push_back(mesh->modes->file);
+  if (const auto& matrices = mesh->matrices) {
+    files.insert(files.end(), {matrices->stiffness, matrices->mass, matrices->nodes});
+  }
+  return files;
+}
+
 bool is_begun(const fs::path& folder) { return fs::exists(folder / "checkpoint" / "scene.toml"); }
 
 Checkpoint::Checkpoint(const fs::path& run, bool resumed)
@@ -186,7 +162,7 @@ void Checkpoint::begin(const std::string& scene_toml) {
 
 void Checkpoint::forget_parts() {
   std::error_code ignored;  // a leftover is found by the next run, which forgets it
-  for (const char* part : {"curves", "mesh", "modes", "model"}) {
+  for (const char* part : {"curves", "inputs", "mesh", "modes", "model"}) {
     fs::remove_all(folder_ / part, ignored);
   }
 }
@@ -201,22 +177,14 @@ template <typename Part>
 std::optional<Part> Checkpoint::find(const std::string& name) const {
   const fs::path file = folder_ / name;
   if (!resumed_ || !fs::exists(file)) return std::nullopt;
-  const std::string bytes = bytes_of(file);
-  const std::string expected = header();
+  const std::string content = bytes_of(file);
+  const Unsealed kept = unsealed(header(), content);
   const auto refuse = [&](const std::string& why) {
     return SceneError(fmt::format("{}: {}; run without --resume", file.string(), why));
   };
-  if (!bytes.starts_with(expected)) {
-    throw refuse(fmt::format("expected \"{}\", found \"{}\": another version or build has begun it",
-                             expected.substr(0, expected.size() - 1),
-                             bytes.substr(0, std::min<std::size_t>(bytes.find('\n'), 80))));
-  }
-  const std::string_view rest = std::string_view(bytes).substr(expected.size());
+  if (!kept.fault.empty()) throw refuse(kept.fault);
   try {
-    ByteReader reader(rest);
-    std::uint64_t sum = 0;
-    reader(sum);
-    if (sum != fingerprint(rest.substr(sizeof sum))) throw refuse("damaged");
+    ByteReader reader(kept.bytes);
     std::optional<Part> part(std::in_place);
     reader(*part);
     return part;
@@ -229,9 +197,7 @@ template <typename Part>
 void Checkpoint::keep(const std::string& name, const Part& part) const {
   ByteWriter values;
   values(part);
-  ByteWriter sum;
-  sum(fingerprint(values.bytes()));
-  write_whole(folder_ / name, header() + sum.bytes() + values.bytes());
+  write_whole(folder_ / name, sealed(header(), values.bytes()));
 }
 
 void Checkpoint::require_same(const std::string& name, std::uint64_t value,

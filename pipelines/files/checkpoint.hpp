@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/mesh.hpp"
 #include "pipelines/model/structure_stage.hpp"
@@ -20,6 +21,9 @@ namespace microslip::pipelines {
 
 /// Of the bytes of a file.
 [[nodiscard]] std::uint64_t fingerprint_of(const std::filesystem::path& file);
+
+/// Files from which mesh and modes of a scene come; none: they follow from the scene alone.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_structure(const SceneDescription& scene);
 
 /// Whether a run has begun in a folder and not come to its end.
 [[nodiscard]] bool is_begun(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -42,7 +43,7 @@ std::string or_empty(const std::optional<double>& value) {
 
 constexpr std::array curve_table{
     Column<ResponsePoint>{"frequency_Hz", "Hz", "of the excitation",
-                          [](const auto& p) { return format_number(p.frequency / two_pi); }},
+                          [](const auto& p) { return format_number(in_hertz(p.frequency)); }},
     Column<ResponsePoint>{"amplitude_m", "m",
                           "half the peak-to-peak value of the output over the period",
                           [](const auto& p) { return format_number(p.amplitude); }},
@@ -119,7 +120,7 @@ constexpr std::array ladder_table{
     Column<RungResult>{"peak_amplitude_m", "m", "highest peak",
                        [](const auto& r) { return format_number(r.amplitude); }},
     Column<RungResult>{"peak_frequency_Hz", "Hz", "where it is",
-                       [](const auto& r) { return format_number(r.frequency / two_pi); }},
+                       [](const auto& r) { return format_number(in_hertz(r.frequency)); }},
     Column<RungResult>{"true_error", "1", "amplitude over that of the finest value, less 1",
                        [](const auto& r) { return number_or_nothing(r.true_error); }},
     Column<RungResult>{"estimated_error", "1", "the same as the error budget tells it",
@@ -135,7 +136,7 @@ constexpr std::array campbell_table{
     Column<CampbellRow>{"mode", "1", "number at this speed, from 1",
                         [](const auto& r) { return fmt::format("{}", r.mode + 1); }},
     Column<CampbellRow>{"frequency_Hz", "Hz", "natural frequency without contact",
-                        [](const auto& r) { return format_number(r.frequency / two_pi); }},
+                        [](const auto& r) { return format_number(in_hertz(r.frequency)); }},
 };
 
 constexpr std::array crossing_table{
@@ -154,7 +155,7 @@ constexpr std::array mode_table{
     Column<ModeRow>{"mode", "1", "number, from 1",
                     [](const auto& m) { return fmt::format("{}", m.mode); }},
     Column<ModeRow>{"frequency_Hz", "Hz", "natural frequency without contact",
-                    [](const auto& m) { return format_number(m.frequency / two_pi); }},
+                    [](const auto& m) { return format_number(in_hertz(m.frequency)); }},
     Column<ModeRow>{"residual", "1",
                     "of the eigenpair; empty for modes that were given and attachment shapes",
                     [](const auto& m) { return or_empty(m.residual); }},
@@ -176,7 +177,7 @@ constexpr Column<OptimumRow> value_column{
     [](const auto& row) { return format_number(row.peak.parameter); }};
 constexpr Column<OptimumRow> peak_frequency_column{
     "frequency_Hz", "Hz", "of the highest peak",
-    [](const auto& row) { return format_number(row.peak.frequency / two_pi); }};
+    [](const auto& row) { return format_number(in_hertz(row.peak.frequency)); }};
 constexpr Column<OptimumRow> peak_amplitude_column{
     "amplitude_m", "m", "there", [](const auto& row) { return format_number(row.peak.amplitude); }};
 constexpr Column<OptimumRow> place_column{

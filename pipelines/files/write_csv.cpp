@@ -2,16 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <numbers>
 #include <optional>
 
 #include "pipelines/files/columns.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 void append_names(std::string& header, const std::string& stem, Eigen::Index n_modes) {
   for (Eigen::Index mode = 1; mode <= n_modes; ++mode) {
@@ -29,7 +27,7 @@ std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
 std::string curve_table(const solver::ResponseCurve& curve, const std::vector<PatchShares>& patches,
                         std::optional<double> bar) {
   std::string table = header_of(curve_columns());
-  if (bar) table += "," + header_of(trust_columns());
+  if (bar) table.append(",").append(header_of(trust_columns()));
   for (const PatchShares& patch : patches) {
     for (const auto& column : patch_columns()) {
       table += fmt::format(",{}.{}", patch.patch, column.name);
@@ -38,7 +36,7 @@ std::string curve_table(const solver::ResponseCurve& curve, const std::vector<Pa
   table += "\n";
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     table += row_of(curve_columns(), curve.points[i]);
-    if (bar) table += "," + row_of(trust_columns(), {curve.points[i].amplitude, *bar});
+    if (bar) table.append(",").append(row_of(trust_columns(), {curve.points[i].amplitude, *bar}));
     for (const PatchShares& patch : patches) {
       table.append(",").append(row_of(patch_columns(), patch.reports[i]));
     }
@@ -57,7 +55,7 @@ std::string states_table(const solver::ResponseCurve& curve, Eigen::Index n_mode
   }
   table += "\n";
   for (const solver::ResponsePoint& point : curve.points) {
-    table += format_number(point.frequency / two_pi);
+    table += format_number(in_hertz(point.frequency));
     for (const double value : point.q.vector()) table.append(",").append(format_number(value));
     table += "\n";
   }

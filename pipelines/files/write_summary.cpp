@@ -3,21 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "pipelines/effect_table.hpp"
 #include "pipelines/files/columns.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double hertz(double angular) { return angular / (2.0 * std::numbers::pi); }
-
 template <typename Value>
 Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+/// JSON knows no infinity: it is told as a text.
+Json finite_or_null(const std::optional<double>& value) {
+  if (value && std::isinf(*value)) return "infinite";
+  return or_null(value);
 }
 
 Json to_json(const std::variant<double, LimitName>& preload) {
@@ -26,7 +31,7 @@ Json to_json(const std::variant<double, LimitName>& preload) {
 }
 
 Json to_json(const PeakSummary& peak) {
-  return {{"frequency_Hz", hertz(peak.frequency)}, {"amplitude_m", peak.amplitude}};
+  return {{"frequency_Hz", in_hertz(peak.frequency)}, {"amplitude_m", peak.amplitude}};
 }
 
 Json to_json(const Machine& machine) {
@@ -51,7 +56,7 @@ Json to_json(const MeshSummary& mesh) {
 }
 
 Json to_json(const ModeSummary& mode) {
-  Json json{{"frequency_Hz", hertz(mode.frequency)},
+  Json json{{"frequency_Hz", in_hertz(mode.frequency)},
             {"damping_ratio", mode.damping_ratio},
             {"residual", or_null(mode.residual)},
             {"kind", mode.is_attachment ? "attachment" : "free"}};
@@ -63,14 +68,15 @@ Json to_json(const CurveSummary& curve);
 Json to_json(const ErrorRow& row);
 Json to_json(const EffectRecord& effect);
 Json to_json(const solver::SolverEvent& event) {
-  return {{"frequency_Hz", hertz(event.frequency)}, {"remedy", event.remedy}};
+  return {{"frequency_Hz", in_hertz(event.frequency)}, {"remedy", event.remedy}};
 }
 Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary) {
-  const double load = summary.request.of_preload() ? peak.parameter : summary.request.load;
-  return {{"preload_N", load * summary.newtons_per_load},
+  std::optional<double> load = summary.request.load;  // none: that of the static loads, which vary
+  if (summary.request.of_preload()) load = peak.parameter;
+  return {{"preload_N", load ? Json(*load * summary.newtons_per_load) : Json(nullptr)},
           {"value", peak.parameter},
           {"amplitude_m", peak.amplitude},
-          {"frequency_Hz", hertz(peak.frequency)},
+          {"frequency_Hz", in_hertz(peak.frequency)},
           {"at", to_string(peak.place)},
           {"detached", peak.detached}};
 }
@@ -100,7 +106,7 @@ Json to_array(const std::vector<Item>& items) {
 Json to_json(const solver::RicherPeak& peak) {
   const bool found = peak.change.has_value();
   return {{"highest", peak.highest},
-          {"frequency_Hz", found ? Json(hertz(peak.frequency)) : Json(nullptr)},
+          {"frequency_Hz", found ? Json(in_hertz(peak.frequency)) : Json(nullptr)},
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
 }
 
@@ -164,7 +170,7 @@ Json curves_json(const RunSummary& summary) {
 
 Json to_json(const CurveSummary& curve) {
   Json folds = Json::array();
-  for (const double fold : curve.folds) folds.push_back(hertz(fold));
+  for (const double fold : curve.folds) folds.push_back(in_hertz(fold));
   return {{"name", curve.name},
           {"preload_N", to_json(curve.preload)},
           {"gap_m", or_null(curve.gap)},
@@ -203,8 +209,16 @@ Json to_json(const CurveSummary& curve) {
 Json to_json(const EffectRecord& effect) {
   return {{"name", effect.name},
           {"setting", effect.setting},
-          {"simulated", effect.simulated},
-          {"reason", effect.reason}};
+          {"simulated", effect.simulated == Simulated::undecided
+                            ? Json(nullptr)
+                            : Json(effect.simulated == Simulated::yes)},
+          {"reason", effect.reason},
+          {"quantity", effect_row(effect.name).quantity},
+          {"indicator", finite_or_null(effect.indicator)},
+          {"threshold", or_null(effect.threshold)},
+          {"seconds", or_null(effect.seconds)},
+          {"bound", finite_or_null(effect.bound)},
+          {"objection", effect.objection}};
 }
 
 Json to_json(const OptimumSummary& summary) {
@@ -267,6 +281,10 @@ std::string summary_json(const RunSummary& summary, int indent) {
   constexpr char space = ' ';
   // A name that is not UTF-8 is written with replacement characters rather than lost with the run.
   return json.dump(indent, space, false, Json::error_handler_t::replace);
+}
+
+std::string effects_json(const std::vector<EffectRecord>& effects) {
+  return to_array(effects).dump();
 }
 
 void write_summary(const std::filesystem::path& file, const RunSummary& summary) {

@@ -15,4 +15,7 @@ namespace microslip::pipelines {
 /// @throws ExhaustedError  cannot be written.
 void write_summary(const std::filesystem::path& file, const RunSummary& summary);
 
+/// The array `effects` of it, alone.
+[[nodiscard]] std::string effects_json(const std::vector<EffectRecord>& effects);
+
 }  // namespace microslip::pipelines

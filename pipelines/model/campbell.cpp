@@ -5,10 +5,37 @@
 #include <fmt/format.h>
 
 #include "fem/modal_analysis.hpp"
+#include "fem/ranks.hpp"
+#include "pipelines/model/on_all_ranks.hpp"
+#include "pipelines/model/structure_task.hpp"
+#include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
+namespace {
+
+using Tell = std::function<void(double, const Eigen::VectorXd&)>;
+
+/// Collective over the MPI ranks.
+Eigen::MatrixXd frequencies_over(const StructureTask& task, const Eigen::VectorXd& speeds,
+                                 const Tell& tell) {
+  fem::Structure structure(task.mesh, task.material, task.clamped);
+  const Eigen::Index n_modes = task.basis.n_modes;
+  Eigen::MatrixXd frequencies(speeds.size(), n_modes);
+  fem::Rotation rotation = *task.rotation;
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) {
+    if (fem::anywhere(interrupt_requested())) throw InterruptedError("interrupted");
+    rotation.speed = speeds[i];
+    static_cast<void>(structure.rotate(task.mesh, task.material, rotation));
+    const Eigen::VectorXd frequency = structure.solve_modes({.n_modes = n_modes}).frequency;
+    frequencies.row(i) = frequency;
+    tell(speeds[i], frequency);
+  }
+  return frequencies;
+}
+
+}  // namespace
 
 void require_rotation(const SceneDescription& scene) {
   const std::string file = scene.file.string();
@@ -31,19 +58,27 @@ CampbellDiagram campbell_diagram(const mesh::Mesh& mesh, const SceneDescription&
                                  const Eigen::VectorXd& speeds,
                                  const std::function<void(double, const Eigen::VectorXd&)>& tell) {
   require_rotation(scene);
-  fem::Structure structure(mesh, scene.material, scene.clamped);
-  const Eigen::Index n_modes = scene.settings.basis.n_modes;
-  CampbellDiagram diagram{speeds, Eigen::MatrixXd(speeds.size(), n_modes)};
-  fem::Rotation rotation = *scene.rotation;
-  for (Eigen::Index i = 0; i < speeds.size(); ++i) {
-    if (interrupt_requested()) throw InterruptedError("interrupted");
-    rotation.speed = speeds[i];
-    static_cast<void>(structure.rotate(mesh, scene.material, rotation));
-    const Eigen::VectorXd frequency = structure.solve_modes({.n_modes = n_modes}).frequency;
-    diagram.frequency.row(i) = frequency;
-    tell(speeds[i], frequency);
-  }
+  const StructureTask task{
+      mesh, scene.clamped, scene.material, {}, scene.rotation, scene.settings.basis, {}, {}};
+  CampbellDiagram diagram{speeds, {}};
+  const auto bytes = [&] {
+    ByteWriter writer;
+    writer(speeds);
+    writer(bytes_of(task));
+    return writer.bytes();
+  };
+  on_all_ranks(campbell_work, bytes,
+               [&] { diagram.frequency = frequencies_over(task, speeds, tell); });
   return diagram;
+}
+
+void take_part_in_campbell(std::string_view bytes) {
+  Eigen::VectorXd speeds;
+  std::string task;
+  ByteReader reader(bytes);
+  reader(speeds);
+  reader(task);
+  static_cast<void>(frequencies_over(structure_task(task), speeds, [](auto, const auto&) {}));
 }
 
 std::vector<Crossing> crossings(const CampbellDiagram& diagram, int highest_engine_order) {

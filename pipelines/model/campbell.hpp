@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,6 +39,10 @@ struct Crossing {
 [[nodiscard]] CampbellDiagram campbell_diagram(
     const mesh::Mesh& mesh, const SceneDescription& scene, const Eigen::VectorXd& speeds,
     const std::function<void(double, const Eigen::VectorXd&)>& tell);
+
+/// The part of the other MPI ranks in it (on_all_ranks.hpp).
+inline constexpr std::string_view campbell_work = "campbell";
+void take_part_in_campbell(std::string_view bytes);
 
 /// @throws SceneError  as campbell_diagram().
 void require_rotation(const SceneDescription& scene);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "pipelines/model/motion_along_r.hpp"
+#include "pipelines/model/effects.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -33,21 +33,18 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
   if (scene.response && scene.response->method == ResponseDescription::Method::time) {
     effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
   }
-  effects.normal_motion = setting_of(scene, "normal_motion") != "off";
-  using enum Discretisation::Choice;
-  const Discretisation::Choice choice = scene.settings.second_direction;
-  effects.motion_ratio = motion_ratio_along_r(model, scene);
-  // Motion of given modes along r is meant, unless it is rounding.
-  const bool meshed = !scene.contacts.empty();
-  const bool called_for = effects.motion_ratio > (meshed ? negligible_motion_along_r : 1e-9);
-  effects.second_direction =
-      choice == on || (choice == automatic && called_for && !model.patches.empty());
+  const std::vector<EffectRecord> chosen = effects_of(scene, &model);
+  const EffectRecord& along_r = effect_in(chosen, "second_direction");
+  effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
+  effects.motion_ratio = along_r.indicator.value_or(0.0);
+  effects.second_direction = along_r.simulated == Simulated::yes && !model.patches.empty();
   if (effects.second_direction) require_stiffness_along_r(model);
   return effects;
 }
 
 contact::ContactForce contact_of(const ReducedModel& model, double load) {
-  return or_refused([&] { return contact::ContactForce(model.patches, model.effects, load); });
+  return or_refused(
+      [&] { return contact::ContactForce(model.patches, model.effects, load, model.coordinates); });
 }
 
 }  // namespace microslip::pipelines

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/patch/modal_contact_field.hpp"
+#include "pipelines/effect_table.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
@@ -17,8 +18,9 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double flatness_limit = 0.01;  // of the diameter: beyond, a planar patch misleads
-constexpr double flatness_told = 1e-3;   // of the diameter: gaps between real faces are micrometres
+constexpr double flatness_limit =
+    effect_row("local_frames").threshold;  // of the diameter: beyond, a planar patch misleads
+constexpr double flatness_told = 1e-3;  // of the diameter: gaps between real faces are micrometres
 constexpr double angle_limit_rad =
     5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
 
@@ -176,11 +178,10 @@ contact::SurfaceRules rules_of(const ContactDescription& contact) {
 }
 
 contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contact,
-                        const PatchSettings& settings, const fem::ModalBasis& basis,
+                        const PatchSettings& settings, int n_points, const fem::ModalBasis& basis,
                         const fem::ResidualFlexibility* residual) {
   const mesh::Surface& surface = mesh.surface(contact.surface);
-  const mesh::SurfaceSampling sampling =
-      mesh::sample_surface(mesh.nodes(), surface, settings.n_points);
+  const mesh::SurfaceSampling sampling = mesh::sample_surface(mesh.nodes(), surface, n_points);
   contact::Patch patch;
   patch.name = contact.name;
   patch.frame = contact_frame(mesh, contact);
@@ -297,7 +298,8 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactDescription& contact = scene.contacts[i];
-    model.patches.push_back(patch_of(mesh, contact, scene.settings.patches[i], basis,
+    model.patches.push_back(patch_of(mesh, contact, scene.settings.patches[i],
+                                     contact_points(scene.settings, i), basis,
                                      residuals.empty() ? nullptr : &residuals[i]));
     warn_of_the_fit(model.patches.back(), mesh, contact, warnings);
   }

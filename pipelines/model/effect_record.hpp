@@ -1,16 +1,28 @@
 /// @file
-/// One row of the table of effects.
+/// One row of the table of effects as a scene has it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace microslip::pipelines {
 
+enum class Simulated : std::uint8_t { no, yes, undecided };
+
 struct EffectRecord {
   std::string name;
   std::string setting;  ///< auto | on | off
-  bool simulated = false;
-  std::string reason;
+  Simulated simulated = Simulated::no;
+  std::string reason;  ///< why; of what is left out also what is lost
+  std::optional<double>
+      indicator{};  ///< dimensionless (effect_table.hpp); none: not told, or not yet
+  std::optional<double> threshold{};  ///< of the indicator; above it the effect is called for
+  std::optional<double>
+      seconds{};  ///< that the curves take longer with it, forecast; none: not told apart
+  std::optional<double>
+      bound{};              ///< of what is left out: relative change of a highest peak by having it
+  std::string objection{};  ///< why the setting is wrong; empty: nothing says so
 };
 
 }  // namespace microslip::pipelines

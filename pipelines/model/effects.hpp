@@ -1,8 +1,9 @@
 /// @file
-/// Which physical effects a scene is simulated with, and why: one row per effect.
+/// Which physical effects a scene is simulated with, and why: one record per row of effect_table.hpp.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipelines/model/effect_record.hpp"
@@ -11,14 +12,16 @@
 
 namespace microslip::pipelines {
 
-/// @param model  with its effects decided; nullptr: not known yet, `auto` says so.
+/// Chooses what `auto` leaves open, by the indicators.
+/// @param model  with its patches; nullptr: not known yet, so that what depends on modes is undecided.
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
                                                    const ReducedModel* model);
 
-/// What a scene says of its harmonics, in words.
-[[nodiscard]] std::string harmonics_text(const SceneDescription& scene);
+/// One of them. @throws std::out_of_range  no such name.
+[[nodiscard]] const EffectRecord& effect_in(const std::vector<EffectRecord>& effects,
+                                            std::string_view name);
 
-/// Sentences on settings that are possible but seldom meant.
-[[nodiscard]] std::vector<std::string> scene_warnings(const SceneDescription& scene);
+/// The table as `check` prints it and a log keeps it, a line each, under a heading.
+[[nodiscard]] std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

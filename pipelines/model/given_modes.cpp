@@ -13,8 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fem/modal_mass.hpp"
-#include "pipelines/model/conversion.hpp"
-#include "pipelines/model/node_rows.hpp"
+#include "pipelines/import/conversion.hpp"
+#include "pipelines/import/node_rows.hpp"
+#include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -112,10 +113,12 @@ void tell_residual(const SceneDescription& scene, StructureModes& modes) {
 
 }  // namespace
 
-ModesOfFile read_modes_of(const std::filesystem::path& file) {
+ModesOfFile read_modes_of(const std::filesystem::path& file, const std::filesystem::path& deck) {
   const TemporaryFolder folder;
   const std::filesystem::path data = folder.path() / "modes.bin";
-  const nlohmann::json facts = convert_file("convert_modes.py", file, data);
+  const bool needs_deck = is_punch_file(file);
+  const nlohmann::json facts =
+      convert_file("convert_modes.py", file, data, {}, needs_deck ? deck : std::filesystem::path());
   const auto frequency = facts.at("frequency_Hz").get<std::vector<double>>();
   const auto n_nodes = facts.at("n_nodes").get<Eigen::Index>();
   ModesOfFile modes;
@@ -135,7 +138,7 @@ ModesOfFile read_modes_of(const std::filesystem::path& file) {
 
 StructureModes given_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   const auto& model = std::get<MeshFileModel>(scene.model);
-  const ModesOfFile read = read_modes_of(model.modes->file);
+  const ModesOfFile read = read_modes_of(model.modes->file, model.file);
   const std::vector<Eigen::Index> columns = columns_of(read, scene);
   const Eigen::MatrixX3d nodes = model.length_unit.value() * read.nodes;
   StructureModes modes;

@@ -22,8 +22,10 @@ struct ModesOfFile {
   Eigen::Index n_attachment = 0;
 };
 
+/// @param deck  of the modes: has the places of nodes that a punched file (.pch) tells by their numbers.
 /// @throws SceneError  a damaged file, one without modes: what is there, where.
-[[nodiscard]] ModesOfFile read_modes_of(const std::filesystem::path& file);
+[[nodiscard]] ModesOfFile read_modes_of(const std::filesystem::path& file,
+                                        const std::filesystem::path& deck);
 
 /// The basis of a scene of kind "modes", and what is to be said about it.
 /// @throws SceneError  a node of the mesh without modes, fewer modes than asked for, no attachment shapes where they

@@ -10,9 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/static_preload.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 
@@ -49,8 +51,12 @@ ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* stru
   } else {
     model = reduce_to_contact(structure->mesh, scene, structure->modes.basis,
                               structure->modes.residuals, warnings);
+    if (structure->modes.static_face) {
+      set_static_preload(model, structure->mesh, scene, *structure->modes.static_face);
+    }
   }
   model.effects = contact_effects(model, scene);
+  model.coordinates = contact_coordinates(model, scene);
   return model;
 }
 
@@ -73,7 +79,7 @@ ModelFamily::ModelFamily(const SceneDescription& scene, std::string key, const R
                          std::shared_ptr<const SolvedStructure> structure)
     : scene_(scene),
       key_(std::move(key)),
-      second_direction_(model.effects.second_direction),
+      effects_(model.effects),
       structure_(std::move(structure)) {}
 
 ModelFamily::Structure ModelFamily::structure_at(double value, const SceneDescription& changed) {
@@ -94,7 +100,9 @@ ReducedModel ModelFamily::reduced(SceneDescription changed, double stiffness_fac
   if (stiffness_factor != 1.0) changed = with_stiffness_keys(changed, stiffness_factor);
   std::vector<std::string> warnings;  // those of the scene itself are told already
   ReducedModel model = model_of(changed, structure, warnings);
-  model.effects.second_direction = second_direction_;
+  model.effects.second_direction = effects_.second_direction;
+  model.effects.normal_motion = effects_.normal_motion;
+  model.coordinates = contact_coordinates(model, scene_);
   return model;
 }
 

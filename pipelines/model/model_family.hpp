@@ -47,7 +47,7 @@ class ModelFamily {
  public:
   /// @param scene      borrowed.
   /// @param key        the number that changes, path as of --set.
-  /// @param model      of the scene as it is: which directions are simulated stays as decided there.
+  /// @param model      of the scene as it is: which effects are simulated stays as decided there.
   /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
   ModelFamily(const SceneDescription& scene, std::string key, const ReducedModel& model,
               std::shared_ptr<const SolvedStructure> structure);
@@ -68,7 +68,7 @@ class ModelFamily {
 
   const SceneDescription& scene_;
   std::string key_;
-  bool second_direction_;
+  ContactEffects effects_;  ///< as chosen for the scene
   Structure structure_;
   std::map<double, Structure> structures_;                    // by value
   std::map<std::pair<double, double>, ReducedModel> models_;  // by value and factor

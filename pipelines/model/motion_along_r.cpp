@@ -6,9 +6,8 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <vector>
 
-#include "contact/dense.hpp"
+#include "pipelines/model/linear_limits.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -32,42 +31,6 @@ bool any_rubbing_motion_along_r(const ReducedModel& model) {
   return std::ranges::any_of(model.patches, [](const contact::Patch& patch) {
     return any_rubbing_motion_along_r(patch.cells);
   });
-}
-
-Eigen::MatrixXd stuck_stiffness(const contact::PatchSamples& cells) {
-  Eigen::VectorXd u = cells.weights.cwiseProduct(cells.stiffness.col(0));
-  Eigen::VectorXd w = cells.weights.cwiseProduct(cells.stiffness.col(2));
-  const Eigen::VectorXd v = cells.weights.cwiseProduct(cells.stiffness.col(1));
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    if (cells.friction[i] == 0.0) u[i] = w[i] = 0.0;
-  }
-  const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
-    return shape.transpose() * k.asDiagonal() * shape;
-  };
-  return part(cells.shapes.u, u) + part(cells.shapes.v, v) + part(cells.shapes.w, w);
-}
-
-Eigen::MatrixXd stuck_stiffness(const ReducedModel& model) {
-  Eigen::MatrixXd stiffness = stuck_stiffness(model.patches.front().cells);
-  for (std::size_t i = 1; i < model.patches.size(); ++i) {
-    stiffness += stuck_stiffness(model.patches[i].cells);
-  }
-  return stiffness;
-}
-
-/// Response of the modes with a stiffness added, q_s + i q_c.
-Eigen::VectorXcd linear_response(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
-                                 double frequency) {
-  const Eigen::ArrayXd omega = model.frequency.array();
-  const Eigen::ArrayXcd diagonal =
-      (omega.square() - frequency * frequency).cast<std::complex<double>>() +
-      std::complex<double>(0.0, 2.0 * frequency) * (model.damping_ratio.array() * omega);
-  Eigen::MatrixXcd dynamic = stiffness.cast<std::complex<double>>();
-  dynamic.diagonal() += diagonal.matrix();
-  Eigen::VectorXcd force(model.frequency.size());
-  force.real() = model.force_sine;
-  force.imag() = model.force_cosine;
-  return contact::solved(dynamic, force);
 }
 
 /// Over the area of all patches.
@@ -99,21 +62,6 @@ PatchMotion motion_at(const ReducedModel& model, const Eigen::MatrixXd& stiffnes
   return {rms(model, &contact::ModalShapes::u, q), rms(model, &contact::ModalShapes::w, q)};
 }
 
-/// Of the modes with a stiffness added, inside a range [rad/s].
-std::vector<double> resonances(const ReducedModel& model, const Eigen::MatrixXd& stiffness,
-                               double low, double high) {
-  Eigen::MatrixXd total = stiffness;
-  total.diagonal() += model.frequency.array().square().matrix();
-  const auto squares = contact::symmetric_eigenvalues(total);
-  std::vector<double> inside;
-  if (!squares) return inside;
-  for (const double square : *squares) {
-    const double resonance = std::sqrt(std::max(0.0, square));
-    if (resonance >= low && resonance <= high) inside.push_back(resonance);
-  }
-  return inside;
-}
-
 /// A peak that moves along r counts by itself, however small beside another one of the range.
 double largest_ratio(const ReducedModel& model, const Eigen::MatrixXd& stiffness, double low,
                      double high) {
@@ -126,7 +74,8 @@ double largest_ratio(const ReducedModel& model, const Eigen::MatrixXd& stiffness
     if (motion.along_r > most_along_r.along_r) most_along_r = motion;
   }
   double ratio = std::max(most_along_p.ratio(), most_along_r.ratio());
-  for (const double resonance : resonances(model, stiffness, low, high)) {
+  for (const double resonance : resonances(model, stiffness)) {
+    if (resonance < low || resonance > high) continue;
     ratio = std::max(ratio, motion_at(model, stiffness, resonance).ratio());
   }
   return ratio;
@@ -142,7 +91,7 @@ double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& s
   const Eigen::Index n = model.frequency.size();
   double ratio = 0.0;
   for (const Eigen::MatrixXd& stiffness :
-       std::array<Eigen::MatrixXd, 2>{Eigen::MatrixXd::Zero(n, n), stuck_stiffness(model)}) {
+       std::array<Eigen::MatrixXd, 2>{Eigen::MatrixXd::Zero(n, n), stuck_stiffness(model, true)}) {
     ratio = std::max(ratio, largest_ratio(model, stiffness, to_angular * low, to_angular * high));
   }
   return ratio;

@@ -7,10 +7,9 @@
 
 namespace microslip::pipelines {
 
-/// Friction along r does ½ ratio² of the work of that along p: 0.05 % at 3 %, as much as harmonics are left out
-/// for. Simulated on the default blade (1.5 %), it changes the peak by 0.013 %.
-inline constexpr double negligible_motion_along_r = 0.03;
-
+/// Friction along r does ½ ratio² of the work of that along p: 0.05 % at the threshold of 3 %, as much as harmonics are
+/// left out for. Simulated on the default blade (1.5 %), it changes the peak by 0.013 %.
+///
 /// Motion of the patch along r against that along p, rms over its area: the largest ratio at the resonances of
 /// the free and of the stuck structure in the frequency range, and where either limit moves the patch most.
 /// 0 where nothing moves or nothing rubs.

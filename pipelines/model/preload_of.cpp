@@ -14,6 +14,7 @@ double total_normal_stiffness(const ReducedModel& model) {
 
 std::variant<double, LimitName> preload_of(const CurveRequest& request, const ReducedModel& model) {
   if (const auto* limit = std::get_if<LimitName>(&request.preload)) return *limit;
+  if (std::holds_alternative<StaticPreload>(request.preload)) return model.static_preload.value();
   const auto* gap = std::get_if<UniformGap>(&request.preload);
   if (gap == nullptr) return std::get<double>(request.preload);
   const double total = total_normal_stiffness(model);

@@ -81,7 +81,7 @@ void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene, std:
   const ContactDescription& contact = scene.contacts[index];
   const bool turned = contact.preload_moment != std::array{0.0, 0.0};
   if (!contact.preload_field && !turned) return;
-  const FacePoints face = face_points(mesh, contact, scene.settings.patches[index].n_points);
+  const FacePoints face = face_points(mesh, contact, contact_points(scene.settings, index));
   if (!turned) {
     static_cast<void>(unit_preload(contact, face.p, face.r, face.weights));
     return;
@@ -121,7 +121,7 @@ std::string describe_preload(const mesh::Mesh& mesh, const SceneDescription& sce
   std::string text;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactDescription& contact = scene.contacts[i];
-    const std::string one = describe_preload(mesh, contact, scene.settings.patches[i].n_points);
+    const std::string one = describe_preload(mesh, contact, contact_points(scene.settings, i));
     if (one.empty()) continue;
     if (!text.empty()) text += '\n';
     if (scene.contacts.size() > 1) text += contact.name + ": ";

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "contact/contact_effects.hpp"
+#include "contact/motion_coordinates.hpp"
 #include "contact/patch.hpp"
 
 namespace microslip::pipelines {
@@ -23,7 +25,10 @@ struct ReducedModel {
   Eigen::VectorXd force_sine, force_cosine, force_static;  ///< modal force [N/√kg], N
   Eigen::VectorXd output;                                  ///< y = output · q [1/√kg], N
   std::vector<contact::Patch> patches;                     ///< none: no contact
+  std::optional<double>
+      static_preload;  ///< what they carry under the static loads of the scene [N]
   ContactEffects effects;
+  contact::MotionCoordinates coordinates;  ///< of the patches, where forces are sampled in time
 };
 
 /// Whether the loads of its curves are normal forces in newtons, not factors on the preload of the points.

@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 
 #include "mesh/surface.hpp"
+#include "pipelines/import/named_points.hpp"
+#include "pipelines/import/step_mesh.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/named_points.hpp"
 #include "pipelines/model/preload_shape.hpp"
-#include "pipelines/model/step_mesh.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -125,7 +125,9 @@ std::vector<PatchPreload> patch_preloads(const mesh::Mesh& mesh, const SceneDesc
   const double area = mesh.surface(scene.contacts[index].surface).area;
   const std::optional<double> stiffness = normal_stiffness(mesh, scene);
   for (const PreloadEntry& entry : scene.response->preload) {
-    if (std::holds_alternative<LimitName>(entry)) continue;
+    if (std::holds_alternative<LimitName>(entry) || std::holds_alternative<StaticPreload>(entry)) {
+      continue;
+    }
     if (const auto* gap = std::get_if<UniformGap>(&entry)) {
       preloads.push_back({.text = "", .gap = gap->width});
       continue;

@@ -31,6 +31,7 @@ Eigen::VectorXd slowing(const ReducedModel& model, double frequency) {
 }
 
 ReducedModel slowed(ReducedModel model, const Eigen::VectorXd& factors) {
+  model.coordinates = {};  // of other modes
   for (Eigen::VectorXd* values : {&model.frequency, &model.force_sine, &model.force_cosine,
                                   &model.force_static, &model.output}) {
     *values = values->cwiseProduct(factors);

@@ -1,77 +1,36 @@
 #include "pipelines/model/structure_stage.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "fem/ranks.hpp"
+#include "fem/slepc_session.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
+#include "pipelines/import/given_matrices.hpp"
+#include "pipelines/import/mesh_file.hpp"
+#include "pipelines/import/mesher_limits.hpp"
+#include "pipelines/import/named_points.hpp"
+#include "pipelines/import/step_mesh.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/given_matrices.hpp"
+#include "pipelines/model/geometry_bytes.hpp"
 #include "pipelines/model/given_modes.hpp"
-#include "pipelines/model/mesh_file.hpp"
-#include "pipelines/model/mesher_limits.hpp"
-#include "pipelines/model/named_points.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/model/on_all_ranks.hpp"
 #include "pipelines/model/preload_shape.hpp"
-#include "pipelines/model/step_mesh.hpp"
+#include "pipelines/model/static_preload.hpp"
+#include "pipelines/model/structure_members.hpp"
+#include "pipelines/system/machine.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/result_cache.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/sealed_bytes.hpp"
 
 namespace microslip::pipelines {
 namespace {
-
-Eigen::MatrixXd nonzero_columns(const Eigen::MatrixXd& columns) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    if (columns.col(j).squaredNorm() > 0.0) kept.push_back(j);
-  }
-  return columns(Eigen::all, kept);
-}
-
-std::string attachment_text(const fem::AttachedBasis& attached) {
-  const fem::ModalBasis& basis = attached.basis;
-  if (basis.n_attachment == 0) return "attachment: the modes leave nothing out";
-  std::string text = fmt::format(
-      "attachment: {} static shapes of tractions up to degree {} and of the forces, from {:.6g} Hz "
-      "to {:.6g} Hz",
-      basis.n_attachment, attached.degree,
-      basis.frequency[basis.n_free()] / (2.0 * std::numbers::pi),
-      basis.frequency[basis.frequency.size() - 1] / (2.0 * std::numbers::pi));
-  if (attached.n_dropped > 0)
-    text += fmt::format("; {} that depend on others left out", attached.n_dropped);
-  if (std::isfinite(attached.missed_share)) {
-    text += fmt::format("; tractions of degree {} miss at most {:.2g} % of their flexibility",
-                        attached.degree + 1, 100.0 * attached.missed_share);
-  }
-  return text;
-}
-
-/// Attachment shapes of the contacts and of the forces behind the modes.
-void attach(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
-            StructureModes& result) {
-  fem::AttachmentOptions options;
-  options.degree = scene.settings.basis.attachment_degree;
-  std::vector<fem::AttachmentFace> faces;
-  for (const ContactDescription& contact : scene.contacts) {
-    if (!contact.tangential_stiffness || !contact.normal_stiffness) {
-      throw SceneError(contact.place +
-                       ": attachment shapes need a stiffness of the contact in N/m^3");
-    }
-    const double tangential = *contact.tangential_stiffness;
-    const Eigen::Vector3d local(tangential, *contact.normal_stiffness, tangential);
-    faces.push_back({mesh.surface(contact.surface), contact_frame(mesh, contact), local});
-  }
-  fem::AttachedBasis attached = structure.attach(
-      result.basis, faces, nonzero_columns(excitation_loads(mesh, scene.forces)), options);
-  result.attachment_text = attachment_text(attached);
-  result.basis = std::move(attached.basis);
-  result.richer = std::move(attached.richer);
-}
 
 /// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
 template <typename LookUp>
@@ -83,20 +42,8 @@ void require_name(const std::string& place, const LookUp& look_up) {
   }
 }
 
-/// From the body at rest to small motions about its equilibrium as it rotates.
-void rotate(fem::Structure& structure, const mesh::Mesh& mesh, const SceneDescription& scene,
-            StructureModes& result) {
-  const fem::Rotation& rotation = *scene.rotation;
-  const Eigen::VectorXd u = structure.rotate(mesh, scene.material, rotation);
-  result.notes.push_back(
-      fmt::format("rotating at {:.6g} rpm: the static displacement is at most {:.3g} m; modes are "
-                  "those about it",
-                  30.0 * rotation.speed / std::numbers::pi,
-                  u.reshaped(3, mesh.n_nodes()).colwise().norm().maxCoeff()));
-}
-
-mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
-  if (const auto* given = std::get_if<MeshFileModel>(&scene.model)) return read_mesh(*given);
+/// Meshes the geometry of a scene.
+void make_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
   if (const auto* step = std::get_if<StepModel>(&scene.model)) {
     mesh_step_model(*step, mesh_file);
   } else {
@@ -105,7 +52,89 @@ mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& m
       mesh::mesh_blade(blade.geometry, blade.element_size, mesh_file, limits);
     });
   }
+}
+
+mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (const auto* given = std::get_if<MeshFileModel>(&scene.model)) return read_mesh(*given);
+  if (ResultCache* cache = ResultCache::in_use()) {
+    const ResultCache::Entry entry = cache->entry("mesh", geometry_of(scene));
+    if (const auto made = entry.find()) {
+      write_whole(mesh_file, *made);
+    } else {
+      make_mesh(scene, mesh_file);
+      entry.keep(bytes_of(mesh_file));
+    }
+  } else {
+    make_mesh(scene, mesh_file);
+  }
   return mesh::read_gmsh(mesh_file);
+}
+
+/// The contacts as their static shapes see them. A stiffness matters where the degree is chosen by it.
+TaskFace face_of(const mesh::Mesh& mesh, const ContactDescription& contact,
+                 const BasisSettings& basis) {
+  TaskFace face{mesh.surface(contact.surface), contact_frame(mesh, contact),
+                Eigen::Vector3d::Zero()};
+  if (basis.residual != ResidualKind::attachment) return face;
+  if (!contact.tangential_stiffness || !contact.normal_stiffness) {
+    throw SceneError(contact.place +
+                     ": attachment shapes need a stiffness of the contact in N/m^3");
+  }
+  if (basis.attachment_degree) return face;
+  const double tangential = *contact.tangential_stiffness;
+  face.local_stiffness = {tangential, *contact.normal_stiffness, tangential};
+  return face;
+}
+
+StructureTask task_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  StructureTask task{mesh, scene.clamped, scene.material, {}, {}, scene.settings.basis, {}, {}};
+  if (given_matrices(scene) != nullptr) {
+    task.matrices = matrices_of(mesh, scene);
+    task.clamped.clear();
+  }
+  if (scene.rotation && scene.rotation->speed > 0.0) task.rotation = scene.rotation;
+  if (task.basis.residual == ResidualKind::none) return task;
+  for (const ContactDescription& contact : scene.contacts) {
+    task.faces.push_back(face_of(mesh, contact, task.basis));
+  }
+  if (task.basis.residual == ResidualKind::attachment && !task.faces.empty()) {
+    task.forces = loads_as_shapes(excitation_loads(mesh, scene.forces));
+  }
+  return task;
+}
+
+/// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
+std::string arithmetic() {
+  const Machine machine = describe_machine();
+  std::string text =
+      fmt::format("{}, {} threads, {} ranks", machine.blas, machine.blas_threads, fem::n_ranks());
+  for (const auto& [name, version] : fem::library_versions()) text += ", " + name + ' ' + version;
+  return text;
+}
+
+StructureModes solve_on_all_ranks(const StructureTask& task) {
+  StructureModes modes;
+  on_all_ranks(
+      modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });
+  return modes;
+}
+
+StructureModes solved(const StructureTask& task) {
+  ResultCache* cache = ResultCache::in_use();
+  if (cache == nullptr) return solve_on_all_ranks(task);
+  const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + arithmetic());
+  StructureModes modes;
+  if (const auto made = entry.find()) {
+    ByteReader reader(*made);
+    reader(modes);
+    modes.timings = {};
+    return modes;
+  }
+  modes = solve_on_all_ranks(task);
+  ByteWriter bytes;
+  bytes(modes);
+  entry.keep(bytes.bytes());
+  return modes;
 }
 
 }  // namespace
@@ -149,6 +178,12 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
   for (const ForceDescription& force : scene.forces) {
     require_name(force.place, [&] { return mesh.node_set(force.at); });
   }
+  for (const ForceDescription& force : scene.static_loads.forces) {
+    require_name(force.place, [&] { return mesh.node_set(force.at); });
+  }
+  for (const PressureDescription& entry : scene.static_loads.pressures) {
+    require_name(entry.place, [&] { return mesh.surface(entry.surface); });
+  }
   if (scene.response) {
     const OutputDescription& output = scene.response->output;
     require_name(output.place, [&] { return mesh.node_set(output.at); });
@@ -162,27 +197,9 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
-  fem::Structure structure = given_matrices(scene) != nullptr
-                                 ? fem::Structure(mesh, matrices_of(mesh, scene))
-                                 : fem::Structure(mesh, scene.material, scene.clamped);
-  StructureModes result;
-  result.n_dofs = structure.n_dofs();
-  result.mass = structure.mass();
-  if (scene.rotation && scene.rotation->speed > 0.0) rotate(structure, mesh, scene, result);
-  fem::ModalOptions options;
-  options.n_modes = scene.settings.basis.n_modes;
-  result.basis = structure.solve_modes(options);
-  if (scene.settings.basis.residual == ResidualKind::stiffness) {
-    for (const ContactDescription& contact : scene.contacts) {
-      result.residuals.push_back(structure.residual_flexibility(
-          result.basis, mesh.surface(contact.surface), contact_frame(mesh, contact)));
-    }
-  }
-  if (!scene.contacts.empty() && scene.settings.basis.residual == ResidualKind::attachment) {
-    attach(structure, mesh, scene, result);
-  }
-  result.timings = structure.timings();
-  return result;
+  StructureModes modes = solved(task_of(mesh, scene));
+  if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
+  return modes;
 }
 
 }  // namespace microslip::pipelines

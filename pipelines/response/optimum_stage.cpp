@@ -20,6 +20,9 @@
 namespace microslip::pipelines {
 namespace {
 
+// How the best value moves is told by few, beside one another.
+constexpr int few_harmonics = 3;
+
 solver::OptimumOptions options_of(const SceneDescription& scene) {
   solver::OptimumOptions options;
   if (scene.response->optimum->range) {
@@ -39,6 +42,9 @@ solver::OptimumOptions options_of(const SceneDescription& scene) {
         "response.optimum: needs response.optimum_range = [low, high], or two positive preloads");
   }
   if (!(options.lower > 0.0)) options.scale = solver::ParameterScale::linear;
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  // A peak that errs by some per cent is level over more than this.
+  if (harmonics.chosen() || harmonics.highest > 1) options.relative_tolerance = 5e-3;
   return options;
 }
 
@@ -63,10 +69,14 @@ const ReducedModel& OptimumSearch::model_at(double value, double stiffness_facto
 solver::Scene OptimumSearch::scene_at(double value, const Factors& factors) {
   const bool by_keys = stiffness_place(scene_) == StiffnessPlace::keys;
   const ReducedModel& given = model_at(value, 1.0);
-  double load = request_.of_preload() ? value : request_.load;
+  const auto load_under = [&](const ReducedModel& model) {
+    if (request_.of_preload()) return value;
+    return request_.load ? *request_.load : model.static_preload.value();
+  };
+  const double given_load = load_under(given);
   ReducedModel model = by_keys ? model_at(value, factors.stiffness)
-                               : with_point_stiffness(given, factors.stiffness, load);
-  load = with_same_gap(load, given, model);
+                               : with_point_stiffness(given, factors.stiffness, given_load);
+  const double load = with_same_gap(load_under(model), given, model);
   if (factors.friction != 1.0) model = with_friction(std::move(model), factors.friction);
   if (factors.n_harmonics > 0) model.effects.n_harmonics = factors.n_harmonics;
   return solver_scene(model, load);
@@ -85,8 +95,14 @@ solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const 
 }
 
 solver::Optimum OptimumSearch::search(const Factors& factors) {
-  return solver::minimise_peak([&](double value) { return scene_at(value, factors); },
-                               continuation_options(scene_, model_), options_for(factors));
+  solver::ContinuationOptions range = continuation_options(scene_, model_);
+  if (factors.n_harmonics > 0) {
+    range.n_harmonics = factors.n_harmonics;
+    range.orders.clear();
+    range.harmonic_tolerance = 0.0;
+  }
+  return solver::minimise_peak([&](double value) { return scene_at(value, factors); }, range,
+                               options_for(factors));
 }
 
 std::string OptimumSearch::warning() const {
@@ -189,9 +205,13 @@ std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracke
   const bool stiffness_varies =
       varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
   std::vector<Change> list;
+  const HarmonicSettings& harmonics = scene_.settings.harmonics;
+  const bool many = harmonics.chosen() || harmonics.highest > few_harmonics;
+  const int n = many ? few_harmonics : 0;
+  if (many && friction_varies) list.push_back({friction, 1.0, {1.0, 1.0, n}});
   for (const double factor : {0.5, 2.0}) {
-    if (friction_varies) list.push_back({friction, factor, {factor, 1.0}});
-    if (stiffness_varies) list.push_back({stiffness, factor, {1.0, factor}});
+    if (friction_varies) list.push_back({friction, factor, {factor, 1.0, n}});
+    if (stiffness_varies) list.push_back({stiffness, factor, {1.0, factor, n}});
   }
   return list;
 }

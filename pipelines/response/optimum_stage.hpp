@@ -34,14 +34,15 @@ class OptimumSearch {
   [[nodiscard]] solver::Optimum best();
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
   /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
-  /// moves the best preload: the range is widened by as much, and the entry says so.
+  /// moves the best preload: the range is widened by as much, and the entry says so. Of more than three harmonics with
+  /// three, and once with both as they are, which is what the others are to be compared with.
   [[nodiscard]] OptimumBracket bracket();
 
  private:
   struct Factors {
     double friction = 1.0;
     double stiffness = 1.0;
-    int n_harmonics = 0;  ///< 0: those given
+    int n_harmonics = 0;  ///< 0: as the scene has them
   };
   /// The bounds of the scene, or wider ones where the best value is known to move.
   [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;

@@ -12,6 +12,7 @@
 
 #include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/effect_choice.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
@@ -26,7 +27,7 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 // Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the
 // last digits dear.
-constexpr double sampled_tolerance = 1e-10;
+constexpr double sampled_tolerance = 1e-9;
 
 contact::Harmonics excitation(const ReducedModel& model, int n_harmonics) {
   contact::Harmonics force(n_harmonics, model.frequency.size());
@@ -116,6 +117,7 @@ solver::Scene solver_scene(const ReducedModel& model, double load) {
 }
 
 solver::Scene limit_scene(ReducedModel model) {
+  model.coordinates = {};
   for (contact::Patch& patch : model.patches) {
     patch.tilted_areas.clear();
     patch.rules.roughness.reset();
@@ -185,6 +187,22 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   }
 }
 
+namespace {
+
+/// Chosen harmonics end where the modes do: beyond, a harmonic meets resonances of attachment shapes, which no structure
+/// has. The first nine are always meant: attachment shapes answer them like springs.
+int most_meant(const ReducedModel& model, const ResponseDescription& response, int highest) {
+  if (model.n_attachment == 0) return highest;
+  constexpr int least = 9;
+  const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
+  const double top = n_free > 0 ? model.frequency.head(n_free).maxCoeff() : 0.0;
+  const double lowest = two_pi * std::min(response.frequency_begin_hz, response.frequency_end_hz);
+  const double orders = std::min(std::floor(top / lowest), static_cast<double>(highest));
+  return std::clamp(static_cast<int>(orders), std::min(least, highest), highest);
+}
+
+}  // namespace
+
 solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                  const ReducedModel& model) {
   const ResponseDescription& response = *scene.response;
@@ -192,10 +210,12 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   solver::ContinuationOptions options;
   options.frequency_begin = two_pi * response.frequency_begin_hz;
   options.frequency_end = two_pi * response.frequency_end_hz;
-  options.n_harmonics = harmonics.highest;
+  options.n_harmonics =
+      harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
   options.orders = harmonics.orders;
   options.harmonic_tolerance = harmonics.tolerance;
-  options.search_starts = response.search_starts;
+  options.search_starts = asked_starts(scene);
+  options.linear_certificate = setting_of(scene, "nonlinearity") != "on";
   options.stop = [] { return interrupt_requested() || cut_short(); };
   if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
@@ -301,6 +321,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
     add_patch_shares(model, load, result);
     return result;
   }
+  options.search_starts = search_starts(scene, model, load);
   const solver::Scene problem = balanced_scene(model, load, options);
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/refinement.hpp"
+#include "pipelines/effect_table.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/run/curve_family.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
@@ -99,7 +100,7 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
   record.keep_effects(effects_of(now.scene, &now.model));
   record.keep_model(now.model);
   for (const CurveResult& curve : now.curves) record.keep_curve(curve, now.model);
-  record.keep_harmonics(now.scene);
+  record.keep_choices(now.scene);
   keep_budgets(now, record);
 }
 
@@ -134,7 +135,8 @@ void keep_budgets(const Solution& solution, RunRecord& record) {
   for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
     record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
   }
-  record.keep_bounds();
+  const double tolerance = solution.scene.accuracy.tolerance;
+  record.keep_bounds(tolerance > 0.0 ? tolerance : worth_a_warning);
 }
 
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {

@@ -10,12 +10,15 @@
 
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
+#include "pipelines/import/given_matrices.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/curve_cost.hpp"
 #include "pipelines/model/effects.hpp"
-#include "pipelines/model/given_matrices.hpp"
 #include "pipelines/model/preload_shape.hpp"
 #include "pipelines/model/scene_places.hpp"
+#include "pipelines/model/scene_warnings.hpp"
+#include "pipelines/model/static_preload.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/draw_scene.hpp"
@@ -27,42 +30,17 @@
 namespace microslip::pipelines {
 namespace {
 
-// Curves' worth of work: the search itself and the four of its bracket.
-constexpr double searches_of_an_optimum = 5 * 6.0;
-
-// One point in one iteration [s]: medians of the benchmarks, doubled for the rest of an iteration.
-constexpr double closed_form_cost = 1.4e-6;
-constexpr double event_cost = 1e-5;
-constexpr double planar_cost = 1.5e-4;
-constexpr double chosen_cost =
-    5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
-constexpr double iterations_per_curve = 350.0;
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
-
-/// Seconds a curve takes, by the method of its points.
-double curve_seconds(const SceneDescription& scene, bool second_direction) {
-  const auto* modal = std::get_if<ModalModel>(&scene.model);
-  double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
-  for (const PatchSettings& patch : scene.settings.patches) n_points += patch.n_points;
-  const bool simple =
-      scene.settings.harmonics.highest == 1 && !is_rate_dependent(scene) && !is_rough(scene);
-  const double of_method = second_direction ? planar_cost : simple ? closed_form_cost : event_cost;
-  const bool chosen = scene.settings.harmonics.chosen();
-  const double cost = chosen ? std::max(chosen_cost, of_method) : of_method;
-  return iterations_per_curve * n_points * cost;
-}
 
 /// @param model  where effects are decided, else nullptr.
 void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
   if (!scene.response) return;
-  const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
-  const double n_curves = static_cast<double>(curve_requests(scene).size()) + searches;
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
   const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
-  forecast.curves_seconds = n_curves * curve_seconds(scene, is_on);
+  forecast.curves_seconds = curves_seconds(scene, method_of(scene, is_on));
   if (model == nullptr && along_r == automatic) {
-    forecast.curves_seconds_along_r = n_curves * curve_seconds(scene, true);
+    forecast.curves_seconds_along_r = curves_seconds(scene, method_of(scene, true));
   }
 }
 
@@ -92,10 +70,7 @@ void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
 
 void describe(const std::vector<EffectRecord>& effects, std::ostream& out) {
   out << "effects:\n";
-  for (const EffectRecord& effect : effects) {
-    fmt::print(out, "  {:<17}{:<4} {}\n", effect.name, effect.simulated ? "yes" : "no",
-               effect.reason);
-  }
+  for (const std::string& line : effect_lines(effects)) out << "  " << line << '\n';
 }
 
 void describe_modes(const ModalModel& modal, const ReducedModel& model, std::ostream& out) {
@@ -175,6 +150,7 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
   }
   ask(result, scene, mesh);
   if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
+  if (has_static_preload(scene)) out << describe_static_preload(mesh, scene) << '\n';
   if (!picture.empty()) {
     const std::string failure = draw_scene(mesh, scene, picture);
     if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
@@ -204,6 +180,10 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
     add_curves(scene, &model, result.forecast);
   } else {
     check_meshed(scene, picture, result, out);
+  }
+  for (const EffectRecord& effect : result.effects) {
+    if (effect.objection.empty()) continue;
+    result.warnings.push_back(fmt::format("effects.{}: {}", effect.name, effect.objection));
   }
   for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
   describe(result.effects, out);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
@@ -109,6 +110,7 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
     budgets[i] = error_budget(model, scene, richer, curves[i]);
+    if (!cut_short()) budgets[i].left_out = rows_left_out(model, scene, curves[i]);
     if (budgets[i].has_bar()) {
       curves[i].bar = bar_of(budgets[i].rows, curves[i].name, peak_amplitude_goal);
     }

@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <cmath>
+#include <exception>
+#include <iostream>
 #include <numbers>
 #include <ostream>
 #include <set>
@@ -60,7 +62,13 @@ std::string describe(const std::string& curve, const solver::ResponsePoint& poin
 Progress::Progress(std::ostream& out, bool terminal, Verbosity verbosity)
     : out_(out), terminal_(terminal), verbosity_(verbosity) {}
 
-Progress::~Progress() { finish(); }
+Progress::~Progress() {
+  try {
+    finish();
+  } catch (const std::exception& error) {  // while another one ends the run: no memory for words
+    std::cerr << error.what() << '\n';
+  }
+}
 
 void Progress::keep_in(const std::filesystem::path& folder, RunStart start) {
   const std::lock_guard lock(mutex_);
@@ -155,6 +163,11 @@ void Progress::settle(const std::string& curve, const std::vector<solver::Respon
 }
 
 void Progress::info(const std::string& sentence) { say(Level::info, sentence); }
+
+void Progress::note(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  log(Level::info, sentence);
+}
 
 void Progress::warning(const std::string& sentence) {
   {

@@ -54,6 +54,8 @@ class Progress {
   /// @throws ExhaustedError  it cannot be.
   void settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points);
   void info(const std::string& sentence);
+  /// To the log alone.
+  void note(const std::string& sentence);
   void warning(const std::string& sentence);
   /// The error that ends a run: to the log; the program prints it itself.
   void error(const std::string& sentence);

@@ -14,8 +14,8 @@
 #include <Eigen/Geometry>
 
 #include "mesh/surface.hpp"
+#include "pipelines/import/named_points.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/named_points.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/curve_request.hpp"

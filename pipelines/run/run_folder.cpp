@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -44,7 +45,10 @@ constexpr std::array result_names{"curves",
 int lock_folder(const fs::path& folder) {
   const fs::path file = folder / ".lock";
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw ExhaustedError("cannot write in " + folder.string());
+  if (descriptor < 0) {
+    throw ExhaustedError(fmt::format("{}: cannot be written: {}; remove it, or choose another -o",
+                                     file.string(), std::system_category().message(errno)));
+  }
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor);
     throw ExhaustedError("another run is writing in " + folder.string() + "; choose another -o");

@@ -8,6 +8,7 @@
 
 #include "contact/contact_force.hpp"
 #include "fem/slepc_session.hpp"
+#include "pipelines/effect_table.hpp"
 #include "pipelines/response/response_stage.hpp"
 
 namespace microslip::pipelines {
@@ -20,14 +21,15 @@ constexpr double to_hz = 0.5 / std::numbers::pi;
 std::vector<std::string> modes_text(const StructureModes& modes) {
   std::vector<std::string> lines = modes.notes;
   const bool solved = modes.basis.residual.size() > 0;  // else they are given
-  if (solved) lines.push_back(fmt::format("BLAS: {}", fem::blas_description()));
-  if (solved)
+  if (modes.timings.eigensolve > 0.0) {                 // not in an earlier run
+    lines.push_back(fmt::format("BLAS: {}", fem::blas_description()));
     lines.push_back(
         fmt::format("modes: {} degrees of freedom; assembly {:.2f} s, ordering {:.2f} s, "
                     "factorisation {:.2f} s, "
                     "eigensolve {:.2f} s, inertia count {:.2f} s",
                     modes.n_dofs, modes.timings.assembly, modes.timings.ordering,
                     modes.timings.factorisation, modes.timings.eigensolve, modes.timings.inertia));
+  }
   if (modes.basis.n_rigid_body > 0) {
     lines.push_back(fmt::format("{} rigid-body modes: nothing holds the structure against them",
                                 modes.basis.n_rigid_body));
@@ -75,7 +77,6 @@ std::vector<std::string> detached_text(const CurveResult& result) {
 }
 
 std::string left_out_text(const CurveResult& result) {
-  constexpr double worth_a_word = 0.02;
   if (!result.richer || result.curve.points.empty()) return {};
   const solver::RicherPeak& richer = *result.richer;
   const int given = result.curve.points.front().q.n_harmonics();
@@ -86,7 +87,7 @@ std::string left_out_text(const CurveResult& result) {
         "curve; set response.harmonics = {} or \"auto\"",
         result.name, richer.highest, given, richer.highest);
   }
-  if (std::abs(*richer.change) < worth_a_word) return {};
+  if (std::abs(*richer.change) < worth_a_warning) return {};
   return fmt::format(
       "curve {}: with harmonics up to {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put "
       "it {:.0f} % too "

@@ -14,10 +14,11 @@ struct RunOptions {
   int jobs = 1;                  ///< curves traced at the same time, ≥ 1
   Verbosity verbosity = Verbosity::normal;
   RunStart start = RunStart::anew;
+  std::filesystem::path
+      cache;            ///< of results of earlier runs (system/result_cache.hpp); empty: none
   bool plots = true;    ///< pictures and report.html; report.md is always written
   bool maps = true;     ///< contact maps and the motion at the peaks
   bool bracket = true;  ///< the search for a best value again with other contact data
-  int rank = 0;         ///< MPI rank: rank 0 alone writes
 };
 
 }  // namespace microslip::pipelines

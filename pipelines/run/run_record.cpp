@@ -25,7 +25,7 @@
 #include "pipelines/files/write_vtk.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/effects.hpp"
-#include "pipelines/response/harmonics_effect.hpp"
+#include "pipelines/response/effects_of_curves.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/run_folder.hpp"
 #include "pipelines/run/run_messages.hpp"
@@ -53,13 +53,12 @@ std::filesystem::path earlier_summary(const std::filesystem::path& folder) {
 RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
     : folder_(options.output),
       start_(is_begun(folder_) ? options.start : RunStart::anew),
+      place_(folder_, start_),
+      staged_(place_.staged()),
       checkpoint_(folder_, start_ == RunStart::resumed),
       refines_(scene.accuracy.tolerance > 0.0),
-      rank_(options.rank),
       plots_(options.plots),
-      writes_(options.rank == 0),
-      progress_(std::cerr, ::isatty(STDERR_FILENO) == 1,
-                writes_ ? options.verbosity : Verbosity::quiet) {
+      progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, options.verbosity) {
   summary_.version = MICROSLIP_VERSION;
   summary_.scene = scene.file.filename().string();
   summary_.title = scene.title;
@@ -68,9 +67,6 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
   summary_.machine = describe_machine();
   summary_.libraries = library_versions();
   summary_.effects = effects_of(scene, nullptr);
-  if (!writes_) return;
-  place_.emplace(folder_, start_);
-  staged_ = place_->staged();
   scene_toml_ = scene.complete_toml;
   // An earlier run's scene, log and checkpoint stay until this scene has proved itself.
   if (start_ == RunStart::resumed || !std::filesystem::exists(folder_ / "summary.json")) {
@@ -82,7 +78,7 @@ RunRecord::RunRecord(const SceneDescription& scene, const RunOptions& options)
 }
 
 void RunRecord::begin() {
-  if (begun_ || !writes_) return;
+  if (begun_) return;
   begun_ = true;
   checkpoint_.begin(scene_toml_);
   progress_.keep_in(folder_, start_);
@@ -102,10 +98,17 @@ void RunRecord::restore_summary() {
   std::filesystem::rename(earlier_summary(folder_), folder_ / "summary.json");
 }
 
-std::filesystem::path RunRecord::mesh_file() const {
-  if (writes_) return staged_ / "mesh.msh";
-  return std::filesystem::temp_directory_path() /
-         fmt::format("microslip_rank{}_{}.msh", rank_, ::getpid());
+std::filesystem::path RunRecord::mesh_file() const { return staged_ / "mesh.msh"; }
+
+void RunRecord::keep_inputs(const SceneDescription& scene) {
+  // Before it has begun nothing is kept, and an earlier run's checkpoint is not its own.
+  if (!begun_ || !resumable_) return;
+  make_folder(folder_ / "checkpoint" / "inputs");
+  int number = 0;  // two of them may have one name
+  for (const std::filesystem::path& file : files_of_structure(scene)) {
+    checkpoint_.require_same(fmt::format("inputs/{}", ++number), fingerprint_of(file),
+                             file.string());
+  }
 }
 
 std::optional<std::filesystem::path> RunRecord::finished_mesh() const {
@@ -123,13 +126,7 @@ std::optional<CurveResult> RunRecord::finished_curve(const std::string& name) co
 }
 
 void RunRecord::keep_finished(const CurveResult& result) const {
-  if (writes_ && resumable_) checkpoint_.keep("curves/" + result.name, result);
-}
-
-RunRecord::~RunRecord() {
-  if (writes_) return;
-  std::error_code ignored;  // a file of our own in the temporary folder
-  std::filesystem::remove(mesh_file(), ignored);
+  if (resumable_) checkpoint_.keep("curves/" + result.name, result);
 }
 
 int RunRecord::run(const std::function<void()>& stages) {
@@ -150,7 +147,7 @@ int RunRecord::run(const std::function<void()>& stages) {
       progress_.error(error.what());
     }
     fail(ExitCode::incomplete, "interrupted: the same command with --resume goes on");
-    if (place_) place_->unlock();
+    place_.unlock();
     std::_Exit(static_cast<int>(ExitCode::incomplete));
   });
   try {
@@ -172,9 +169,9 @@ int RunRecord::finish() {
   const std::lock_guard lock(mutex_);
   summary_.exit_code = verdict();
   summary_.message = ending();
-  if (place_) place_->remove_earlier();
+  place_.remove_earlier();
   write_summary_file();
-  if (writes_) checkpoint_.end();
+  checkpoint_.end();
   return static_cast<int>(summary_.exit_code);
 }
 
@@ -187,23 +184,23 @@ void RunRecord::stage(const std::string& name) {
 }
 
 void RunRecord::show_stage() {
-  if (!place_ || !begun_) return;
+  if (!begun_) return;
   const std::lock_guard lock(mutex_);
-  place_->publish();
-  place_->remove_superseded();
+  place_.publish();
+  place_.remove_superseded();
   shown_ = summary_.curves;
 }
 
 void RunRecord::show_what_is_new() {
-  if (!place_ || !begun_ || place_->would_replace()) return;
-  place_->publish();
+  if (!begun_ || place_.would_replace()) return;
+  place_.publish();
   shown_ = summary_.curves;
 }
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   begin();
   show_stage();  // before the checkpoint says that the mesh is in its place
-  if (writes_ && resumable_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
+  if (resumable_) checkpoint_.require_same("mesh", fingerprint_of(mesh), "the mesh");
   progress_.info(describe_mesh(mesh, density));
   for (const std::string& warning : mesh::shape_warnings(mesh)) progress_.warning(warning);
   const std::lock_guard lock(mutex_);
@@ -220,7 +217,6 @@ void RunRecord::keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
   const Eigen::Index n_attachment = modes.basis.n_attachment;
   summary_.modes =
       summarise_modes(modes.basis.frequency, damping_ratio, modes.basis.residual, {}, n_attachment);
-  if (!writes_) return;
   if (resumable_ && !checkpoint_.find<StructureModes>("modes")) checkpoint_.keep("modes", modes);
   write_modes_csv(staged_ / "modes.csv",
                   {modes.basis.frequency, modes.basis.residual, damping_ratio, {}, n_attachment});
@@ -236,13 +232,27 @@ void RunRecord::begin_again() {
   const std::lock_guard lock(mutex_);
   summary_.curves.clear();
   summary_.error_budget.clear();
+  left_out_.clear();
   resumable_ = false;
-  if (writes_) checkpoint_.forget_parts();
+  checkpoint_.forget_parts();
 }
 
-void RunRecord::keep_bounds() {
+void RunRecord::keep_bounds(double tolerance) {
   const std::lock_guard lock(mutex_);
-  tell_bounds(summary_.error_budget, summary_.effects);
+  std::vector<ErrorRow> rows = summary_.error_budget;
+  rows.insert(rows.end(), left_out_.begin(), left_out_.end());
+  tell_bounds(rows, tolerance, summary_.effects);
+}
+
+void RunRecord::tell_effects() {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& line : effect_lines(summary_.effects)) progress_.note(line);
+  for (const EffectRecord& effect : summary_.effects) {
+    // What harmonics given do to a peak is told with its curve.
+    const bool is_told = effect.name == "higher_harmonics" && effect.bound;
+    if (effect.objection.empty() || is_told) continue;
+    progress_.warning(fmt::format("effects.{}: {}", effect.name, effect.objection));
+  }
 }
 
 void RunRecord::keep_accuracy(AccuracySummary accuracy) {
@@ -250,9 +260,9 @@ void RunRecord::keep_accuracy(AccuracySummary accuracy) {
   summary_.accuracy = std::move(accuracy);
 }
 
-void RunRecord::keep_harmonics(const SceneDescription& scene) {
+void RunRecord::keep_choices(const SceneDescription& scene) {
   const std::lock_guard lock(mutex_);
-  tell_harmonics(scene, summary_.curves, summary_.effects);
+  tell_curves(scene, summary_.curves, summary_.effects);
 }
 
 void RunRecord::keep_model(const ReducedModel& model) {
@@ -268,7 +278,6 @@ void RunRecord::keep_model(const ReducedModel& model) {
   const Eigen::VectorXd fit_error = worst_fit_error(model);
   summary_.modes = summarise_modes(model.frequency, model.damping_ratio, residual, fit_error,
                                    model.n_attachment);
-  if (!writes_) return;
   write_modes_csv(staged_ / "modes.csv",
                   {model.frequency, residual, model.damping_ratio, fit_error, model.n_attachment});
   write_model(staged_ / "model.h5", model);
@@ -311,7 +320,9 @@ void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, d
 
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
-  progress_.info(outcome_text(result));
+  const bool told =
+      curve.complete || curve.diagnosis == "interrupted";  // that is the end of the whole run
+  told ? progress_.info(outcome_text(result)) : progress_.warning(outcome_text(result));
   CurveSummary summary = summarise(result);
   if (const auto* load = std::get_if<double>(&result.preload);
       load != nullptr && !model.patches.empty()) {
@@ -341,7 +352,6 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   const std::lock_guard lock(mutex_);
   unfinished_.erase(result.name);
   summary_.curves.push_back(std::move(summary));
-  if (!writes_) return;
   write_curve(staged_, result, model.frequency.size());
   show_what_is_new();
 }
@@ -365,19 +375,19 @@ void RunRecord::keep_unfinished() {
     progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
                                curve.points.size(), curve.message));
     summary_.curves.push_back(summarise(result));
-    if (writes_) write_curve(staged_, result, curve.points.back().q.rows().cols());
+    write_curve(staged_, result, curve.points.back().q.rows().cols());
   }
   unfinished_.clear();
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
   const std::lock_guard lock(mutex_);
-  if (writes_) write_map(staged_ / "maps", model.patches.at(map.patch), map);
+  write_map(staged_ / "maps", model.patches.at(map.patch), map);
   summary_.curves.at(curve).maps.push_back(map.name);
 }
 
 void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
-  if (!structure_ || !writes_) return;  // a modal scene has no body to draw
+  if (!structure_) return;  // a modal scene has no body to draw
   write_motion(staged_ / "motion", name, structure_->mesh, structure_->basis, point.q,
                to_hz * point.frequency);
 }
@@ -389,7 +399,8 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
                                                  : " of the points' preload";
   const std::string what =
       request.of_preload() ? "best preload"
-                           : fmt::format("best {} under preload {:g}", request.key, request.load);
+      : request.load       ? fmt::format("best {} under preload {:g}", request.key, *request.load)
+                           : fmt::format("best {} under the static preload", request.key);
   progress_.info(optimum.found ? fmt::format("{}: {:.6g}{}, {}", what, optimum.best.parameter, unit,
                                              amplitude_text(optimum.best))
                                : fmt::format("{}: not found: {}{}", what, optimum.message,
@@ -401,7 +412,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   summary.request = request;
   summary.optimum = optimum;
   if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
-  if (writes_) write_optimum_csv(staged_, request, optimum);
+  write_optimum_csv(staged_, request, optimum);
 }
 
 void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result,
@@ -409,10 +420,11 @@ void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result
   if (const std::string text = budget_text(budget); !text.empty()) progress_.info(text);
   const std::lock_guard lock(mutex_);
   summary_.error_budget.insert(summary_.error_budget.end(), budget.rows.begin(), budget.rows.end());
+  left_out_.insert(left_out_.end(), budget.left_out.begin(), budget.left_out.end());
   for (CurveSummary& curve : summary_.curves) {
     if (curve.name == result.name) curve.not_in_bar = budget.unknown;
   }
-  if (writes_ && result.bar) write_curve(staged_, result, model.frequency.size());
+  if (result.bar) write_curve(staged_, result, model.frequency.size());
 }
 
 void RunRecord::keep_bracket(OptimumBracket bracket) {
@@ -432,7 +444,6 @@ void RunRecord::keep_bracket(OptimumBracket bracket) {
 }
 
 void RunRecord::keep_report() {
-  if (!writes_) return;
   RunSummary ended;
   {
     const std::lock_guard lock(mutex_);
@@ -453,13 +464,12 @@ void RunRecord::keep_report() {
 void RunRecord::write_summary_file() {
   summary_.stages = progress_.stages();
   summary_.warnings = progress_.warnings();
-  if (writes_ && begun_) write_summary(folder_ / "summary.json", summary_);
+  if (begun_) write_summary(folder_ / "summary.json", summary_);
 }
 
 void RunRecord::fail(ExitCode code, const std::string& message) {
   progress_.error(message);
   progress_.finish();
-  if (!writes_) return;
   const std::lock_guard lock(mutex_);
   try {
     if (begun_) {
@@ -476,7 +486,7 @@ void RunRecord::tell_failure(ExitCode code, const std::string& message) {
   summary_.exit_code = code;
   summary_.message = message;
   show_what_is_new();
-  if (place_->would_replace()) {
+  if (place_.would_replace()) {
     summary_.curves = shown_;
     summary_.message +=
         "; what the stage had finished is kept for --resume, the results of the run before stay";

@@ -30,17 +30,20 @@ class RunRecord {
  public:
   /// Creates the run folder, its lock and log, and writes scene.toml. In the folder of an earlier run that
   /// waits until mesh or model of this one are there: bad input costs nothing. Its results stay until those
-  /// of this one's stages take their places. On MPI ranks above 0 nothing is written by any member.
+  /// of this one's stages take their places.
   /// @throws SceneError, ExhaustedError  as RunFolder.
   RunRecord(const SceneDescription& scene, const RunOptions& options);
-  ~RunRecord();
+  ~RunRecord() = default;
   RunRecord(const RunRecord&) = delete;
   RunRecord& operator=(const RunRecord&) = delete;
   RunRecord(RunRecord&&) = delete;
   RunRecord& operator=(RunRecord&&) = delete;
 
-  /// Where the mesher writes, a mesh.msh of the run; MPI ranks above 0 mesh for themselves.
+  /// Where the mesher writes.
   [[nodiscard]] std::filesystem::path mesh_file() const;
+  /// The files from which mesh and modes come: of a run that goes on those it was begun with.
+  /// @throws SceneError  one of them has changed since.
+  void keep_inputs(const SceneDescription& scene);
   /// The mesh.msh that a run which is resumed has left; empty: none.
   [[nodiscard]] std::optional<std::filesystem::path> finished_mesh() const;
   /// What a run that is resumed has finished; empty: to be solved.
@@ -66,12 +69,14 @@ class RunRecord {
   void keep_model(const ReducedModel& model);
   /// Forgets curves and errors, and what a resumed run would start from: those of finer settings come.
   void begin_again();
-  /// What the budgets kept so far say about effects left out.
-  void keep_bounds();
+  /// What the budgets kept so far say about effects left out. @param tolerance  of the peaks.
+  void keep_bounds(double tolerance);
+  /// The table of effects to the log, and a warning of each that is left out and should not be.
+  void tell_effects();
   /// The accuracy asked for and whether it is reached.
   void keep_accuracy(AccuracySummary accuracy);
-  /// What the curves kept so far say about the harmonics chosen.
-  void keep_harmonics(const SceneDescription& scene);
+  /// What the curves kept so far say about the effects chosen.
+  void keep_choices(const SceneDescription& scene);
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
   /// A point of a curve that is being solved: kept, should the process have to end within it.
@@ -119,20 +124,19 @@ class RunRecord {
   void restore_summary();
 
   std::filesystem::path folder_;
-  std::optional<RunFolder> place_;  ///< on MPI rank 0
-  std::filesystem::path staged_;    ///< where files are written
   RunStart start_;
+  RunFolder place_;
+  std::filesystem::path staged_;  ///< where files are written
   Checkpoint checkpoint_;
   std::string scene_toml_;
   bool refines_;  ///< what is left out is taken in by itself, without being told to
   bool begun_ = false;
   bool resumable_ = true;  ///< what is kept is what a resumed run would find again
-  int rank_;
-  bool plots_;   ///< or report.md alone
-  bool writes_;  ///< false on MPI ranks above 0
+  bool plots_;             ///< or report.md alone
   Progress progress_;
   std::mutex mutex_;  ///< of summary_: curves finish on several threads, an interrupt on its own
   RunSummary summary_;
+  std::vector<ErrorRow> left_out_;  ///< by effects, under mutex_
   std::vector<CurveSummary>
       shown_;  ///< those of summary_ whose files are in their places, under mutex_
   std::map<std::string, CurveResult> unfinished_;  ///< under mutex_

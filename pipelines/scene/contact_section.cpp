@@ -138,6 +138,44 @@ void read_preload(SectionReader& s, const std::filesystem::path& folder,
   }
 }
 
+/// preload = "static", and what does not go with it.
+void read_static_preload(const SectionReader& s, ContactDescription& contact) {
+  if (!s.given("preload")) {
+    if (s.given("gap")) {
+      s.fail(
+          "gap",
+          "goes with preload = \"static\"; the gap of a curve is response.preload = [{ gap = … }]",
+          s.node("gap"));
+    }
+    return;
+  }
+  constexpr std::array<std::string_view, 1> words{"static"};
+  static_cast<void>(s.word("preload", words));
+  contact.static_preload = s.place("preload");
+  if (s.given("gap")) contact.gap = s.number("gap");
+  const char* other = contact.preload_field                            ? "preload_field"
+                      : contact.preload_moment != std::array{0.0, 0.0} ? "preload_moment"
+                      : contact.preload_share                          ? "preload_share"
+                                                                       : nullptr;
+  if (other != nullptr) {
+    s.fail(other, "preload = \"static\" has a shape of its own: leave one of the two out",
+           s.node(other));
+  }
+  if (!contact.normal_stiffness || *contact.normal_stiffness == 0.0) {
+    s.fail("normal_stiffness",
+           "preload = \"static\" needs the stiffness of the layer between the bodies in N/m^3, "
+           "above 0",
+           s.node("normal_stiffness"));
+  }
+  if (contact.rules.roughness) {
+    s.fail(
+        "roughness",
+        "preload = \"static\" is solved with a layer of constant stiffness; give preload_field for "
+        "rough surfaces",
+        s.node("roughness"));
+  }
+}
+
 void read_fit(const SectionReader& s, PatchSettings& patch) {
   const toml::node& fit = *s.node("fit");
   if (const auto word = fit.value<std::string>(); word && fit.is_string()) {
@@ -220,13 +258,14 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
   rules.roughness = read_roughness(s);
   read_preload(s, folder, contact);
+  read_static_preload(s, contact);
   contact.wear_coefficient = s.number("wear_coefficient");
   return contact;
 }
 
 PatchSettings read_patch_settings(const SectionReader& s) {
   PatchSettings patch;
-  patch.n_points = s.integer("points");
+  if (s.given("points")) patch.n_points = s.integer("points");
   read_fit(s, patch);
   return patch;
 }

@@ -14,6 +14,7 @@ CurveRequest request_of(const PreloadEntry& entry) {
   if (const auto* gap = std::get_if<UniformGap>(&entry)) {
     return {fmt::format("gap_{:g}um", 1e6 * gap->width), *gap};
   }
+  if (std::holds_alternative<StaticPreload>(entry)) return {"preload_static", entry};
   return {fmt::format("preload_{:g}", std::get<double>(entry)), std::get<double>(entry)};
 }
 

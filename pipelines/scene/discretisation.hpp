@@ -3,6 +3,8 @@
 /// model of the same scene is the same description with other settings (model/model_family.hpp).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,7 +26,7 @@ struct BasisSettings {
 struct PatchSettings {
   enum class Fit : std::uint8_t { automatic, degree, none } fit = Fit::automatic;
   int fit_degree = 0;
-  int n_points = 300;  ///< at least so many contact points
+  std::optional<int> n_points{};  ///< at least so many contact points; none: contact_points()
 };
 
 struct HarmonicSettings {
@@ -47,5 +49,21 @@ struct Discretisation {
   HarmonicSettings harmonics;
   enum class Choice : std::uint8_t { automatic, on, off } second_direction = Choice::automatic;
 };
+
+/// Contact points of a picture.
+inline constexpr int points_of_maps = 300;
+
+/// At least so many in a patch. Those of several harmonics cost time: 96 err by 0.14 % of a peak on the default blade, n by
+/// 0.13/n, which may be a seventh of the tolerance of chosen harmonics.
+[[nodiscard]] inline int contact_points(const Discretisation& settings, std::size_t patch) {
+  if (settings.patches[patch].n_points) return *settings.patches[patch].n_points;
+  const HarmonicSettings& harmonics = settings.harmonics;
+  if (!harmonics.chosen() && harmonics.highest == 1) return points_of_maps;
+  constexpr double per_tolerance = 0.9;
+  constexpr double fewest = 90.0;  // fewer are kinks, not a smooth sum
+  constexpr double most = 4800.0;
+  const double wanted = harmonics.chosen() ? per_tolerance / harmonics.tolerance : fewest;
+  return static_cast<int>(std::clamp(wanted, fewest, most));
+}
 
 }  // namespace microslip::pipelines

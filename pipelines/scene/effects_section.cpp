@@ -2,80 +2,181 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "pipelines/text/scene_keys.hpp"
+#include "pipelines/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
 
-/// An effect that a key of another section switches: a setting that contradicts it is refused.
-void check_effect_of_key(const SectionReader& s, std::string_view name, const std::string& setting,
-                         const SceneDescription& scene) {
-  const bool has = name == "higher_harmonics" ? scene.settings.harmonics.highest > 1
-                   : name == "roughness"      ? is_rough(scene)
-                                              : is_rate_dependent(scene);
-  const char* key = name == "higher_harmonics" ? "response.harmonics"
-                    : name == "roughness"      ? "contact.roughness"
-                                               : "a law of contact.friction_coefficient";
-  if (setting == "on" && !has) s.fail(name, fmt::format("needs {}", key), s.node(name));
-  if (setting == "off" && has) {
-    s.fail(name, fmt::format("contradicts {}: leave that out", key), s.node(name));
-  }
+const ModalModel* modal_of(const SceneDescription& scene) {
+  return std::get_if<ModalModel>(&scene.model);
 }
 
-/// Effects that may be left out, each alone.
-void check_off(const SectionReader& s, std::string_view name, const SceneDescription& scene,
-               bool has_residual) {
-  if (name == "separation" || name == "mean_coupling") {
-    s.fail(name, "is part of the normal motion: switch effects.normal_motion off", s.node(name));
-  }
-  if (name == "stability") {
-    s.fail(name, "cannot be switched off: the steps along a curve use it; expected auto or on",
-           s.node(name));
-  }
-  if (name == "residual" && has_residual) {
-    s.fail(name, "contradicts modes.residual: give modes.residual = \"none\"", s.node(name));
-  }
-  if (name == "normal_motion" && is_rough(scene)) {
-    s.fail(name, "contradicts contact.roughness: rough surfaces are felt by normal motion",
-           s.node(name));
-  }
+bool has_contact(const SceneDescription& scene) {
+  const ModalModel* modal = modal_of(scene);
+  return modal != nullptr ? !modal->points.empty() : !scene.contacts.empty();
 }
+
+bool lacks_contact(const SceneDescription& scene) { return !has_contact(scene); }
+
+bool has_constant_load(const SceneDescription& scene) {
+  if (const ModalModel* modal = modal_of(scene)) {
+    return std::ranges::none_of(modal->points,
+                                [](const auto& point) { return point.normal_stiffness > 0.0; });
+  }
+  return std::ranges::none_of(scene.contacts, [](const ContactDescription& contact) {
+    return contact.normal_stiffness.value_or(1.0) > 0.0;
+  });
+}
+
+bool lacks_normal_motion(const SceneDescription& scene) {
+  return setting_of(scene, "normal_motion") == "off";
+}
+
+bool has_normal_motion(const SceneDescription& scene) { return !lacks_normal_motion(scene); }
+
+/// The motion along r of given modes; the modes of a mesh have one.
+bool lacks_motion_along_r(const SceneDescription& scene) {
+  const ModalModel* modal = modal_of(scene);
+  return modal != nullptr && (modal->shapes.w.size() == 0 || modal->shapes.w.isZero(0.0));
+}
+
+bool has_harmonics(const SceneDescription& scene) { return scene.settings.harmonics.highest > 1; }
+bool lacks_harmonics(const SceneDescription& scene) { return !has_harmonics(scene); }
+bool is_smooth(const SceneDescription& scene) { return !is_rough(scene); }
+bool has_constant_friction(const SceneDescription& scene) { return !is_rate_dependent(scene); }
+bool lacks_area(const SceneDescription& scene) { return !has_area(scene); }
+
+bool has_residual(const SceneDescription& scene) {
+  return scene.settings.basis.residual != ResidualKind::none;
+}
+bool lacks_residual(const SceneDescription& scene) { return !has_residual(scene); }
+
+bool rotates(const SceneDescription& scene) {
+  return scene.rotation && scene.rotation->speed > 0.0;
+}
+bool is_at_rest(const SceneDescription& scene) { return !rotates(scene); }
+
+bool lacks_wear(const SceneDescription& scene) { return !has_wear(scene); }
+bool has_maps(const SceneDescription& scene) {
+  return scene.response && !scene.response->maps.empty();
+}
+bool lacks_maps(const SceneDescription& scene) { return !has_maps(scene); }
+
+bool searches(const SceneDescription& scene) {
+  return scene.response && scene.response->search_starts.value_or(0) > 0;
+}
+bool refuses_to_search(const SceneDescription& scene) {
+  return scene.response && scene.response->search_starts == 0;
+}
+bool goes_in_time(const SceneDescription& scene) {
+  return scene.response && scene.response->method == ResponseDescription::Method::time;
+}
+
+/// Curves beside the two limits.
+bool asks_for_preloads(const SceneDescription& scene) {
+  if (!scene.response || lacks_contact(scene)) return false;
+  const auto& preload = scene.response->preload;
+  return preload.empty() || std::ranges::any_of(preload, [](const PreloadEntry& entry) {
+           return !std::holds_alternative<LimitName>(entry);
+         });
+}
+
+bool always(const SceneDescription&) { return true; }
+
+/// What one setting of an effect cannot stand beside.
+struct Contradiction {
+  std::string_view effect, setting;
+  bool (*is_there)(const SceneDescription&);
+  std::string_view why;  ///< names the other key
+};
+
+constexpr std::string_view no_normal_stiffness =
+    "needs normal_stiffness in [contact], or at a contact point: the load is constant";
+constexpr std::string_view part_of_normal_motion =
+    "is part of the normal motion: switch effects.normal_motion off";
+constexpr std::string_view without_normal_motion =
+    "contradicts effects.normal_motion = \"off\": then the load stays that of rest";
+
+constexpr std::array contradictions{
+    Contradiction{"nonlinearity", "on", lacks_contact, "needs a [contact]"},
+    Contradiction{"nonlinearity", "off", asks_for_preloads,
+                  "contradicts response.preload (or preload_scale): contact without it is one of "
+                  "the limits, response.preload = [\"free\", \"stuck\"]"},
+    Contradiction{"normal_motion", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"normal_motion", "off", is_rough,
+                  "contradicts contact.roughness: rough surfaces are felt by normal motion"},
+    Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
+    Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"separation", "off", has_normal_motion, part_of_normal_motion},
+    Contradiction{"mean_coupling", "on", lacks_normal_motion, without_normal_motion},
+    Contradiction{"mean_coupling", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"mean_coupling", "off", has_normal_motion, part_of_normal_motion},
+    Contradiction{"second_direction", "on", lacks_motion_along_r,
+                  "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
+                  "have none)"},
+    Contradiction{"higher_harmonics", "on", lacks_harmonics, "needs response.harmonics above 1"},
+    Contradiction{"higher_harmonics", "off", has_harmonics,
+                  "contradicts response.harmonics: leave that out"},
+    Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
+    Contradiction{"roughness", "off", is_rough, "contradicts contact.roughness: leave that out"},
+    Contradiction{"rate_dependence", "on", has_constant_friction,
+                  "needs a law of contact.friction_coefficient"},
+    Contradiction{"rate_dependence", "off", is_rate_dependent,
+                  "contradicts a law of contact.friction_coefficient: leave that out"},
+    Contradiction{"moments", "on", lacks_area,
+                  "needs an area: cells and size in contact.points, or p and r of modal.points"},
+    Contradiction{"moments", "off", has_area,
+                  "contradicts the area of the contact (its cells and preload_moment): give one "
+                  "contact point"},
+    Contradiction{"residual", "on", lacks_residual,
+                  "cannot be on: modal scenes and modes.residual = \"none\" have no residual"},
+    Contradiction{"residual", "off", has_residual,
+                  "contradicts modes.residual: give modes.residual = \"none\""},
+    Contradiction{"local_frames", "on", always,
+                  "cannot be on: a contact has one frame, from contact.slip_direction and its mean "
+                  "plane; several [[contact]] have one each"},
+    Contradiction{
+        "static_preload", "on", always,
+        "cannot be on: pressure at rest is not computed here; give contact.preload_field"},
+    Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
+    Contradiction{"centrifugal", "off", rotates, "contradicts static.speed: leave that out"},
+    Contradiction{"stability", "off", always,
+                  "cannot be switched off: the steps along a curve use it; expected auto or on"},
+    Contradiction{"wear", "on", lacks_wear, "needs contact.wear_coefficient"},
+    Contradiction{"wear", "on", lacks_maps, "needs response.maps, which it is drawn in"},
+    Contradiction{"wear", "off", has_wear, "contradicts contact.wear_coefficient: leave that out"},
+    Contradiction{"maps", "on", lacks_maps, "needs response.maps"},
+    Contradiction{"maps", "off", has_maps, "contradicts response.maps: leave that out"},
+    Contradiction{"coexistence", "on", refuses_to_search,
+                  "contradicts response.search_starts = 0: leave that out"},
+    Contradiction{"coexistence", "on", goes_in_time,
+                  "needs response.method = \"harmonic_balance\": integration in time follows one "
+                  "motion"},
+    Contradiction{"coexistence", "off", searches,
+                  "contradicts response.search_starts: leave that out"},
+};
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> read_effects(const SectionReader& s,
-                                                              const SceneDescription& scene) {
-  const bool has_residual = scene.settings.basis.residual != ResidualKind::none;
-  // Simulated where the scene asks for them elsewhere.
-  constexpr std::array<std::string_view, 3> by_key{"higher_harmonics", "roughness",
-                                                   "rate_dependence"};
-  std::vector<std::pair<std::string, std::string>> effects;
-  for (const KeySpec& key : section_spec("effects").keys) {
-    const std::string setting = s.word(key.name, settings);
-    if (std::find(by_key.begin(), by_key.end(), key.name) != by_key.end()) {
-      check_effect_of_key(s, key.name, setting, scene);
-    } else if (setting == "off") {
-      check_off(s, key.name, scene, has_residual);
-    }
-    if (key.name == "residual" && setting == "on" && !has_residual) {
-      s.fail(key.name, "cannot be on: modal scenes and modes.residual = \"none\" have no residual",
-             s.node(key.name));
-    }
-    effects.emplace_back(key.name, setting);
+void read_effects(const SectionReader& s, SceneDescription& scene) {
+  for (const EffectRow& row : effect_table) {
+    scene.effects.emplace_back(row.name, s.word(row.name, settings));
   }
-  return effects;
-}
-
-Discretisation::Choice read_second_direction(const SectionReader& s) {
+  for (const auto& [effect, setting, is_there, why] : contradictions) {
+    if (setting_of(scene, effect) == setting && is_there(scene)) {
+      s.fail(effect, fmt::format("\"{}\" {}", setting, why), s.node(effect));
+    }
+  }
   using enum Discretisation::Choice;
-  const std::string setting = s.word("second_direction", settings);
-  return setting == "on" ? on : setting == "off" ? off : automatic;
+  const std::string both = setting_of(scene, "second_direction");
+  scene.settings.second_direction = both == "on" ? on : both == "off" ? off : automatic;
 }
 
 }  // namespace microslip::pipelines

@@ -1,22 +1,15 @@
 /// @file
-/// [effects]: which of them a scene switches, and settings that contradict the rest of it.
+/// [effects]: which of them a scene switches, and settings that contradict the rest of it or each other.
 #pragma once
-
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "pipelines/scene/scene_description.hpp"
 #include "pipelines/text/section_reader.hpp"
 
 namespace microslip::pipelines {
 
-/// name → auto | on | off, in the order of the keys.
+/// Sets SceneDescription::effects, in the order of the table, and the choice of directions.
 /// @param scene  read but for its effects.
-/// @throws SceneError  a setting that another section contradicts.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> read_effects(
-    const SectionReader& s, const SceneDescription& scene);
-
-[[nodiscard]] Discretisation::Choice read_second_direction(const SectionReader& s);
+/// @throws SceneError  a setting that contradicts another key; the message names both.
+void read_effects(const SectionReader& s, SceneDescription& scene);
 
 }  // namespace microslip::pipelines

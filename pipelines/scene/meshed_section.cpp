@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -96,32 +97,53 @@ void require_step_format(const SectionReader& s, const std::string& file) {
   s.fail("file", fmt::format("\"{}\": STEP files end in .step or .stp", file), s.node("file"));
 }
 
-/// The mesh of a modes file: named, or the deck beside results of CalculiX.
+/// Meshes that are found without being named: the deck beside the modes, or the modes' own file.
+std::filesystem::path mesh_beside(const std::filesystem::path& modes) {
+  if (modes.extension() == ".med") return modes;
+  std::vector<std::string> endings;
+  if (modes.extension() == ".frd") endings = {".inp"};
+  if (is_punch_file(modes)) endings = {".bdf", ".nas", ".fem"};
+  for (const std::string& ending : endings) {
+    std::filesystem::path deck = modes;
+    deck.replace_extension(ending);
+    if (std::filesystem::exists(deck)) return deck;
+  }
+  return {};
+}
+
+/// The mesh of a modes file: named, or found beside it.
 std::filesystem::path mesh_of_modes(SectionReader& s, const std::filesystem::path& modes,
                                     const std::filesystem::path& folder) {
+  std::filesystem::path mesh = mesh_beside(modes);
   if (s.given("mesh")) {
-    std::filesystem::path mesh = absolute_file(s, "mesh", folder);
+    mesh = absolute_file(s, "mesh", folder);
     require_mesh_format(s, "mesh", mesh);
-    return mesh;
-  }
-  std::filesystem::path deck = modes;
-  deck.replace_extension(".inp");
-  if (modes.extension() != ".frd" || !std::filesystem::exists(deck)) {
+  } else if (mesh.empty()) {
     s.fail("mesh",
            "is missing; expected the file that has the mesh of the modes with names for its "
            "surfaces, e.g. the deck (.inp)");
   }
-  s.complete("mesh", deck.string());
-  return deck;
+  if (is_punch_file(modes) && !is_nastran_deck(mesh)) {
+    s.fail("mesh",
+           "a punched file tells nodes by their numbers: expected the deck these modes were "
+           "computed with (.bdf, .nas, .fem)",
+           s.node("mesh"));
+  }
+  s.complete("mesh", mesh.string());
+  return mesh;
 }
 
 void require_modes_format(const SectionReader& s, const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 3> endings{".frd", ".npz", ".csv"};
+  constexpr std::array<std::string_view, 5> endings{".frd", ".pch", ".med", ".npz", ".csv"};
   if (std::ranges::find(endings, file.extension().string()) != endings.end()) return;
-  s.fail("file",
-         fmt::format("\"{}\": modes are read from files that end in {}", file.filename().string(),
-                     fmt::join(endings, ", ")),
-         s.node("file"));
+  std::string told = fmt::format("\"{}\": modes are read from files that end in {}",
+                                 file.filename().string(), fmt::join(endings, ", "));
+  if (file.extension() == ".op2") {
+    told +=
+        "; pyNastran, which reads .op2, is no Debian package: let Nastran write the modes as text "
+        "(VECTOR(PUNCH)=ALL in the case control), or write them as .npz by a script of your own";
+  }
+  s.fail("file", told, s.node("file"));
 }
 
 bool is_rescaled(const SectionReader& s, bool has_density) {
@@ -291,24 +313,25 @@ std::string settle_residual(SectionReader& s, BasisSettings& basis,
       rigid);
 }
 
-std::vector<ForceDescription> read_forces(SectionReader& s, std::vector<PointDescription>& points) {
+std::vector<ForceDescription> read_forces(SectionReader& s, std::string_view spec,
+                                          std::vector<PointDescription>& points) {
   const toml::node& node = *s.node("forces");
   const toml::array* list = node.as_array();
   if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
+  const SectionSpec keys = section_spec(spec);
   std::vector<ForceDescription> forces;
   toml::array completed;
   for (const toml::node& entry : *list) {
     if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
     toml::table complete;
     complete.is_inline(true);
-    const SectionReader force(entry.as_table(), section_spec("force"), "excitation.forces",
-                              s.file(), complete);
+    const SectionReader force(entry.as_table(), keys, s.path() + ".forces", s.file(), complete);
     ForceDescription description;
     description.at = read_place(force, "at", points);
     description.place = force.place("at");
     description.direction = force.direction("direction");
     description.amplitude = force.number("amplitude");
-    description.phase_deg = force.number("phase");
+    if (spec == "force") description.phase_deg = force.number("phase");
     forces.push_back(description);
     completed.push_back(std::move(complete));
   }

@@ -31,8 +31,9 @@ namespace microslip::pipelines {
 /// @throws SceneError  it says attachment.
 [[nodiscard]] std::string settle_residual(SectionReader& s, BasisSettings& basis,
                                           const ContactDescription& contact);
+/// @param spec    keys of a force: "force", or "static.force", which has no phase.
 /// @param points  of the scene; coordinates of a force join them.
-[[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s,
+[[nodiscard]] std::vector<ForceDescription> read_forces(SectionReader& s, std::string_view spec,
                                                         std::vector<PointDescription>& points);
 
 }  // namespace microslip::pipelines

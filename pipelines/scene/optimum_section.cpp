@@ -105,10 +105,16 @@ std::set<double> positive_preloads(const ResponseDescription& response) {
   return positive;
 }
 
-/// The preload another key is searched under: as given, or the only positive one of the curves.
-double load_of(const SectionReader& s, const ResponseDescription& response) {
-  if (s.given("optimum_at")) return s.number_in(*s.node("optimum_at"), "optimum_at");
+/// The preload another key is searched under: as given, or the only one of the curves that presses.
+std::optional<double> load_of(const SectionReader& s, const ResponseDescription& response) {
+  if (s.given("optimum_at")) {
+    const toml::node& at = *s.node("optimum_at");
+    if (at.value<std::string>() == "static") return std::nullopt;
+    return s.number_in(at, "optimum_at");
+  }
   const std::set<double> positive = positive_preloads(response);
+  const bool of_loads = std::ranges::count(response.preload, PreloadEntry(StaticPreload{})) > 0;
+  if (positive.empty() && of_loads) return std::nullopt;
   if (positive.size() != 1) {
     s.fail("optimum_at",
            fmt::format(

@@ -108,13 +108,23 @@ void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription
         "harmonics: give the number to be written, or method = \"harmonic_balance\"",
         s.node("harmonics"));
   }
-  if (response.search_starts > 0) {
+  if (response.search_starts.value_or(0) > 0) {
     s.fail("search_starts",
            "looks for detached branches of harmonic balance; integration in time follows the "
            "motion from "
            "point to point: sweep both ways, or give method = \"harmonic_balance\"",
            s.node("search_starts"));
   }
+}
+
+/// @return empty: "auto".
+std::optional<int> search_starts_in(const SectionReader& s) {
+  const toml::node& node = *s.node("search_starts");
+  if (node.value<std::string>() == "auto") return std::nullopt;
+  if (!node.is_integer()) {
+    s.fail("search_starts", "expected a whole number, 0 to 1000, or \"auto\"", &node);
+  }
+  return s.integer("search_starts");
 }
 
 void read_method(const SectionReader& s, ResponseDescription& response) {
@@ -128,7 +138,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
   if (response.steps_per_period > 0 && response.method != ResponseDescription::Method::time) {
     s.fail("steps_per_period", "is for method = \"time\"", s.node("steps_per_period"));
   }
-  response.search_starts = s.integer("search_starts");
+  response.search_starts = search_starts_in(s);
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
@@ -136,13 +146,14 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
     const std::string word = *entry.value<std::string>();
     if (word == "free") return LimitName::free;
     if (word == "stuck") return LimitName::stuck;
+    if (word == "static") return StaticPreload{};
   }
   if (const toml::table* table = entry.as_table()) {
     toml::table complete;  // the entry itself says all there is to say
     const SectionReader gap(table, section_spec("gap"), "response.preload", s.file(), complete);
     return UniformGap{gap.number("gap")};
   }
-  constexpr std::array<std::string_view, 2> words{"free", "stuck"};
+  constexpr std::array<std::string_view, 3> words{"free", "stuck", "static"};
   return s.number_or_word_in(entry, "preload", words);
 }
 

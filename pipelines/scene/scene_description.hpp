@@ -123,7 +123,10 @@ struct ContactDescription {
   std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   FieldDescription friction;  ///< μ over the patch, in p and r from its centroid
-  std::optional<FieldDescription> preload_field;   ///< shape of the preload; none: uniform
+  std::optional<FieldDescription> preload_field;  ///< shape of the preload; none: uniform
+  /// "file:line: key" of preload = "static": that of the static loads, in place of a shape; empty: it is not.
+  std::string static_preload;
+  double gap = 0.0;  ///< before the static loads act [m]; below 0: interference
   std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
   std::optional<double> normal_stiffness;          ///< [N/m³]; without value: "rigid"
   std::optional<double> tangential_stiffness;      ///< [N/m³]; without value: "rigid"
@@ -149,6 +152,20 @@ struct ForceDescription {
   std::string place;  ///< "file:line: key" of `at`, for messages
 };
 
+/// A pressure that does not vary, against a surface from outside.
+struct PressureDescription {
+  std::string surface;
+  double pressure = 0.0;  ///< [Pa]; below 0: suction
+  std::string place;      ///< "file:line: key" of `surface`, for messages
+};
+
+/// Loads that do not vary, beside those of the rotation.
+struct StaticLoads {
+  std::vector<ForceDescription> forces;  ///< without phase
+  std::vector<PressureDescription> pressures;
+  std::string place;  ///< "file:line: key" of the first, for messages; empty: there is none
+};
+
 struct OutputDescription {
   std::string at;  ///< as that of a force
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
@@ -161,8 +178,12 @@ struct UniformGap {
   double width = 0.0;  ///< [m], > 0
   [[nodiscard]] bool operator==(const UniformGap&) const = default;
 };
-using PreloadEntry =
-    std::variant<double, LimitName, UniformGap>;  ///< [N], a linear limit, or a gap
+/// What the static loads make of it.
+struct StaticPreload {
+  [[nodiscard]] bool operator==(const StaticPreload&) const = default;
+};
+/// [N], a linear limit, a gap, or that of the static loads.
+using PreloadEntry = std::variant<double, LimitName, UniformGap, StaticPreload>;
 enum class MapName { peak, folds };
 using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 
@@ -173,7 +194,8 @@ inline constexpr int least_harmonics_of_time = 15;
 struct OptimumRequest {
   std::string key;  ///< "preload", or the key of another number: "contact.friction_coefficient"
   std::optional<std::array<double, 2>> range;  ///< in SI; none: between the positive preloads
-  double load = 0.0;  ///< under which another key is searched: preload [N] or scale
+  /// Under which another key is searched: preload [N], or scale; none: that of the static loads.
+  std::optional<double> load;
 
   [[nodiscard]] bool of_preload() const { return key == "preload"; }
 };
@@ -183,7 +205,8 @@ struct ResponseDescription {
   double frequency_begin_hz = 0.0;
   double frequency_end_hz = 0.0;  ///< equal to begin: the solution at one frequency
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
-  int search_starts = 0;     ///< of a search for detached branches; 0: none
+  /// Of a search for detached branches; 0: none; without value: as the effect `coexistence` says.
+  std::optional<int> search_starts{};
   int n_time_points = 40;    ///< frequencies of method = "time"
   int steps_per_period = 0;  ///< of method = "time": fixed steps; 0: changes of contact are located
   std::string steps_place;   ///< "file:line: key" of it, for messages
@@ -211,7 +234,8 @@ struct SceneDescription {
   std::vector<std::string> clamped;
   std::string clamped_place;  ///< "file:line: key" of `clamped`, for messages
   std::optional<fem::Rotation>
-      rotation;  ///< of the whole structure; speed 0 where only an axis is given
+      rotation;              ///< of the whole structure; speed 0 where only an axis is given
+  StaticLoads static_loads;  ///< kinds with a mesh
   ModesDescription modes;
   std::vector<ContactDescription> contacts;  ///< kinds with a mesh; none: nothing rubs
   contact::SurfaceRules rules;               ///< of modal scenes
@@ -262,6 +286,11 @@ struct SceneDescription {
   return model != nullptr && model->matrices ? &*model->matrices : nullptr;
 }
 
+/// Whether the preload is that of the static loads: of all contacts or of none.
+[[nodiscard]] inline bool has_static_preload(const SceneDescription& scene) {
+  return !scene.contacts.empty() && !scene.contacts.front().static_preload.empty();
+}
+
 /// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.
 [[nodiscard]] inline std::vector<contact::SurfaceRules> surface_rules(
     const SceneDescription& scene) {
@@ -288,6 +317,21 @@ struct SceneDescription {
 [[nodiscard]] inline bool is_rate_dependent(const SceneDescription& scene) {
   return std::ranges::any_of(surface_rules(scene),
                              [](const auto& rules) { return rules.friction.has_value(); });
+}
+
+/// Whether maps can show a depth of wear.
+[[nodiscard]] inline bool has_wear(const SceneDescription& scene) {
+  return scene.wear_coefficient > 0.0 ||
+         std::ranges::any_of(scene.contacts, [](const ContactDescription& contact) {
+           return contact.wear_coefficient > 0.0;
+         });
+}
+
+/// Whether contact acts on an area, of which points at several places share the load.
+[[nodiscard]] inline bool has_area(const SceneDescription& scene) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  if (modal == nullptr) return !scene.contacts.empty();
+  return modal->positions.rows() > 1 || !modal->tilted_areas.empty();
 }
 
 }  // namespace microslip::pipelines

@@ -22,6 +22,7 @@
 #include "pipelines/scene/scene_overrides.hpp"
 #include "pipelines/scene/static_section.hpp"
 #include "pipelines/scene/write_scene.hpp"
+#include "pipelines/system/mesh_format.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/nearest_name.hpp"
@@ -125,6 +126,13 @@ void complete_harmonics(toml::table& given) {
   if (in_time || off) response->insert("harmonics", 1);
 }
 
+/// Preloads of a scene that does not say: the limits, and that of the static loads.
+void complete_preload(Reading& reading, const SceneDescription& scene) {
+  toml::table* response = reading.given["response"].as_table();
+  if (!has_static_preload(scene) || response == nullptr || response->contains("preload")) return;
+  response->insert("preload", toml::array{"free", "static", "stuck"});
+}
+
 /// Without contact there is no preload to set, and none to choose.
 std::string contact_keys_without_contact(const SectionReader& response) {
   for (const char* key : {"preload", "optimum", "maps"}) {
@@ -174,7 +182,9 @@ SectionReader read_structure(Reading& reading, const std::string& kind, SceneDes
     scene.clamped.push_back(name_in_mesh(scene.points, name));
   }
   scene.clamped_place = supports.place("clamped");
-  scene.rotation = read_rotation(reading.section("static", "static"));
+  const SectionReader loads = reading.section("static", "static");
+  scene.rotation = read_rotation(loads);
+  scene.static_loads = read_static_loads(loads, scene.points);
   const SectionReader modes = reading.section("modes", "modes");
   scene.settings.basis = read_basis(modes);
   scene.modes = read_modes(modes, scene.settings.basis.n_modes);
@@ -210,7 +220,8 @@ void read_meshed(Reading& reading, const std::string& kind, SceneDescription& sc
   }
   require_distinct(scene.contacts);
   SectionReader excitation = reading.section("excitation", "excitation");
-  scene.forces = read_forces(excitation, scene.points);
+  scene.forces = read_forces(excitation, "force", scene.points);
+  complete_preload(reading, scene);
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response");
     scene.response = read_response(response, kind, scene.points);
@@ -317,9 +328,8 @@ SceneDescription scene_of(toml::table given, const std::string& name,
   } else {
     read_meshed(reading, kind, scene);
   }
-  const SectionReader effects = reading.section("effects", "effects");
-  scene.effects = read_effects(effects, scene);
-  scene.settings.second_direction = read_second_direction(effects);
+  require_static_preload(scene);
+  read_effects(reading.section("effects", "effects"), scene);
   scene.accuracy =
       read_accuracy(reading.section("accuracy", "accuracy"),
                     static_cast<bool>(reading.given["response"]["harmonic_tolerance"]), scene);
@@ -365,6 +375,13 @@ SceneDescription with_value(const SceneDescription& scene, const std::string& ke
 
 SceneDescription read_scene(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides) {
+  const bool is_step = is_step_file(file);
+  if (is_step || mesh_format(file) != MeshFormat::unknown) {
+    throw SceneError(
+        fmt::format("{0}: expected a scene (TOML), found a {1}; `microslip init {1} {0} -o "
+                    "SCENE.toml` begins one",
+                    file.string(), is_step ? "step" : "mesh"));
+  }
   const std::string text = read_text(file, largest_scene);
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   return parse_scene(text, file.string(), folder, overrides);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "fem/petsc_error.hpp"
 #include "mesh/mesh_error.hpp"
 
@@ -23,11 +25,19 @@ bool is_short_of_memory(const std::exception& error) {
                                 failure->code() == std::errc::not_enough_memory);
 }
 
+/// A name that no file can have: longer than the system allows, or a loop of links.
+bool is_bad_name(const std::exception& error) {
+  const auto* failure = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  return failure != nullptr && (failure->code() == std::errc::filename_too_long ||
+                                failure->code() == std::errc::too_many_symbolic_link_levels);
+}
+
 }  // namespace
 
 ExitCode exit_code_of(const std::exception& error) {
   if (is<InterruptedError>(error)) return ExitCode::incomplete;
-  if (is<SceneError>(error) || is<mesh::MeshError>(error) || is<std::invalid_argument>(error)) {
+  if (is_bad_name(error) || is<SceneError>(error) || is<mesh::MeshError>(error) ||
+      is<std::invalid_argument>(error)) {
     return ExitCode::bad_input;
   }
   if (is<RefusedError>(error) || is<fem::EigenError>(error)) return ExitCode::refused;
@@ -36,6 +46,18 @@ ExitCode exit_code_of(const std::exception& error) {
     return ExitCode::exhausted;
   }
   return ExitCode::internal;
+}
+
+std::string message_of(const std::exception& error) {
+  const auto* failure = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  if (failure != nullptr) {
+    return fmt::format("{}: {}; choose another folder with -o", failure->path1().string(),
+                       failure->code().message());
+  }
+  if (is<std::bad_alloc>(error)) return "out of memory";
+  if (exit_code_of(error) == ExitCode::internal)
+    return fmt::format("internal error: {}", error.what());
+  return error.what();
 }
 
 }  // namespace microslip::pipelines

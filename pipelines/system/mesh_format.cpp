@@ -30,6 +30,13 @@ bool is_step_file(const std::filesystem::path& file) {
   return ending == ".step" || ending == ".stp";
 }
 
+bool is_nastran_deck(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".bdf" || ending == ".nas" || ending == ".fem";
+}
+
+bool is_punch_file(const std::filesystem::path& file) { return ending_of(file) == ".pch"; }
+
 MeshFormat mesh_format(const std::filesystem::path& file) {
   const std::string ending = ending_of(file);
   if (ending == gmsh_ending) return MeshFormat::gmsh;

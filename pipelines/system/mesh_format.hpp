@@ -1,5 +1,5 @@
 /// @file
-/// Mesh files by their ending.
+/// Files of meshes and modes by their ending.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +15,12 @@ enum class MeshFormat { gmsh, converted, unknown };
 
 /// Whether its name ends in .step or .stp, in capitals or not.
 [[nodiscard]] bool is_step_file(const std::filesystem::path& file);
+
+/// Bulk data of Nastran: .bdf, .nas, .fem, in capitals or not.
+[[nodiscard]] bool is_nastran_deck(const std::filesystem::path& file);
+
+/// What Nastran punches: .pch, in capitals or not.
+[[nodiscard]] bool is_punch_file(const std::filesystem::path& file);
 
 /// ".msh, .inp, …", for messages.
 [[nodiscard]] std::string mesh_endings();

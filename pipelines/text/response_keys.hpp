@@ -61,14 +61,14 @@ inline constexpr KeySpec harmonic_tolerance_key{
     "of harmonics = \"auto\": share of a peak's amplitude that the harmonics left out may change"};
 inline constexpr KeySpec search_key{
     "search_starts",
-    integer,
+    other,
     "",
-    "0",
+    "\"auto\"",
     0,
     1000,
     false,
     "starts per frequency of a search for branches detached from the curve, or for other "
-    "solutions at a single frequency; 0: none"};
+    "solutions at a single frequency; 0: none; auto: as effects.coexistence"};
 inline constexpr KeySpec maps_key{
     "maps", other, "Hz",  "[]",
     0,      0,     false, "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
@@ -84,7 +84,8 @@ inline constexpr KeySpec preload_key{"preload",
                                      false,
                                      "total normal force carried, one curve each; negative: "
                                      "uniform gap −preload/∬k_v dA; { gap = \"8 um\" }: a gap "
-                                     "that does not depend on stiffness; \"free\", \"stuck\""};
+                                     "that does not depend on stiffness; \"free\", \"stuck\"; "
+                                     "\"static\": what contact.preload = \"static\" gives"};
 inline constexpr KeySpec optimum_key{
     "optimum",
     text,
@@ -107,16 +108,17 @@ inline constexpr KeySpec optimum_range_key{"optimum_range",
                                            "for the preload else the smallest and largest "
                                            "positive one",
                                            true};
-inline constexpr KeySpec optimum_at_key{"optimum_at",
-                                        other,
-                                        "N",
-                                        "",
-                                        0,
-                                        0,
-                                        false,
-                                        "preload (kind modal, bar: scale) under which another key "
-                                        "is searched; else the only positive one",
-                                        true};
+inline constexpr KeySpec optimum_at_key{
+    "optimum_at",
+    other,
+    "N",
+    "",
+    0,
+    0,
+    false,
+    "preload (kind modal, bar: scale), or \"static\", under which another key "
+    "is searched; else the only positive one",
+    true};
 
 template <std::size_t... sizes>
 inline constexpr auto joined(const std::array<KeySpec, sizes>&... parts) {

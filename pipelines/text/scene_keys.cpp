@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/effect_table.hpp"
 #include "pipelines/text/response_keys.hpp"
 
 namespace microslip::pipelines {
@@ -94,8 +95,8 @@ constexpr std::array mesh_keys{
 constexpr std::array modes_model_keys{
     kind_key,
     KeySpec{"file", text, "", "", 0, 0, false,
-            "modes of another code, relative to the scene: CalculiX (.frd of *FREQUENCY), NumPy "
-            "(.npz), a table (.csv)",
+            "modes of another code, relative to the scene: CalculiX (.frd of *FREQUENCY), Nastran "
+            "(.pch), Code_Aster (.med), NumPy (.npz), a table (.csv)",
             true},
     KeySpec{"stiffness", text, "", "", 0, 0, false,
             "instead: K of another code, Matrix Market (.mtx), from which modes are solved here",
@@ -104,10 +105,11 @@ constexpr std::array modes_model_keys{
     KeySpec{"nodes", text, "", "", 0, 0, false,
             "nodes of K and M (.csv): columns x, y, z, and ux, uy, uz: their rows from 1; 0: held",
             true},
-    KeySpec{"mesh", text, "", "", 0, 0, false,
-            "their mesh, any file that kind = \"mesh\" reads; else the .inp beside a .frd of that "
-            "name",
-            true},
+    KeySpec{
+        "mesh", text, "", "", 0, 0, false,
+        "their mesh, any file that kind = \"mesh\" reads, of .pch the deck; else the .inp beside a "
+        ".frd of that name, the .bdf beside a .pch, the .med itself",
+        true},
     KeySpec{"length_unit", other, "m", "", 0, 0, false,
             "unit of the coordinates in both files: \"mm\", or metres per unit; may be left out "
             "where the mesh is .msh (then m)",
@@ -196,6 +198,29 @@ constexpr std::array static_keys{
             "of rotation: { origin = [x, y, z], direction = [x, y, z] }; the origin is a point of "
             "it, default [0, 0, 0]",
             true},
+    KeySpec{
+        "forces", other, "", "", 0, 0, false,
+        "that do not vary, e.g. of a screw, for contact.preload = \"static\": a list of { at = …, "
+        "direction = [x, y, z], amplitude = … }",
+        true},
+    KeySpec{
+        "pressure", other, "", "", 0, 0, false,
+        "on surfaces, for the same: a list of { surface = …, value = \"2 bar\" }, pushing into the "
+        "body",
+        true},
+};
+
+constexpr std::array static_force_keys{
+    KeySpec{"at", other, "m", "", -unbounded, unbounded, false, "as that of a force"},
+    KeySpec{"direction", direction, "", "", 0, 0, false, "global x, y, z"},
+    KeySpec{"amplitude", number, "N", "", -unbounded, unbounded, false,
+            "in all, spread evenly over the nodes"},
+};
+
+constexpr std::array pressure_keys{
+    KeySpec{"surface", text, "", "", 0, 0, false, "named surface of the mesh"},
+    KeySpec{"value", number, "Pa", "", -unbounded, unbounded, false,
+            "pressure into the body; below 0: suction"},
 };
 
 constexpr std::array axis_keys{
@@ -388,6 +413,15 @@ constexpr std::array contact_keys{
             "kinetic = …, rate = \"… s/m\" } or "
             "{ law = \"hyperbolic\", static = …, rate = … }"},
     roughness_key,
+    KeySpec{
+        "preload", text, "", "", 0, 0, false,
+        "\"static\": its shape and total are those of a contact that cannot pull, under the loads "
+        "of [static], without friction; of all contacts or of none",
+        true},
+    KeySpec{
+        "gap", number, "m", "", -unbounded, unbounded, false,
+        "with preload = \"static\": between the bodies before the loads act; below 0: interference",
+        true},
     KeySpec{"preload_field", other, "Pa", "\"uniform\"", -unbounded, unbounded, false,
             "shape of the preload, scaled to each total: \"uniform\", an expression in p and r, or "
             "{ file = … }; "
@@ -401,7 +435,10 @@ constexpr std::array contact_keys{
         "fit", other, "", "\"auto\"", 0, 0, false,
         "degree of the fitted mode shapes, \"auto\", or \"none\" (finite-element interpolation)"},
     wear_key,
-    KeySpec{"points", integer, "", "300", 1, 10'000'000, false, "least number of contact points"},
+    KeySpec{
+        "points", integer, "", "", 1, 10'000'000, false,
+        "least number of contact points; else 300, of several harmonics 90, or what the tolerance "
+        "of chosen ones needs"},
 };
 
 constexpr std::array excitation_keys{
@@ -469,18 +506,13 @@ constexpr std::array modal_point_keys{
                  "mode N along r; else 0. Friction along r is simulated where one is not"),
 };
 
-constexpr std::array effect_keys{
-    KeySpec{"normal_motion", text, "", "\"auto\"", 0, 0, false, "load variation by normal motion"},
-    KeySpec{"separation", text, "", "\"auto\"", 0, 0, false, "one-sided contact"},
-    KeySpec{"mean_coupling", text, "", "\"auto\"", 0, 0, false, "mean motion changes the load"},
-    KeySpec{"second_direction", text, "", "\"auto\"", 0, 0, false, "friction along r as well"},
-    KeySpec{"higher_harmonics", text, "", "\"auto\"", 0, 0, false, "harmonics above the first"},
-    KeySpec{"roughness", text, "", "\"auto\"", 0, 0, false, "rough surfaces"},
-    KeySpec{"rate_dependence", text, "", "\"auto\"", 0, 0, false,
-            "friction coefficient by slip speed"},
-    KeySpec{"residual", text, "", "\"auto\"", 0, 0, false, "residual flexibility of omitted modes"},
-    KeySpec{"stability", text, "", "\"auto\"", 0, 0, false, "stability of each point"},
-};
+constexpr auto effect_keys = [] {
+  std::array<KeySpec, effect_table.size()> keys{};
+  std::ranges::transform(effect_table, keys.begin(), [](const EffectRow& row) {
+    return KeySpec{row.name, text, "", "\"auto\"", 0, 0, false, row.meaning};
+  });
+  return keys;
+}();
 
 constexpr std::array accuracy_keys{
     KeySpec{"tolerance", other, "1", "\"off\"", 0, 0.5, true,
@@ -494,7 +526,7 @@ constexpr std::array accuracy_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 46> sections{{
+constexpr std::array<SectionSpec, 48> sections{{
     {"model.blade", blade_keys},
     {"model.step", step_keys},
     {"faces", named_by_the_user},
@@ -508,6 +540,8 @@ constexpr std::array<SectionSpec, 46> sections{{
     {"supports", support_keys},
     {"static", static_keys},
     {"static.axis", axis_keys},
+    {"static.force", static_force_keys},
+    {"static.pressure", pressure_keys},
     {"modes", mode_keys},
     {"points", named_by_the_user},
     {"contact", contact_keys},

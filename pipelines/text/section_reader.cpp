@@ -134,9 +134,12 @@ double SectionReader::number_in(const toml::node& node, std::string_view key) co
   const bool too_low = spec.above_low ? value <= spec.low : value < spec.low;
   const bool ranged = spec.low != 0.0 || spec.high != 0.0;  // both zero: no range in the table
   if (ranged && (too_low || value > spec.high)) {
+    const bool may_be_percent = spec.unit == "1" && value > 1.0 && 0.01 * value <= spec.high;
+    const std::string in_percent =
+        may_be_percent ? fmt::format("; did you mean {:g} %?", value) : "";
     fail(key,
-         fmt::format("{:g} is out of range; expected {}{}", value, range_text(spec),
-                     spec.unit == "1" ? "" : fmt::format(" {}", spec.unit)),
+         fmt::format("{:g} is out of range; expected {}{}{}", value, range_text(spec),
+                     spec.unit == "1" ? "" : fmt::format(" {}", spec.unit), in_percent),
          &node);
   }
   return value;

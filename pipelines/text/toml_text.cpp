@@ -71,6 +71,21 @@ std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
+/// A number and the unit behind it that stand at `at` without quotes; empty: something else stands there.
+std::string unquoted_quantity(std::string_view text, std::size_t at) {
+  static const std::regex number(R"([=\[,]\s*([-+]?[\d.][-+\d.eE]*)\s*$)");
+  static const std::regex unit(R"(^\s*([A-Za-z%\x80-\xff][^,\]}#"'\n\r]*))");
+  const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
+  const std::string before = searched(text.substr(begin, at - begin));
+  const std::string behind = searched(text.substr(at));
+  std::smatch value;
+  std::smatch name;
+  if (!std::regex_search(before, value, number) || !std::regex_search(behind, name, unit))
+    return {};
+  const std::string words = name[1].str();
+  return value[1].str() + " " + words.substr(0, words.find_last_not_of(" \t") + 1);
+}
+
 }  // namespace
 
 std::string description_of(const toml::parse_error& error) {
@@ -119,9 +134,13 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const toml::source_position place = error.source().begin;
-    const std::string key = key_at_end_of(text.substr(0, offset_of(place, text)));
-    throw SceneError(fmt::format("{}:{}:{}: {}{}{}", name, place.line, place.column, key,
-                                 key.empty() ? "" : ": ", description_of(error)));
+    const std::size_t at = offset_of(place, text);
+    const std::string key = key_at_end_of(text.substr(0, at));
+    const std::string quantity = unquoted_quantity(text, at);
+    throw SceneError(fmt::format(
+        "{}:{}:{}: {}{}{}", name, place.line, place.column, key, key.empty() ? "" : ": ",
+        quantity.empty() ? description_of(error)
+                         : fmt::format("a number with a unit stands in quotes: \"{}\"", quantity)));
   }
 }
 

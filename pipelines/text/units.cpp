@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -151,6 +152,21 @@ Converter converter_between(const std::string& given, const std::string& unit) {
 }
 
 }  // namespace
+
+double in_hertz(double angular) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  const double quotient = angular / two_pi;
+  const auto n_digits = [](double value) {
+    std::array<char, 32> text{};
+    return std::to_chars(text.data(), text.data() + text.size(), value).ptr - text.data();
+  };
+  double best = quotient;
+  for (const double towards : {-HUGE_VAL, HUGE_VAL}) {
+    const double next = std::nextafter(quotient, towards);
+    if (next * two_pi == angular && n_digits(next) < n_digits(best)) best = next;
+  }
+  return best;
+}
 
 bool is_of_usable_size(double value) {
   const double size = std::abs(value);

@@ -22,6 +22,10 @@ class UnitError : public std::runtime_error {
 /// @note to_si("210 GPa", "Pa") is 2.1e11; to_si("0.2 %", "1") is 0.002; to_si("60 rpm", "Hz") is 1.
 [[nodiscard]] double to_si(std::string_view text, const std::string& unit);
 
+/// Of an angular frequency, as it was given: of the neighbouring numbers that all become this one when multiplied by 2π
+/// that with the fewest digits. @param angular  [rad/s].   @return [Hz]
+[[nodiscard]] double in_hertz(double angular);
+
 /// Whether it is 0 or of a size from 1e-100 to 1e100: no unit needs more, and products of a few such numbers
 /// neither vanish nor overflow.
 [[nodiscard]] bool is_of_usable_size(double value);

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Modes of another code as plain numbers, which the program reads.
 
-    convert_modes.py INPUT OUTPUT FACTS.json SECONDS MEGABYTES
+    convert_modes.py INPUT OUTPUT FACTS.json SECONDS MEGABYTES [DECK]
 
-The ending of INPUT tells its format: .frd (CalculiX), .npz (NumPy), .csv (a table). OUTPUT gets doubles, in the units
+The ending of INPUT tells its format: .frd (CalculiX), .pch (Nastran; DECK has its nodes), .med (Code_Aster), .npz (NumPy),
+.csv (a table). OUTPUT gets doubles, in the units
 of the file: the coordinates of every node, x y z, then their displacements, mode after mode, attachment shapes last.
 FACTS.json says {"n_nodes": n, "frequency_Hz": [one per mode and attachment shape], "n_attachment": m}. Limits itself to
 SECONDS of processor time and MEGABYTES of address space. What is wrong is told in the last line of standard error: exit
@@ -20,13 +21,13 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..
 from microslip.conversion import run
 
 
-READERS = {".frd": "calculix", ".npz": "numpy_file", ".csv": "table"}
+READERS = {".frd": "calculix", ".pch": "nastran", ".med": "med", ".npz": "numpy_file", ".csv": "table"}
 
 
-def convert(source, output, facts):
+def convert(source, output, facts, *deck):
     from microslip.modes import content
     reader = importlib.import_module("microslip.modes." + READERS[os.path.splitext(source)[1].lower()])
-    modes = reader.read(source)
+    modes = reader.read(source, *deck)
     content.check(modes, source)
     with open(output, "wb") as file:
         for numbers in (modes.coordinates, modes.shapes):
@@ -37,6 +38,6 @@ def convert(source, output, facts):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 6:
+    if len(sys.argv) not in (6, 7):
         sys.exit(__doc__)
-    sys.exit(run(convert, *sys.argv[1:]))
+    sys.exit(run(lambda *files: convert(*files, *sys.argv[6:]), *sys.argv[1:6]))

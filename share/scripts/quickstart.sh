@@ -7,4 +7,4 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 "$root/share/scripts/setup.sh"
 "$root/share/scripts/build.sh" -DBUILD_TESTING=OFF
 exec "$root/build/bin/microslip" run "$root/share/scenes/blade_to_ground.toml" \
-  -o "$root/runs/blade_to_ground"
+  --without bracket -o "$root/runs/blade_to_ground"

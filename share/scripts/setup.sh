@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages microslip needs, those only that are missing. Safe to run again.
 #
-#   share/scripts/setup.sh [--tests | --tidy | --fuzz]     --tests: also what the tests alone need
-#                                                          --tidy, --fuzz: what tidy.sh, fuzz.sh need
+#   share/scripts/setup.sh [--tests | --tidy | --fuzz | --coverage]     --tests: also what the tests alone need
+#                                                                       others: what tidy.sh, fuzz.sh, coverage.sh need
 #
 # Works as root or with sudo; says what it does.
 set -eu
@@ -23,7 +23,8 @@ case "${1:-}" in
   --tests) wanted="$wanted $test_programs" ;;
   --tidy) wanted="$wanted clang-tidy" ;;
   --fuzz) wanted="$wanted clang libclang-rt-dev" ;;
-  *) echo "usage: setup.sh [--tests | --tidy | --fuzz]" >&2; exit 1 ;;
+  --coverage) wanted="$wanted $test_programs gcovr" ;;
+  *) echo "usage: setup.sh [--tests | --tidy | --fuzz | --coverage]" >&2; exit 1 ;;
 esac
 
 is_installed() {

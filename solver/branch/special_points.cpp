@@ -37,7 +37,9 @@ constexpr double level_at_fold = 0.3;
 constexpr double kink_reach = 0.3;
 // Of more points each is a small part of the force: their kinks together are a smooth curve.
 constexpr std::size_t most_kinks = 32;
-constexpr int max_splits = 7;  // of a step, at its kinks: to less than a hundredth of it
+constexpr int max_splits = 7;             // of a step, at its kinks: to less than a hundredth of it
+constexpr int max_splits_of_sampled = 2;  // which are smooth
+constexpr double slight_turn_of_sampled = 0.05;  // rad
 
 /// Something that varies along a segment, with its slope by arc length in the scaling of now().
 struct Value {
@@ -65,7 +67,11 @@ double angle(const BranchVector& a, const BranchVector& b) {
 class Segment {
  public:
   Segment(const BranchWalker& walker, const HarmonicBalance& balance, PointMark kind)
-      : walker_(walker), balance_(balance), kind_(kind) {}
+      : walker_(walker),
+        balance_(balance),
+        kind_(kind),
+        most_splits_(walker.is_sampled() ? max_splits_of_sampled : max_splits),
+        slight_turn_(walker.is_sampled() ? slight_turn_of_sampled : slight_turn) {}
 
   [[nodiscard]] std::vector<SpecialPoint> search() {
     search(node({0.0, walker_.before()}), node({1.0, walker_.now()}), 0);
@@ -78,7 +84,7 @@ class Segment {
   }
 
   void search(const Node& a, const Node& b, int n_splits) {
-    if (n_splits < max_splits && may_hide(a, b)) {
+    if (n_splits < most_splits_ && may_hide(a, b)) {
       if (const auto middle = between(a, b, 0.5 * (a.at.share + b.at.share))) {
         search(a, *middle, n_splits + 1);
         search(*middle, b, n_splits + 1);
@@ -140,9 +146,9 @@ class Segment {
     const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
                                     std::abs(b.value.slope) / b.value.steepest);
     const double turn = first + second;
-    if (turn > slight_turn && more > uneven * less && nearest < turn) return true;
+    if (turn > slight_turn_ && more > uneven * less && nearest < turn) return true;
     const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
-    if (turn > slight_turn && same_sign && nearest < nearly_level() * turn) return true;
+    if (turn > slight_turn_ && same_sign && nearest < nearly_level() * turn) return true;
     const double motion = std::max(a.tangent.x.norm(), b.tangent.x.norm());
     return kind_ == PointMark::peak && nearest < kink_reach * motion && crosses_kink(a, b);
   }
@@ -298,6 +304,8 @@ class Segment {
   const BranchWalker& walker_;
   const HarmonicBalance& balance_;
   PointMark kind_;
+  int most_splits_;
+  double slight_turn_;
   std::vector<SpecialPoint> found_;
 };
 

@@ -15,6 +15,8 @@ namespace {
 // a resonance narrower than the lower bound cannot be told from its neighbours in double precision.
 constexpr double widest = 0.1;
 constexpr double narrowest = 1e-7;
+// The same of the frequency: shorter steps, of a tiny range, would round to none.
+constexpr double resolved = 1e-12;
 
 // Share of the response by which it may change where the branch is interrupted, beyond what its
 // tangent tells; more is another branch.
@@ -73,7 +75,9 @@ StabilityReport CurveTracer::stability_at(const NewtonResult& at) {
 
 Scaling CurveTracer::scaling_at(const NewtonResult& at) {
   Scaling scaling = natural_scaling(*balance_, at.point.x, at.point.parameter);
-  scaling.parameter = std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_);
+  scaling.parameter =
+      std::max(std::clamp(stability_at(at).nearest, narrowest * range_, widest * range_),
+               resolved * at.point.parameter);
   return scaling;
 }
 

@@ -1,6 +1,7 @@
 #include "solver/enrichment/curve_harmonics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -14,6 +15,9 @@ namespace {
 constexpr std::size_t most_places = 3;  // of a curve, from the highest down
 constexpr double of_interest = 0.3;     // of the highest
 constexpr int most_traces = 3;          // of a curve for the choice, and of the one that is given
+// With so many first harmonics the peak is looked for, where it cannot be followed from one: curves
+// that cost little beside that of all it may need.
+constexpr std::array stepping_stones{3, 7};
 
 struct Place {
   LocalPeak peak;
@@ -61,6 +65,16 @@ std::optional<double> distance_to(const std::vector<SettledPeak>& known, const L
   return std::abs(nearest->amplitude / peak.amplitude - 1.0) + nearest->left_out;
 }
 
+/// The next set of which the curve is cheap. @param now  that of the curve at hand.
+std::optional<HarmonicSet> stepping_stone(const HarmonicSet& least, const HarmonicSet& now,
+                                          const HarmonicSet& wanted) {
+  for (const int highest : stepping_stones) {
+    HarmonicSet stone = HarmonicSet(highest).united(least.orders());
+    if (stone.count() > now.count() && 2 * stone.count() <= wanted.count()) return stone;
+  }
+  return std::nullopt;
+}
+
 bool is_stopped(const ContinuationOptions& range) { return range.stop && range.stop(); }
 
 void count(CurveHarmonics& sum, const PeakWork& work) {
@@ -105,11 +119,14 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
     }
     count(chosen, choice.work());
     if (!is_lost || traces == most_traces || is_stopped(range)) return chosen;
-    traced = trace(chosen.set);
+    const std::optional<HarmonicSet> stone = stepping_stone(set, of_now, chosen.set);
+    if (stone) chosen.set = set;
+    const HarmonicSet next = stone.value_or(chosen.set);
+    traced = trace(next);
     chosen.iterations += traced.iterations;
     chosen.contact_evaluations += traced.contact_evaluations;
     now = &traced;
-    of_now = chosen.set;
+    of_now = next;
   }
   return chosen;
 }

@@ -27,7 +27,8 @@ struct CurveHarmonics {
 
 /// @param range  with `harmonic_tolerance` > 0.
 /// @param curve  solved with `set`.
-/// @param trace  where the richer equations are not solved from the peak, its curve is.
+/// @param trace  where the richer equations are not solved from the peak, the curve with a few harmonics more is, and at
+///               last with all that the peak was to have.
 [[nodiscard]] CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& range,
                                               const HarmonicSet& set, const ResponseCurve& curve,
                                               const CurveOfSet& trace);

@@ -20,6 +20,7 @@ constexpr double silent = 1e-12;
 constexpr double may_be_left_out = 0.5;
 constexpr double added_down_to = 0.25;
 constexpr double may_be_pruned = 0.5;
+constexpr int fewest_first_ones = 3;
 constexpr double worth_trying = 8.0;  // times that, by the sum of estimates: signs may cancel
 constexpr double of_frequency = 0.1;  // a resonance is narrow: its frequency is asked for closer
 constexpr double idle = 1e-3;         // less than this is not worth a confirmation
@@ -145,7 +146,10 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   if (result.peak) {
     result.richest = {result.peak->point.parameter, result.peak->amplitude, result.left_out};
   }
-  if (result.settled) prune(result, more);
+  if (!result.settled) return result;
+  const PeakHarmonics rich = result;
+  prune(result, more);
+  try_first_ones(result, rich, more);
   return result;
 }
 
@@ -218,6 +222,19 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
     std::optional<PeakHarmonics> fewer = without(rich, HarmonicSet(std::move(kept)));
     if (fewer) result = std::move(*fewer);
     (fewer ? out : too_many) = n;
+  }
+}
+
+/// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is not told by its size.
+void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich,
+                                         const HarmonicSet& least) {
+  for (int highest = fewest_first_ones; highest < rich.set.highest(); ++highest) {
+    const HarmonicSet first = HarmonicSet(highest).united(least.orders()).united(least_.orders());
+    if (first.count() >= result.set.count() || (range_.stop && range_.stop())) return;
+    if (auto fewer = without(rich, first)) {
+      result = std::move(*fewer);
+      return;
+    }
   }
 }
 

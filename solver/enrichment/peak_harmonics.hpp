@@ -11,7 +11,8 @@
 ///   confirm    once what is left out does less than half the tolerance, the largest few of it are solved for
 ///              too. Only a peak that stays where it was, to the tolerance, is believed
 ///   prune      as many go again as the other half of the tolerance allows, those that do least first, the peak
-///              being solved without them: what they do together is known then, their signs included
+///              being solved without them: what they do together is known then, their signs included. Or the
+///              first few alone, where these are fewer
 #pragma once
 
 #include <optional>
@@ -70,6 +71,7 @@ class PeakHarmonicsChoice {
                                                            std::vector<int> orders);
   void settle(PeakHarmonics& result);
   void prune(PeakHarmonics& result, const HarmonicSet& least);
+  void try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich, const HarmonicSet& least);
   [[nodiscard]] std::optional<PeakHarmonics> without(const PeakHarmonics& rich,
                                                      const HarmonicSet& fewer);
 

@@ -430,11 +430,12 @@ OptimumOptions about(const OptimumOptions& options, double best) {
   return near;
 }
 
-/// Where harmonics are chosen: few of them tell where the best value lies, to a factor of three; there it is searched
-/// with those that its own peak needs. What few do not find is searched everywhere.
-Optimum search_with_chosen(const SceneFamily& family, const ContinuationOptions& range,
-                           const OptimumOptions& options) {
-  constexpr int few = 3;
+constexpr int few = 3;  // harmonics
+
+/// Few harmonics tell where the best value lies, to a factor of three; there it is searched with those given, or with
+/// those that its own peak needs where they are chosen. What few do not find is searched everywhere.
+Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions& range,
+                            const OptimumOptions& options) {
   OptimumOptions first_options = options;
   first_options.search_starts = 0;
   first_options.relative_tolerance = std::max(options.relative_tolerance, rough);
@@ -474,8 +475,9 @@ Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& rang
   check(options);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  Optimum optimum = range.harmonic_tolerance > 0.0 ? search_with_chosen(family, range, options)
-                                                   : Search(family, range, options).run();
+  const bool many = range.harmonic_tolerance > 0.0 || range.n_harmonics > few;
+  Optimum optimum =
+      many ? search_by_few_first(family, range, options) : Search(family, range, options).run();
   optimum.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return optimum;
 }

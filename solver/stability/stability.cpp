@@ -25,14 +25,18 @@ constexpr Eigen::Index most_states = 80;
 // Of ω, natural frequencies of modes that tell the width of a resonance: others answer like
 // springs.
 constexpr double reach_of_width = 6.0;
+// Of a motion: perturbations that stay as small, as they do where energy falls.
+constexpr double nearby = 1e-6;
 // Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
 constexpr double real_tolerance = 1e-6;
-// Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all.
+// Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all. Of points that
+// slide in a plane, or whose coefficient or load follows another law, ten times that: nine tenths
+// of a curve.
 constexpr Eigen::Index most_multipliers = 16;
 // The same where few points are judged: sliders at rest in the period are no states of the matrix,
 // points cost time in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).
 constexpr Eigen::Index most_multipliers_of_few = 60;
-constexpr Eigen::Index most_points_of_few = 100;
+constexpr Eigen::Index most_points_of_few = 60;
 // Of |μ|: differences of the period map err by 1e-5 where it is smooth, more where events graze.
 constexpr double multiplier_tolerance = 1e-4;
 
@@ -208,14 +212,13 @@ bool is_spring(const Eigen::MatrixXd& stiffness) {
   return values && values->minCoeff() >= -least;
 }
 
-/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0: the energy of a perturbation falls until it is at rest.
-bool is_damped_linear(const Scene& scene) {
+/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0, for all motions of a ball: the energy of a perturbation falls until it
+/// is at rest.
+bool is_damped_linear(const Scene& scene, const Harmonics& centre, double radius) {
   const bool damped =
       (scene.natural_frequency.array() > 0.0).all() && (scene.damping_ratio.array() > 0.0).all();
   if (!damped || !scene.contact) return damped;
-  const contact::Harmonics rest(1, scene.n_modes());
-  const double any = std::numeric_limits<double>::infinity();
-  switch (scene.contact->linear_state(rest, any)) {
+  switch (scene.contact->linear_state(centre, radius)) {
     case contact::LinearState::free:
       return true;
     case contact::LinearState::stuck:
@@ -257,7 +260,8 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
                                double frequency, StabilityReport slow) {
   if (balance.set().highest() == 1) return slow;
   StabilityReport report = slow;
-  if (is_damped_linear(balance.scene())) {
+  const Harmonics rest(1, balance.scene().n_modes());
+  if (is_damped_linear(balance.scene(), rest, std::numeric_limits<double>::infinity())) {
     report.stability = Stability::stable;
     report.basis = StabilityBasis::damped_linear;
     return report;
@@ -301,11 +305,16 @@ StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonic
   if (balance.set().highest() == 1 || !scene.transient) return hill;
   if (hill.basis == StabilityBasis::damped_linear) return hill;
   if (hill.stability == Stability::unstable) return hill;
-  const Eigen::Index n_points = scene.transient->n_points();
-  const bool few = effort == PeriodMapEffort::few_points;
-  if (few ? n_points > most_points_of_few : 2 * scene.n_modes() + n_points > most_multipliers) {
+  if (scene.contact && is_damped_linear(scene, q, nearby * q.vector().norm())) {
+    hill.stability = Stability::stable;
+    hill.basis = StabilityBasis::damped_linear;
     return hill;
   }
+  const Eigen::Index n_points = scene.transient->n_points();
+  const bool few = effort == PeriodMapEffort::few_points;
+  const bool dear =
+      scene.transient->n_internal() > 0 || 2 * scene.n_modes() + n_points > most_multipliers;
+  if (few ? n_points > most_points_of_few : dear) return hill;
   const FloquetMultipliers floquet =
       floquet_multipliers(scene, frequency, q, few ? most_multipliers_of_few : most_multipliers);
   if (!floquet.known()) return hill;

@@ -54,14 +54,15 @@ struct StabilityReport {
 
 /// What a verdict may cost.
 enum class PeriodMapEffort {
-  every_point,  ///< modes, two states each, and points together at most 16: some 10 ms
+  every_point,  ///< modes, two states each, and points of friction along a line together at most 16: some 10 ms
   few_points,  ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
 };
 
 /// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the
 /// multipliers of the period map that are not real and positive. Within `distance` of the unit circle, and at
 /// least 1e-4, they tell nothing and the point is not assessed. Real positive ones are those of the
-/// determinant. Left as it is: one harmonic, and scenes too large for the effort.
+/// determinant. Nothing is integrated where every point is proved stuck, or every point open, in that motion and those
+/// around it: with damping it is stable. Left as it is: one harmonic, and scenes too large for the effort.
 /// @param hill  hill_stability() of the same point.
 /// @param q     its harmonics.
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,

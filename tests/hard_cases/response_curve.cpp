@@ -107,6 +107,24 @@ TEST(ResponseCurveHard, SweepsExactlyThroughNaturalFrequencies) {
   expect_proven(solver::solve_at_frequency(scene, 1.0, {}), "at the mode");
 }
 
+TEST(ResponseCurveHard, ASweepOfOneRoundingErrorHasItsTwoEnds) {
+  // Row 38: steps that are shares of such a range round to none.
+  tests::SinglePoint single;
+  single.point = {2.0, 0.0, 0.5, 1.0};
+  for (const double begin : {0.8, 1.0, 1.7}) {
+    const double end = std::nextafter(begin, 2.0);
+    for (const bool up : {true, false}) {
+      const auto curve =
+          solver::trace_response(tests::single_point_scene(single),
+                                 up ? frequency_range(begin, end) : frequency_range(end, begin));
+      ASSERT_TRUE(curve.complete) << curve.message;
+      EXPECT_LE(curve.points.size(), 4U);
+      EXPECT_EQ(curve.points.front().frequency, up ? begin : end);
+      EXPECT_EQ(curve.points.back().frequency, up ? end : begin);
+    }
+  }
+}
+
 TEST(ResponseCurveHard, AlmostStuckAndAlmostFreeTendToTheLimits) {
   // Row 39. At 1.5 rad/s the stuck amplitude is 1/|3 − 2.25| = 1.33: slip begins at μn₀ = 2.67.
   const double omega = 1.5;

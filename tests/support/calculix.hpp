@@ -1,5 +1,5 @@
 /// @file
-/// Natural frequencies from CalculiX (the program `ccx`), an independent finite-element code.
+/// Natural frequencies and static contact from CalculiX (the program `ccx`), an independent finite-element code.
 #pragma once
 
 #include <string>
@@ -27,5 +27,25 @@ namespace microslip::test {
                                                    const fem::Material& material,
                                                    const std::vector<std::string>& clamped,
                                                    int n_modes, const fem::Rotation& rotation = {});
+
+/// A face against the ground, and what presses it.
+struct CalculixLayer {
+  std::string surface;     ///< plane, on tetrahedra
+  double stiffness = 0.0;  ///< pressure per overclosure [N/m³]
+  Eigen::VectorXd load;    ///< on the nodes, 3 n_nodes [N]; may be empty
+  fem::Rotation rotation{};
+};
+
+struct CalculixContact {
+  double force = 0.0;             ///< normal, compression [N]
+  Eigen::MatrixX3d displacement;  ///< of the nodes of the surface [m]
+};
+
+/// Linear static equilibrium with contact without friction (TYPE=SURFACE TO SURFACE, PRESSURE-OVERCLOSURE=LINEAR).
+/// @throws std::runtime_error  ccx failed or printed less than this.
+[[nodiscard]] CalculixContact calculix_contact(const mesh::Mesh& mesh,
+                                               const fem::Material& material,
+                                               const std::vector<std::string>& clamped,
+                                               const CalculixLayer& layer);
 
 }  // namespace microslip::test

@@ -214,6 +214,42 @@ def write_med(mesh, path):
     meshio.write(path, given, "med")
 
 
+def add_med_modes(path, name, frequencies, shapes):
+    """A field of displacements in a .med file as IMPR_RESU of Code_Aster writes that of a MODE_MECA: a step for each mode,
+    its time the frequency; values component after component."""
+    import h5py
+    with h5py.File(path, "r+") as file:
+        field = file.require_group("CHA").create_group(name)
+        words = "".join(f"{word:16}" for word in ("DX", "DY", "DZ"))
+        for key, value in (("MAI", next(iter(file["ENS_MAA"]))), ("NOM", words), ("UNI", " " * 48), ("UNT", " " * 16)):
+            field.attrs[key] = np.bytes_(value)
+        field.attrs["NCO"], field.attrs["TYP"] = 3, 6
+        for number, (frequency, shape) in enumerate(zip(frequencies, shapes), 1):
+            step = field.create_group(f"{number:020d}{-1:020d}")
+            for key, value in (("NDT", number), ("NOR", -1), ("PDT", float(frequency)), ("RDT", -1), ("ROR", -1)):
+                step.attrs[key] = value
+            nodes = step.create_group("NOE")
+            nodes.attrs["GAU"], nodes.attrs["PFL"] = np.bytes_(""), np.bytes_("MED_NO_PROFILE_INTERNAL")
+            profile = nodes.create_group("MED_NO_PROFILE_INTERNAL")
+            profile.attrs["NBR"], profile.attrs["NGA"] = len(shape), 1
+            profile.create_dataset("CO", data=np.asarray(shape, dtype=float).T.ravel())
+
+
+def write_punch(path, frequencies, shapes, nodes=None):
+    """Real eigenvectors as Nastran punches them; node numbers from 1 in the order of the shapes, or as given."""
+    lines = []
+    for mode, (frequency, shape) in enumerate(zip(frequencies, shapes), 1):
+        lines += ["$TITLE   = WRITTEN BY A TEST", "$SUBTITLE=", "$LABEL   =", "$EIGENVECTOR", "$REAL OUTPUT",
+                  f"$SUBCASE ID ={1:12d}", f"$EIGENVALUE ={(2 * np.pi * frequency) ** 2:15.7E}  MODE ={mode:6d}"]
+        for node, u in zip(nodes if nodes is not None else range(1, len(shape) + 1), shape):
+            lines += [f"{node:10d}       G" + "".join(f"{value:18.6E}" for value in u),
+                      f"{'-CONT-':18}" + "".join(f"{0.0:18.6E}" for _ in range(3))]
+        lines += [f"{90000:10d}       S" + "".join(f"{value:18.6E}" for value in (1.0, 0.0, 0.0)),
+                  f"{'-CONT-':18}" + "".join(f"{0.0:18.6E}" for _ in range(3))]
+    with open(path, "w", encoding="ascii") as file:
+        file.writelines(f"{line:72}{number:8d}\n" for number, line in enumerate(lines, 1))
+
+
 def write_vtk(mesh, path):
     """.vtu or .vtk, by the ending; an array of 0 and 1 for every name."""
     import meshio

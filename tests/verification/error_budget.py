@@ -17,7 +17,8 @@ from program_run import run_scene
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:]
-LEAN = ("model.element_size=10 mm", "response.maps=[]", "response.preload=[100, 500]", "contact.points=40")
+LEAN = ("model.element_size=10 mm", "response.maps=[]", "response.preload=[100, 500]", "contact.points=40",
+        "response.harmonics=1")
 REFINED = {
     "cells": "contact.points=2000",
     "fit": "contact.fit=none",

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Modes of other codes give the curve that the program's own modes give.
 
-Reference: the mesh of share/scenes/plate/plate.inp solved here. Its modes and attachment shapes, written in full, come
-back as .npz and .csv: peaks agree to the solver's tolerance. CalculiX integrates hex20 with the same 27 points;
+Reference: the mesh of share/scenes/plate/plate.inp, as .msh, solved here. Its modes and attachment shapes, written in full,
+come back as .npz, .csv and .med: peaks agree to the solver's tolerance. Nastran punches eight digits of an eigenvalue and
+seven of a displacement: 1e-6. CalculiX integrates hex20 with the same 27 points;
 plate.frd prints ten digits of a frequency and six of a displacement, so that frequencies agree to the 1e-6 that its
 eigensolver is asked for, peaks to a few 1e-6. K and M that CalculiX stored have fourteen digits; its mass takes 27 points, ours is exact on twisted
 bricks as well: that is 2e-7 here (3e-9 without the twist, where both are exact).
@@ -10,6 +11,7 @@ bricks as well: that is 2e-7 here (3e-9 without the twist, where both are exact)
 usage: given_modes.py MICROSLIP SOURCE WORK_FOLDER
 """
 import csv
+import importlib.util
 import json
 import os
 import re
@@ -25,8 +27,12 @@ from program_run import run_scene, without_plots
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+import mesh_files
+
 PLATE = os.path.join(SOURCE, "share", "scenes", "plate")
 PRINTED = 5e-6
+PUNCHED = 1e-6
 SOLVED = 1e-9
 MATRICES = 1e-6
 
@@ -62,7 +68,7 @@ poissons_ratio = 0.3
 density = 7800
 [supports]
 clamped = ["root"]"""
-OWN_PLATE = OWN.format(os.path.join(PLATE, "plate.inp"))
+OWN_PLATE = OWN.format(os.path.join(WORK, "plate.msh"))
 
 
 def path(name):
@@ -76,8 +82,12 @@ def write_scene(name, model, modes):
 
 
 def result_of(name, model, modes="", own=False):
+    return numbers_of(name, write_scene(name + ".toml", model, ("count = 6\n" if own else "") + modes))
+
+
+def numbers_of(name, scene):
     """Frequencies and the peak of a run."""
-    run_scene(PROGRAM, write_scene(name + ".toml", model, ("count = 6\n" if own else "") + modes), path(name))
+    run_scene(PROGRAM, scene, path(name))
     with open(os.path.join(path(name), "summary.json"), encoding="utf-8") as stream:
         summary = json.load(stream)
     peak = summary["curves"][0]["peak"]
@@ -100,6 +110,9 @@ class GivenModes(unittest.TestCase):
     def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
         os.makedirs(WORK)
+        subprocess.run([os.path.join(SOURCE, "share", "scripts", "convert_mesh.py"), os.path.join(PLATE, "plate.inp"),
+                        path("plate.msh"), path("facts.json"), "60", "4000"], check=True)
+        cls.mesh = mesh_files.from_gmsh(path("plate.msh"))
         cls.none = result_of("own_none", OWN_PLATE, 'residual = "none"', own=True)
         cls.attached = result_of("own_attached", OWN_PLATE, 'residual = "attachment"\nattachment_degree = 0', own=True)
         solved = meshio.read(os.path.join(path("own_attached"), "modes.vtu"))
@@ -133,6 +146,96 @@ class GivenModes(unittest.TestCase):
                 for node, (place, u) in enumerate(zip(self.arrays["nodes"], shape), 1):
                     rows.writerow((mode, repr(float(frequency)), node, *map(float, place), *map(float, u)))
         self.compare("csv", result_of("csv", given(path("modes.csv"), 'mass_unit = "kg"')), self.none, SOLVED)
+
+    def on_mesh(self):
+        """Modes in the order of the nodes of the .msh file."""
+        solved = {tuple(np.round(place, 3)): row for row, place in enumerate(self.arrays["nodes"])}
+        rows = [solved[tuple(np.round(place, 3))] for place in self.mesh.nodes]
+        return self.arrays["frequency_Hz"], self.arrays["shapes"][:, rows]
+
+    def test_code_aster(self):
+        """The file of the modes is that of the mesh as well."""
+        if importlib.util.find_spec("h5py") is None:
+            self.skipTest("h5py is not installed: .med cannot be read")
+        mesh_files.write_med(self.mesh, path("modes.med"))
+        frequency, shapes = self.on_mesh()
+        mesh_files.add_med_modes(path("modes.med"), "modes___DEPL", frequency, shapes)
+        model = f'kind = "modes"\nfile = "{path("modes.med")}"\nlength_unit = "mm"\nmass_unit = "kg"\n[material]\ndensity = 7800'
+        self.compare("med", result_of("med", model), self.none, SOLVED)
+
+        def changed(change):
+            shutil.copy(path("modes.med"), path("bad.med"))
+            with h5py.File(path("bad.med"), "r+") as file:
+                change(file["CHA"])
+            return refusal(bad)
+
+        import h5py
+        bad = model.replace("modes.med", "bad.med").replace("length_unit", f'mesh = "{path("plate.msh")}"\nlength_unit')
+        self.assertIn("no field has the components DX, DY, DZ; fields are: none", changed(lambda fields: fields.clear()))
+        step = f"modes___DEPL/{2:020d}{-1:020d}"
+
+        def cut(fields):
+            values = fields[step + "/NOE/MED_NO_PROFILE_INTERNAL/CO"][:-1]
+            del fields[step + "/NOE/MED_NO_PROFILE_INTERNAL/CO"]
+            fields[step + "/NOE/MED_NO_PROFILE_INTERNAL"].create_dataset("CO", data=values)
+
+        self.assertIn("mode 2 of modes___DEPL has 380 values at 127 nodes", changed(cut))
+        self.assertIn("mode 2 of modes___DEPL has displacements at a part of the nodes (root)",
+                      changed(lambda fields: fields.move(step + "/NOE/MED_NO_PROFILE_INTERNAL", step + "/NOE/root")))
+        self.assertIn("which are the modes? again, modes___DEPL", changed(lambda fields: fields.copy("modes___DEPL", "again")))
+        with open(path("modes.med"), "rb") as stream:
+            whole = stream.read()
+        with open(path("bad.med"), "wb") as stream:
+            stream.write(whole[:len(whole) // 2])
+        self.assertIn("bad.med: no MED file", refusal(bad))
+
+    def test_nastran_punch(self):
+        frequency, shapes = self.on_mesh()
+        mesh_files.write_bdf(self.mesh, path("punched.bdf"), pressed=("contact",))
+        mesh_files.write_punch(path("punched.pch"), frequency, shapes)
+        points = list(self.mesh.points)
+        names = {'"contact"': '"PLOAD4 1"', **{f'"{name}"': f'"SET {points.index(name) + 1}"' for name in "AB"}}
+        model = f'kind = "modes"\nfile = "{path("punched.pch")}"\nlength_unit = "mm"\nmass_unit = "kg"\n{{}}[material]\ndensity = 7800'
+
+        def scene(name, more=""):
+            text = SCENE.format(model=model.format(more), modes="")
+            for old, new in names.items():
+                text = text.replace(old, new)
+            with open(path(name + ".toml"), "w", encoding="utf-8") as stream:
+                stream.write(text)
+            return path(name + ".toml")
+
+        self.compare("pch", numbers_of("pch", scene("pch")), self.none, PUNCHED)
+        with open(path("punched.pch"), encoding="ascii") as stream:
+            lines = stream.readlines()
+        with open(path("punched.bdf"), encoding="ascii") as stream:
+            deck = stream.read()
+
+        def told(changed=None, other_deck=None, more=""):
+            for file, text in (("punched.pch", "".join(changed or lines)), ("punched.bdf", other_deck or deck)):
+                with open(path(file), "w", encoding="ascii") as stream:
+                    stream.write(text)
+            finished = subprocess.run([PROGRAM, "check", scene("refused", more)], capture_output=True, text=True)
+            self.assertEqual(finished.returncode, 1, finished.stdout)
+            return finished.stderr
+
+        per_mode = len(lines) // 6
+        self.assertIn("mode 6 has displacements at 120 nodes, mode 1 at 127: the file was cut off", told(lines[:-16]))
+        self.assertIn("expected a number, found \"\": was the file cut off?", told([*lines[:-4], lines[-4][:40]]))
+        self.assertIn("mode 3 where mode 2 is expected: one is missing", told(lines[:per_mode] + lines[2 * per_mode:]))
+        self.assertIn("there are no modes in it", told(lines[:4]))
+        self.assertIn("punched.pch:5: real-imaginary output: complex modes are not read",
+                      told([line.replace("$REAL OUTPUT", "$REAL-IMAGINARY OUTPUT") for line in lines]))
+        self.assertIn("GRID 5 tells its displacements in a coordinate system of its own",
+                      told(other_deck=re.sub(r"(GRID\* +5 .*\n\* {7}.{16})", r"\g<1>               3", deck)))
+        self.assertIn("node 999 is not in", told([line.replace("       127       G", "       999       G") for line in lines]))
+        self.assertIn("expected the deck these modes were computed with", told(more=f'mesh = "{path("plate.msh")}"\n'))
+        mesh_files.write_punch(path("punched.pch"), frequency, 3 * shapes)
+        with open(path("punched.pch"), encoding="ascii") as stream:
+            self.assertIn("mass-normalised modes have 1 kg", told(stream.readlines()))
+
+    def test_op2_is_told_what_to_do_instead(self):
+        self.assertIn("VECTOR(PUNCH)=ALL", refusal(given(path("modes.op2"))))
 
     def test_calculix(self):
         self.compare("frd", result_of("frd", given(os.path.join(PLATE, "plate.frd"))), self.none, PRINTED)

@@ -3,7 +3,7 @@
 
 share/scenes/step_blade.toml on larger elements; its own mesh, written as .msh, must give the same numbers (the same mesh:
 1e-6); the parametric blade it was made of gives the same frequencies but for a coarser outline of the aerofoil and
-another mesh. Then what a user may get wrong: every message names the file, what is there and what to do.
+another mesh. A run is not resumed with another file. Then what a user may get wrong: every message names the file, what is there and what to do.
 
 usage: step_files.py MICROSLIP SOURCE WORK_FOLDER
 """
@@ -12,6 +12,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -75,6 +76,23 @@ class StepFiles(unittest.TestCase):
         print(f"frequencies and peak differ by {worst:.1e} from those of the .msh file")
         self.assertLess(worst, 1e-6)
         self.assertIn("blade.step: lengths in millimetre", text_of(os.path.join(path("step"), "log.txt")))
+
+    def test_a_run_is_not_resumed_with_another_file(self):
+        """The mesh that stands in the run folder is that of the file as it was."""
+        shutil.copy(STEP, path("resumed.step"))
+        command = ["run", SCENE, "-q", "-o", "resumed", *settings(
+            ["model.file=" + path("resumed.step"), *COARSE, *QUICK, "response.preload=" + str(list(range(50, 90)))])]
+        process = subprocess.Popen([PROGRAM, *command], cwd=WORK, env=without_plots(), stderr=subprocess.DEVNULL)
+        while not os.path.exists(path("resumed/checkpoint/modes")):
+            self.assertIsNone(process.poll(), "the run ended before its modes were kept")
+            time.sleep(0.02)
+        process.kill()
+        process.wait()
+        with open(path("resumed.step"), "a", encoding="ascii") as stream:
+            stream.write("\n")
+        message = program(*command, "--resume", code=1)
+        for words in ("--resume", "resumed.step", "run without --resume"):
+            self.assertIn(words, message)
 
     def test_same_as_the_parametric_blade(self):
         blade = os.path.join(SCENES, "blade_to_ground.toml")

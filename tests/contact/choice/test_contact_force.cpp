@@ -112,6 +112,62 @@ TEST(ContactForce, TwoPatchesAreTheOneTheyMakeUp) {
   }
 }
 
+/// Whose third mode moves the points as the first two do.
+Patch two_motions(Eigen::Index n) {
+  Patch patch = patch_at(0.0, n);
+  for (Eigen::MatrixXd* shape :
+       {&patch.cells.shapes.u, &patch.cells.shapes.v, &patch.cells.shapes.w}) {
+    shape->col(2) = 0.7 * shape->col(0) - 0.05 * shape->col(1);
+  }
+  patch.cells.stiffness.col(1).setConstant(1.2);
+  return patch;
+}
+
+// In lanes, along a line and in a plane: two coordinates say what three modes do.
+TEST(ContactForce, IsThatOfAllModesThroughAsManyCoordinatesAsThePatchHasMotions) {
+  MotionCoordinates two;
+  two.of_modes = Eigen::MatrixXd{{2.0, 0.0, 1.4}, {0.5, 1.0, 0.3}};
+  two.motion = Eigen::MatrixXd{{0.5, 0.0}, {-0.25, 1.0}, {0.0, 0.0}};
+  ASSERT_TRUE((two.of_modes * two.motion).isIdentity(1e-15));
+  std::vector<Patch> patches{two_motions(60)};
+  const Harmonics q = motion(3);
+  for (const bool planar : {false, true}) {
+    ContactEffects effects;
+    effects.n_harmonics = 3;
+    effects.second_direction = planar;
+    ASSERT_TRUE(is_sampled(patches, effects));
+    const auto all = ContactForce(patches, effects, 40.0).modal_force();
+    const auto few = ContactForce(patches, effects, 40.0, two).modal_force();
+    for (const std::vector<Eigen::Index>& rows :
+         {std::vector<Eigen::Index>{0, 1, 2, 3, 4, 5, 6}, {0, 1, 2, 5, 6}, {}}) {
+      const ForceAndJacobian a = all->evaluate(q, 1.3, {.rows = rows});
+      const ForceAndJacobian b = few->evaluate(q, 1.3, {.rows = rows});
+      EXPECT_LT(difference(b.force.vector(), a.force.vector()), 1e-12);
+      ASSERT_EQ(b.jacobian.rows(), a.jacobian.rows());
+      EXPECT_LT((a.jacobian - b.jacobian).norm(), 1e-11 * (1.0 + a.jacobian.norm()));
+    }
+    EXPECT_LT((all->stuck_stiffness() - few->stuck_stiffness()).norm(),
+              1e-13 * all->stuck_stiffness().norm());
+    EXPECT_NEAR(all->report(q, 1.3).slip_work, few->report(q, 1.3).slip_work, 1e-10);
+    ContactStates of_all;
+    ContactStates of_few;
+    all->states(q, 1.3, of_all);
+    few->states(q, 1.3, of_few);
+    EXPECT_LT(state_change(of_all, of_few).largest, 1e-9);
+    // Proved of few only where it is of all: their ball of motions is no smaller.
+    for (const double radius : {1e-6, 1e-3, 1.0}) {
+      if (few->linear_state(Harmonics(1, n_modes), radius) == LinearState::unknown) continue;
+      EXPECT_EQ(few->linear_state(Harmonics(1, n_modes), radius),
+                all->linear_state(Harmonics(1, n_modes), radius));
+    }
+  }
+  two.of_modes.conservativeResize(2, 2);
+  EXPECT_THROW(
+      static_cast<void>(
+          ContactForce(patches, {.n_harmonics = 3}, 40.0, two).modal_force()->evaluate(q, 1.3)),
+      std::invalid_argument);
+}
+
 TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
   for (const Case& c : cases()) {
     std::vector<Patch> patches{patch_at(0.0, 12)};

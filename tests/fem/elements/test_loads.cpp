@@ -57,6 +57,20 @@ TEST(Loads, AFreeBodyHasNoStaticSolution) {
   EXPECT_THROW(static_cast<void>(structure.solve_static(some_loads(mesh))), EigenError);
 }
 
+// The area vectors of a closed body cancel, and ∫ x·n dA over its surface is three times its
+// volume.
+TEST(Loads, APressureActsAlongTheNormalOfCurvedFaces) {
+  const mesh::Mesh mesh = bar();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  for (const std::string& side : mesh.surface_names()) {
+    load += normal_traction(mesh.nodes(), mesh.surface(side));
+  }
+  const auto per_node = load.reshaped(3, mesh.n_nodes());
+  EXPECT_LT(per_node.rowwise().sum().norm(), 1e-14 * per_node.norm());
+  const double work = per_node.cwiseProduct(mesh.nodes().transpose()).sum();
+  EXPECT_NEAR(work, 3.0 * mesh.volume(), 1e-12 * mesh.volume());
+}
+
 TEST(Loads, ForcesOfAnotherSizeAreRefused) {
   Structure structure(bar(), titanium, {"x0"});
   EXPECT_THROW(static_cast<void>(structure.solve_static(Eigen::MatrixXd::Zero(7, 1))),

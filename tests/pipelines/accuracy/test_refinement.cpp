@@ -50,7 +50,7 @@ TEST(Refinement, SharesTheToleranceAmongSources) {
   const double size = std::get<BladeModel>(step->scene.model).element_size;
   EXPECT_TRUE(step->new_mesh);
   EXPECT_LT(size, 0.004 * std::sqrt(tolerance / 0.03));
-  EXPECT_GE(step->scene.settings.patches[0].n_points, 4 * blade().settings.patches[0].n_points);
+  EXPECT_GE(contact_points(step->scene.settings, 0), 4 * contact_points(blade().settings, 0));
   EXPECT_GE(step->factor, 4.0);
 }
 

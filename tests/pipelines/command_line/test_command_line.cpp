@@ -60,7 +60,10 @@ frequency = [10, 30]
 /// A folder to work in, and the program run inside it, without plots.
 class Program : public testing::Test {
  protected:
-  Program() { ::setenv("PYTHONPATH", MICROSLIP_NO_PLOTS, 1); }
+  Program() {
+    ::setenv("PYTHONPATH", MICROSLIP_NO_PLOTS, 1);
+    ::setenv("MICROSLIP_CACHE", "off", 1);
+  }
 
   /// @param arguments  as typed in a shell.
   [[nodiscard]] Outcome run(const std::string& arguments,
@@ -110,8 +113,8 @@ TEST_F(Program, ExplainsEveryCommandAndOption) {
   const Outcome help = run("--help");
   EXPECT_EQ(help.code, 0);
   for (const char* name : {"init", "check", "mesh", "modes", "run", "cycle", "converge", "report",
-                           "--set", "--resume", "--jobs", "--tolerance", "--budget", "--dry-run",
-                           "--quiet", "--verbose", "--json", "--version"}) {
+                           "--set", "--resume", "--no-cache", "--jobs", "--tolerance", "--budget",
+                           "--dry-run", "--quiet", "--verbose", "--json", "--version"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
   for (const char* command :
@@ -131,7 +134,7 @@ TEST_F(Program, TellsItsVersionBeforeAndAfterACommand) {
 }
 
 TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
-  expect("", 1, {"subcommand"});
+  expect("", 1, {"expected a command", "run", "init"});
   expect("rnu scene.toml", 1, {"unknown command \"rnu\"", "did you mean \"run\"?"});
   expect("run", 1, {"scene"});
   expect("run scene.toml --tollerance 1%", 1, {"--tollerance", "did you mean --tolerance?"});
@@ -142,6 +145,52 @@ TEST_F(Program, NamesWhatIsWrongWithACommandLine) {
   expect("check a.toml b.toml", 1, {"b.toml"});
   expect("mesh scene.toml", 1, {"--output"});
   expect("check scene.toml --set", 1, {"--set"});
+}
+
+TEST_F(Program, KnowsAMeshAndAStepFileWhereASceneIsExpected) {
+  write(path("blade.msh"), "$MeshFormat\n");
+  write(path("blade.step"), "ISO-10303-21;\n");
+  expect("run blade.msh", 1, {"blade.msh", "expected a scene", "init mesh blade.msh"});
+  expect("check blade.step", 1, {"expected a scene", "init step blade.step"});
+  expect("surfaces blade.step", 1, {"blade.step", "microslip faces"});
+}
+
+TEST_F(Program, SaysHowAQuantityIsWritten) {
+  write(path("scene.toml"), scene_text);
+  expect("run scene.toml --tolerance 5", 1, {"accuracy.tolerance", "did you mean 5 %?"});
+  write(path("scene.toml"), std::string(scene_text) + "harmonic_tolerance = 1 %\n");
+  expect("run scene.toml", 1, {"scene.toml:11:", "response.harmonic_tolerance", "quotes: \"1 %\""});
+}
+
+TEST_F(Program, SaysWhichNameOfAFolderCannotBe) {
+  write(path("scene.toml"), scene_text);
+  const std::string longer_than_names_are(300, 'n');
+  expect("run scene.toml -o " + longer_than_names_are, 1, {"name too long"});
+  std::filesystem::create_symlink("loop", path("loop"));
+  expect("run scene.toml -o loop", 1, {"loop", "symbolic links"});
+  std::filesystem::create_directories(path("locked/.lock"));
+  expect("run scene.toml -o locked", 4, {"locked/.lock", "directory"});
+}
+
+TEST_F(Program, SaysWhyACurveIsIncompleteHoweverQuiet) {
+  write(path("scene.toml"), scene_text);
+  const Outcome outcome =
+      run("run scene.toml -q --set 'modal.points[0].tangential_stiffness=1e30' --set "
+          "response.harmonics=1");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("no-start"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Program, WritesTheEndsOfTheRangeAsTheyWereGiven) {
+  write(path("scene.toml"), scene_text);
+  EXPECT_EQ(
+      run("run scene.toml -q -o r --set response.harmonics=1 --set 'response.frequency=[15, 30.7]'")
+          .code,
+      0);
+  const std::string table = content_of(path("r/curves/scale_1.csv"));
+  EXPECT_NE(table.find("\n15,"), std::string::npos);
+  EXPECT_NE(table.find("\n30.7,"), std::string::npos);
+  EXPECT_NE(content_of(path("r/modes.csv")).find("1,15.9,"), std::string::npos);
 }
 
 TEST_F(Program, RefusesOptionsThatACommandDoesNotKnow) {
@@ -157,6 +206,7 @@ TEST_F(Program, RefusesOptionsThatSayNothingToACommand) {
   write(path("t.csv"), table_header);
   expect("cycle t.csv --set modes.count=3", 1, {"--set", "cycle reads no scene"});
   expect("init modal --set modes.count=3", 1, {"--set"});
+  expect("init modal --no-cache", 1, {"--no-cache"});
   expect("init modal --dry-run", 1, {"--dry-run"});
   expect("cycle t.csv --resume", 1, {"--resume", "run and modes"});
 }

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <limits>
 
-#include "pipelines/files/byte_archive.hpp"
 #include "pipelines/files/write_csv.hpp"
+#include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
@@ -53,6 +53,17 @@ TEST(Checkpoint, ACurveIsReadBackBitForBit) {
   Checkpoint(folder.path(), true).keep("curves/again", *read);
   EXPECT_EQ(content_of(folder.path() / "checkpoint/curves/again"),
             content_of(folder.path() / "checkpoint/curves/preload_100"));
+}
+
+TEST(Checkpoint, FacesUnderStaticLoadsAreReadBack) {
+  const synthetic::Folder folder("checkpoint_static");
+  make_folder(folder.path() / "checkpoint");
+  StructureModes modes;
+  modes.static_face = contact::ElasticFace{Eigen::Matrix2d::Identity(), Eigen::Vector2d(1.0, -2.0)};
+  Checkpoint(folder.path(), true).keep("modes", modes);
+  const auto read = Checkpoint(folder.path(), true).find<StructureModes>("modes");
+  EXPECT_EQ(read->static_face->flexibility, modes.static_face->flexibility);
+  EXPECT_EQ(read->static_face->approach, modes.static_face->approach);
 }
 
 TEST(Checkpoint, ALimitIsReadBackAsALimit) {

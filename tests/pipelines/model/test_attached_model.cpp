@@ -211,6 +211,29 @@ TEST(AttachedModel, ForcesAndOutputsOnASurfaceFollowItsArea) {
   EXPECT_EQ((point.array() != 0.0).count(), 2);
 }
 
+// The face is small beside the beam: half the shapes move it otherwise than the rest by less than
+// is seen.
+TEST(AttachedModel, APeakIsTheSameWithAllModesAndWithTheMotionsThatThePatchHas) {
+  const mesh::Mesh mesh = cantilever();
+  const SceneDescription scene = scene_with(
+      {"contact.points=60", "response.harmonics=3", "effects.normal_motion=auto", "modes.count=8",
+       "contact.normal_stiffness='1e11 N/m^3'", "contact.tangential_stiffness='1e11 N/m^3'"});
+  ReducedModel model = model_with(mesh, scene);
+  const Eigen::Index n = model.frequency.size();
+  ASSERT_FALSE(model.coordinates.all_modes());
+  EXPECT_LE(model.coordinates.of_modes.rows(), n - 2);
+  EXPECT_TRUE((model.coordinates.of_modes * model.coordinates.motion).isIdentity(1e-10));
+  const solver::ResponsePoint few = peak_of(model, scene);
+  EXPECT_GT(few.report.slip_share, 0.1);
+  const Eigen::Index r = model.coordinates.of_modes.rows();
+  model.coordinates = {};
+  const solver::ResponsePoint all = peak_of(model, scene);
+  std::printf("%d of %d coordinates: %.3g of the peak\n", static_cast<int>(r), static_cast<int>(n),
+              few.amplitude / all.amplitude - 1.0);
+  EXPECT_NEAR(few.amplitude, all.amplitude, 2e-4 * all.amplitude);
+  EXPECT_NEAR(few.frequency, all.frequency, 2e-5 * all.frequency);
+}
+
 // Modes solved anew on the same mesh, cells and harmonics: as a scene file that says so.
 TEST(AttachedModel, WithOtherSettingsIsThatOfASceneThatHasThem) {
   const mesh::Mesh mesh = cantilever();
@@ -231,7 +254,7 @@ TEST(AttachedModel, WithOtherSettingsIsThatOfASceneThatHasThem) {
   ASSERT_EQ(richer.frequency.size(), said.frequency.size());
   EXPECT_LT((richer.frequency - said.frequency).norm(), 1e-9 * said.frequency.norm());
   EXPECT_EQ(richer.patches.front().cells.points, said.patches.front().cells.points);
-  EXPECT_GT(richer.patches.front().cells.size(), lean.settings.patches.front().n_points);
+  EXPECT_GE(richer.patches.front().cells.size(), 9);
   EXPECT_THROW(static_cast<void>(
                    microslip::pipelines::model_with(Discretisation{}, lean, &structure, warnings)),
                std::invalid_argument);

@@ -1,14 +1,24 @@
 // Effects that a scene leaves out: what is simulated then, and what is told of it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "contact/harmonics.hpp"
+#include "pipelines/effect_table.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/effect_choice.hpp"
+#include "pipelines/model/effect_indicators.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
@@ -95,10 +105,135 @@ TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
       continue;
     }
     ++n_told;
-    EXPECT_FALSE(effect.simulated) << effect.name;
+    EXPECT_EQ(effect.simulated, Simulated::no) << effect.name;
     EXPECT_NE(effect.reason.find("effects.normal_motion"), std::string::npos) << effect.reason;
   }
   EXPECT_EQ(n_told, 3);
+}
+
+// One mode, one point, at the resonance of the stuck limit: all numbers can be told by hand.
+constexpr const char* one = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10]
+damping_ratio = 0.01
+force_sine = [0]
+force_cosine = [1]
+output = [1]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 3e3
+normal_stiffness = 2e3
+friction_coefficient = 0.5
+preload = 4
+phi_u_1 = 1
+phi_v_1 = 0.5
+[response]
+frequency = 12
+harmonics = 1
+)toml";
+
+SceneDescription scene_of(const Overrides& overrides) {
+  return parse_scene(one, "scene.toml", "/nowhere", overrides);
+}
+
+/// Amplitude of the one mode with stiffness k added.
+double amplitude(double k, double frequency_hz) {
+  const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  const double omega_n = 2.0 * std::numbers::pi * 10.0;
+  return 1.0 / std::hypot(omega_n * omega_n + k - omega * omega, 0.02 * omega_n * omega);
+}
+
+TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
+  const SceneDescription scene = scene_of({});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  const double stiffness = 3e3 + 0.25 * 2e3;
+  const double free = amplitude(0.0, 12.0);
+  const double stuck = amplitude(stiffness, 12.0);
+  EXPECT_NEAR(reach.load, 2e3 * 0.5 * std::max(free, stuck) / 4.0, 1e-12);
+  EXPECT_NEAR(reach.slip, 3e3 * stuck / (0.5 * (4.0 - 2e3 * 0.5 * stuck)), 1e-12);
+  EXPECT_EQ(reach.mean_load, 0.0);
+  // The stuck resonance lies above, the free one below: contact bends both to 12 Hz.
+  const double stuck_hz =
+      std::sqrt(std::pow(2.0 * std::numbers::pi * 10.0, 2) + stiffness) / (2.0 * std::numbers::pi);
+  EXPECT_NEAR(reach.nearby, 2e3 * 0.5 * amplitude(stiffness, stuck_hz) / 4.0, 1e-9);
+}
+
+TEST(Effects, AGapIsReachedByTheFreeLimit) {
+  const SceneDescription scene = scene_of({"modal.points[0].preload=-4"});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  EXPECT_NEAR(reach.slip, 2e3 * 0.5 * amplitude(0.0, 12.0) / 4.0, 1e-12);
+  EXPECT_NEAR(reach.nearby, 2e3 * 0.5 * amplitude(0.0, 10.0) / 4.0, 1e-9);
+}
+
+TEST(Effects, ADriftCountsThoughNothingVibrates) {
+  const SceneDescription scene =
+      scene_of({"modal.force_cosine=[1e-9]", "modal.force_static=[-40]"});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  const double drift = 40.0 / std::pow(2.0 * std::numbers::pi * 10.0, 2);  // free: the larger one
+  EXPECT_NEAR(reach.load, 2e3 * 0.5 * drift / 4.0, 1e-6);
+  EXPECT_GT(reach.mean_load, 1.0);
+}
+
+TEST(Effects, AResonanceWithoutDampingHasNoBound) {
+  const SceneDescription scene = scene_of({"modal.damping_ratio=0", "response.frequency=10"});
+  EXPECT_TRUE(std::isinf(contact_reach(model_in(scene), scene, 1.0).load));
+}
+
+TEST(Effects, NormalMotionIsLeftOutWhereNothingKnowsOfIt) {
+  EXPECT_TRUE(model_in(scene_of({})).effects.normal_motion);
+  EXPECT_FALSE(model_in(scene_of({"modal.points[0].phi_v_1=1e-6"})).effects.normal_motion);
+  const Overrides asked{"modal.points[0].phi_v_1=1e-6", "effects.normal_motion=on"};
+  EXPECT_TRUE(model_in(scene_of(asked)).effects.normal_motion);
+  // A load so large that it hardly varies: the springs hold the structure all the same.
+  EXPECT_TRUE(model_in(scene_of({"modal.points[0].preload=1e9"})).effects.normal_motion);
+}
+
+TEST(Effects, AMultipleOfTheFrequencyThatMeetsAModeIsSeen) {
+  const auto answer = [](const char* second) {
+    const SceneDescription scene = parse_scene(
+        text, "scene.toml", "/nowhere",
+        {"response.frequency=[9, 12]", std::string("modal.frequency=[10, ") + second + "]",
+         "modal.points[0].normal_stiffness=0", "modal.points[1].normal_stiffness=0"});
+    return harmonic_answer(model_in(scene), scene);
+  };
+  EXPECT_EQ(answer("30").order, 3);
+  EXPECT_GT(answer("30").ratio, 5.0 * answer("35").ratio);
+}
+
+TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
+  const auto starts = [](const Overrides& overrides) {
+    const SceneDescription scene = scene_of(overrides);
+    return search_starts(scene, model_in(scene), 1.0);
+  };
+  const std::string gap = "modal.points[0].preload=-4";
+  EXPECT_GT(starts({gap}), 0);
+  EXPECT_EQ(starts({"modal.points[0].preload=-4e6"}), 0);  // out of reach
+  EXPECT_EQ(starts({gap, "response.frequency=[8, 12]"}), 0);
+  EXPECT_GT(starts({gap, "response.frequency=[8, 12]", "effects.coexistence=on"}), 0);
+  EXPECT_EQ(starts({gap, "response.search_starts=3"}), 3);
+  EXPECT_EQ(starts({gap, "response.search_starts=0"}), 0);
+  EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
+}
+
+TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
+  const SceneDescription scene = scene_of({});
+  for (const char* name : {"nonlinearity", "normal_motion", "second_direction", "coexistence"}) {
+    EXPECT_EQ(effect_in(effects_of(scene, nullptr), name).simulated, Simulated::undecided) << name;
+  }
+}
+
+TEST(Effects, TheTableInTheDocumentationIsTheOneOfTheProgram) {
+  std::ifstream in(MICROSLIP_EFFECTS);
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const EffectRow& row : effect_table) {
+    const std::string quantity = row.quantity.empty() ? "–" : std::string(row.quantity);
+    const std::string threshold =
+        std::isfinite(row.threshold) ? fmt::format("{:.3g}", row.threshold) : "–";
+    const std::string line = fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.meaning,
+                                         quantity, threshold, row.lost);
+    EXPECT_NE(page.find(line), std::string::npos) << "share/doc/effects.md has not: " << line;
+  }
 }
 
 // A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "mesh/outer_faces.hpp"
-#include "pipelines/model/named_points.hpp"
+#include "pipelines/import/named_points.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "tests/support/box_mesh.hpp"
 

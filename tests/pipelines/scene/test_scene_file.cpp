@@ -297,7 +297,7 @@ TEST(Overrides, AnyKeyMayBeSetAlsoInsideLists) {
 }
 
 TEST(Overrides, AMissingSectionIsMade) {
-  EXPECT_EQ(parse(modal_text, {"effects.separation=on"}).effects[1].second, "on");
+  EXPECT_EQ(setting_of(parse(modal_text, {"effects.separation=on"}), "separation"), "on");
 }
 
 TEST(Overrides, TheLastOneHolds) {
@@ -500,22 +500,9 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   };
   refused(blade_text, "model.kind=shell");
   refused(blade_text, "contact.surface=[\"a\", \"b\"]");
-  for (const char* effect : {"roughness", "rate_dependence"}) {
-    expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=on"}),
-                     {effect, "needs"});
-  }
-  expect_complaint(complaint(modal_text, {"effects.higher_harmonics=on", "response.harmonics=1"}),
-                   {"higher_harmonics", "needs"});
-  expect_complaint(complaint(modal_text, {"effects.higher_harmonics=off", "response.harmonics=3"}),
-                   {"contradicts response.harmonics"});
-  for (const char* effect : {"separation", "mean_coupling"}) {
-    expect_complaint(complaint(modal_text, {std::string("effects.") + effect + "=off"}),
-                     {effect, "switch effects.normal_motion off"});
-  }
-  expect_complaint(complaint(modal_text, {"effects.stability=off"}), {"cannot be switched off"});
-  expect_complaint(complaint(blade_text, {"effects.residual=off"}), {"modes.residual = \"none\""});
-  EXPECT_EQ(parse(blade_text, {"effects.residual=off", "modes.residual=none"}).effects.size(), 9U);
-  expect_complaint(complaint(modal_text, {"effects.residual=on"}), {"residual"});
+  EXPECT_EQ(
+      setting_of(parse(blade_text, {"effects.residual=off", "modes.residual=none"}), "residual"),
+      "off");
   for (const char* friction : {"0.3 m", "0.3 +* p"}) {
     expect_complaint(
         complaint(blade_text, {std::string("contact.friction_coefficient='") + friction + "'"}),

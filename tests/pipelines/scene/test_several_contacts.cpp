@@ -45,7 +45,7 @@ TEST(SeveralContacts, EachHasItsOwnKeys) {
   EXPECT_EQ(scene.contacts[0].name, "a");
   EXPECT_EQ(scene.contacts[1].name, "upper");
   EXPECT_EQ(scene.contacts[1].surface, "b");
-  EXPECT_EQ(scene.settings.patches[0].n_points, 300);
+  EXPECT_EQ(scene.settings.patches[0].n_points, std::nullopt);
   EXPECT_EQ(scene.settings.patches[1].n_points, 50);
   EXPECT_EQ(scene.contacts[1].key, "contact[1]");
 }

@@ -1,6 +1,7 @@
 #include "pipelines/text/units.hpp"
 
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include <array>
 #include <clocale>
@@ -176,6 +177,15 @@ TEST(Units, NumbersHaveAPointInAnyLocale) {
   std::setlocale(LC_ALL, before.c_str());
   expect_close(value, 0.0025);
   EXPECT_EQ(number, 2.5);
+}
+
+TEST(Units, AFrequencyIsToldAsItWasGiven) {
+  for (int i = 1; i < 20000; ++i) {
+    const double given = 0.01 * i;
+    EXPECT_EQ(in_hertz(to_si(std::to_string(given), "Hz") * 2.0 * std::numbers::pi),
+              std::stod(std::to_string(given)));
+  }
+  EXPECT_EQ(in_hertz(0.0), 0.0);
 }
 
 TEST(ParseNumber, TakesTheWholeTextOrNothing) {

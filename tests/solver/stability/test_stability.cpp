@@ -2,10 +2,13 @@
 
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "contact/transient/patch_transient.hpp"
+#include "contact/transient/planar_transient.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
@@ -130,6 +133,59 @@ TEST(Stability, OfEveryLinearCurveIsProved) {
       EXPECT_EQ(point.stability_basis, StabilityBasis::damped_linear) << point.frequency;
     }
   }
+}
+
+/// A mode along p that rubs under a constant load, judged with three harmonics at a motion that slips.
+StabilityBasis basis_in_time(std::unique_ptr<contact::TransientForce> transient,
+                             PeriodMapEffort effort) {
+  Scene scene;
+  scene.natural_frequency = Eigen::VectorXd::Constant(1, 1.0);
+  scene.damping_ratio = Eigen::VectorXd::Constant(1, 0.03);
+  scene.output = Eigen::VectorXd::Ones(1);
+  scene.excitation = contact::Harmonics(1, 1);
+  scene.transient = std::move(transient);
+  contact::Harmonics q(3, 1);
+  q.rows()(1, 0) = 1.0;
+  StabilityReport hill;
+  hill.basis = StabilityBasis::hill;
+  return stability_in_time(HarmonicBalance(scene, HarmonicSet(3)), q, 0.9, hill, effort).basis;
+}
+
+TEST(Stability, IsJudgedInTimeAtEveryPointOnlyWhereAPeriodIsCheap) {
+  // Events along a line take 1 ms a period, slip in a plane or under another law 10: nine tenths of
+  // a curve.
+  const contact::PointParameters point{1.0, 0.0, 0.3, 0.5};
+  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(1);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(1, 1);
+  const auto line = [&] {
+    return std::make_unique<contact::PatchTransient>(contact::ContactPatch(weight, {point}),
+                                                     contact::ModalShapes{one, none, {}});
+  };
+  const auto plane = [&] {
+    return std::make_unique<contact::PlanarTransient>(
+        weight, std::vector{contact::SurfaceLaw(point, point.tangential_stiffness)},
+        contact::ModalShapes{one, none, {}});
+  };
+  EXPECT_EQ(basis_in_time(line(), PeriodMapEffort::every_point), StabilityBasis::period_map);
+  EXPECT_EQ(basis_in_time(line(), PeriodMapEffort::few_points), StabilityBasis::period_map);
+  EXPECT_EQ(basis_in_time(plane(), PeriodMapEffort::every_point), StabilityBasis::hill);
+  EXPECT_EQ(basis_in_time(plane(), PeriodMapEffort::few_points), StabilityBasis::period_map);
+}
+
+TEST(Stability, OfAMotionThatSticksThroughoutIsProvedWithoutIntegration) {
+  ContinuationOptions options;
+  options.n_harmonics = 3;
+  const auto basis_at = [&](double preload) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::add_transient(scene);
+    tests::use_event_cycles(scene);
+    const auto curve = solve_at_frequency(scene, 2.0 * std::numbers::pi * 20.5, options);
+    EXPECT_TRUE(curve.complete);
+    return curve.points.at(0).stability_basis;
+  };
+  EXPECT_EQ(basis_at(30.0), StabilityBasis::damped_linear);
+  EXPECT_EQ(basis_at(3.0), StabilityBasis::period_map);
 }
 
 TEST(Stability, NegativeDampingIsUnstable) {

@@ -72,6 +72,7 @@ class Content:
     element_sets: dict = dataclasses.field(default_factory=dict)  # name → element numbers
     surfaces: dict = dataclasses.field(default_factory=dict)      # name → elements and their faces from 0, n × 2
     length_unit: float = None                         # metres; None: the file does not say
+    turned_nodes: tuple = ()   # numbers of those that tell displacements in axes of their own
     either_hand: bool = False  # whole blocks of elements may be numbered as seen in a mirror
 
 

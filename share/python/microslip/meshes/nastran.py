@@ -137,7 +137,7 @@ def _listed(place, words):
 class _Deck:
     def __init__(self, path):
         self.path = path
-        self.nodes, self.coordinates = [], []
+        self.nodes, self.coordinates, self.turned = [], [], []
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers
         self.node_lists = {}    # name → [node numbers]
@@ -185,6 +185,8 @@ class _Deck:
         require(words[2] in ("", "0"),
                 f"{place}: GRID {number} lies in coordinate system {words[2]}; write the mesh out in the basic system")
         self.nodes.append(number)
+        if words[6:7] not in ([], [""], ["0"]):
+            self.turned.append(number)
         self.coordinates.append([_real(place, word) for word in words[3:6]])
 
     def _take_element(self, place, words):
@@ -213,7 +215,7 @@ class _Deck:
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
-        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks)
+        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned))
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)
         self._name_nodes(content)

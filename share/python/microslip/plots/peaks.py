@@ -119,5 +119,6 @@ def parameter_figure(run):
     log_scale(column[0].yaxis)
     if optimum["found"]:
         mark_optimum(column, run, optimum, "")
-    column[1].set_xlabel(f"{optimum['parameter']} [SI], preload {optimum['preload_N']:.4g} N")
+    load = optimum["preload_N"]  # None: that of the static loads
+    column[1].set_xlabel(f"{optimum['parameter']} [SI], {'static preload' if load is None else f'preload {load:.4g} N'}")
     return finish(figure, run, column)

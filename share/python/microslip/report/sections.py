@@ -93,11 +93,30 @@ def asked(run, data):
             "quarter of a period late.</p>")
 
 
+def told(value, digits=2):
+    """An indicator: a number, "infinite", or nothing."""
+    return "∞" if value == "infinite" else number(value, digits)
+
+
+def effect_row(row):
+    simulated = {True: "yes", False: "no"}.get(row.get("simulated"), "not decided")
+    bound, why = row.get("bound"), escape(str(row.get("reason", "")))
+    if bound is not None:
+        why += f"; having it changes the peaks by {percent(bound) if is_number(bound) else 'what is not known'} at most"
+    if row.get("objection"):
+        why += f"; <b>but {escape(str(row['objection']))}</b>"
+    measured = f'<span title="{escape(str(row.get("quantity", "")))}">{told(row.get("indicator"))}</span>'
+    seconds = row.get("seconds")
+    return [escape(str(row.get("name", "")).replace("_", " ")), simulated, escape(str(row.get("setting", ""))), measured,
+            told(row.get("threshold")), f"{number(seconds, 2)} s" if is_number(seconds) else "–", why]
+
+
 def effects(run, data):
-    rows = [[escape(str(row.get("name", "")).replace("_", " ")), "yes" if row.get("simulated") else "no",
-             escape(str(row.get("setting", ""))), escape(str(row.get("reason", "")))]
-            for row in run.summary.get("effects") or []]
-    return table(["effect", "simulated", "setting", "why"], rows) if rows else ""
+    rows = [effect_row(row) for row in run.summary.get("effects") or []]
+    head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "why"]
+    return "" if not rows else (table(head, rows, (3, 4, 5)) +
+                     "<p class=note>Above its limit an indicator, told from the linear limits before the run, calls for the "
+                     "effect; point at it to read what it is. Cost: what the curves take longer, forecast; –: not told apart.</p>")
 
 
 def state_of(curve):

@@ -1,0 +1,80 @@
+#include "contact/force/fewer_coordinates.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace microslip::contact {
+namespace {
+
+/// Rows of `vector`, blocks of T's rows, each times T.
+Eigen::VectorXd to_modes(const Eigen::VectorXd& vector, const Eigen::MatrixXd& T) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::VectorXd result(vector.size() / T.rows() * T.cols());
+  const Eigen::Index n = vector.size() / T.rows();
+  Eigen::Map<Rows>(result.data(), n, T.cols()).noalias() =
+      Eigen::Map<const Rows>(vector.data(), n, T.rows()) * T;
+  return result;
+}
+
+}  // namespace
+
+FewerCoordinates::FewerCoordinates(Eigen::MatrixXd of_modes, std::unique_ptr<ModalForce> force)
+    : ModalForce(of_modes.cols()),
+      of_modes_(std::move(of_modes)),
+      norm_(of_modes_.norm()),
+      force_(std::move(force)) {
+  if (force_->n_modes() != of_modes_.rows()) {
+    throw std::invalid_argument("FewerCoordinates: a force of another number of coordinates");
+  }
+}
+
+Harmonics FewerCoordinates::coordinates(const Harmonics& q) const {
+  Harmonics x(q.n_harmonics(), of_modes_.rows());
+  x.rows().noalias() = q.rows() * of_modes_.transpose();
+  return x;
+}
+
+CycleReport FewerCoordinates::report(const Harmonics& q, double frequency) {
+  return force_->report(coordinates(q), frequency);
+}
+
+void FewerCoordinates::states(const Harmonics& q, double frequency, ContactStates& result) {
+  force_->states(coordinates(q), frequency, result);
+}
+
+Eigen::MatrixXd FewerCoordinates::stuck_stiffness() const {
+  return of_modes_.transpose() * force_->stuck_stiffness() * of_modes_;
+}
+
+LinearState FewerCoordinates::linear_state(const Harmonics& centre, double radius) const {
+  return force_->linear_state(coordinates(centre), norm_ * radius);
+}
+
+Eigen::MatrixXd FewerCoordinates::expanded(const Eigen::MatrixXd& jacobian) const {
+  const Eigen::Index r = of_modes_.rows();
+  const Eigen::Index n = of_modes_.cols();
+  const Eigen::Index rows = jacobian.rows() / r;
+  Eigen::MatrixXd wide(jacobian.rows(), rows * n);
+  for (Eigen::Index l = 0; l < rows; ++l) {
+    wide.middleCols(l * n, n).noalias() = jacobian.middleCols(l * r, r) * of_modes_;
+  }
+  Eigen::MatrixXd result(rows * n, rows * n);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    result.middleRows(k * n, n).noalias() = of_modes_.transpose() * wide.middleRows(k * r, r);
+  }
+  return result;
+}
+
+ForceAndJacobian FewerCoordinates::evaluated(const Harmonics& q, double frequency,
+                                             const Asked& asked) {
+  const ForceAndJacobian few = force_->evaluate(coordinates(q), frequency, asked);
+  ForceAndJacobian result;
+  result.force = Harmonics(few.force.n_harmonics(), n_modes());
+  result.force.rows().noalias() = few.force.rows() * of_modes_;
+  result.jacobian = expanded(few.jacobian);
+  result.frequency_derivative = to_modes(few.frequency_derivative, of_modes_);
+  result.defect = norm_ * few.defect;
+  return result;
+}
+
+}  // namespace microslip::contact

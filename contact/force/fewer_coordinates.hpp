@@ -1,0 +1,39 @@
+/// @file
+/// A force that sees the modes through fewer coordinates x = T q (theory 14.2):
+///
+///   G(q) = Tᵀ G_x(T q),     ∂G/∂q = Tᵀ (∂G_x/∂x) T
+///
+/// Patches are small and stiff beside the body: some six coordinates move them as fourteen mode shapes do.
+#pragma once
+
+#include <memory>
+
+#include "contact/modal_force.hpp"
+
+namespace microslip::contact {
+
+class FewerCoordinates final : public ModalForce {
+ public:
+  /// @param of_modes  T, r × n_modes.
+  /// @param force     of r modes.
+  /// @throws std::invalid_argument  another number of modes than r.
+  FewerCoordinates(Eigen::MatrixXd of_modes, std::unique_ptr<ModalForce> force);
+
+  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) override;
+  void states(const Harmonics& q, double frequency, ContactStates& result) override;
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
+  [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
+
+ private:
+  [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency,
+                                           const Asked& asked) override;
+  [[nodiscard]] Harmonics coordinates(const Harmonics& q) const;
+  /// Tᵀ J T of every pair of harmonic rows.
+  [[nodiscard]] Eigen::MatrixXd expanded(const Eigen::MatrixXd& jacobian) const;
+
+  Eigen::MatrixXd of_modes_;
+  double norm_;  // of T
+  std::unique_ptr<ModalForce> force_;
+};
+
+}  // namespace microslip::contact

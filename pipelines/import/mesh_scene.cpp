@@ -1,0 +1,205 @@
+#include "pipelines/import/mesh_scene.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipelines/import/mesh_file.hpp"
+#include "pipelines/import/mesh_names.hpp"
+#include "pipelines/scene/scene_template.hpp"
+#include "pipelines/system/mesh_format.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Names = std::vector<MeshName>;
+using Words = std::vector<std::string_view>;
+
+constexpr double flat_enough = 0.01;  // of the diameter: as a contact asks for
+
+/// In quotes, as TOML has it.
+std::string in_quotes(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+bool speaks_of(const std::string& name, const Words& words) {
+  std::string lower = name;
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::any_of(words,
+                             [&](std::string_view word) { return lower.find(word) != lower.npos; });
+}
+
+bool can_rub(const MeshName& name) { return name.n_faces > 0 && name.flatness < flat_enough; }
+
+/// What a key of the scene may be, the likeliest first.
+Names candidates(const Names& names, const Words& words,
+                 const std::function<bool(const MeshName&)>& possible) {
+  Names found;
+  for (const MeshName& name : names) {
+    const bool is_there =
+        std::ranges::any_of(found, [&](const MeshName& other) { return other.name == name.name; });
+    if (possible(name) && !is_there) found.push_back(name);
+  }
+  std::ranges::stable_partition(found,
+                                [&](const MeshName& name) { return speaks_of(name.name, words); });
+  return found;
+}
+
+std::string listed(const Names& names) {
+  std::string text;
+  for (const MeshName& name : names) text += (text.empty() ? "" : ", ") + in_quotes(name.name);
+  return text;
+}
+
+/// Unit vector along the axis of the largest of three numbers.
+std::string axis_of_largest(const Eigen::Vector3d& numbers) {
+  Eigen::Index axis = 0;
+  numbers.maxCoeff(&axis);
+  const Eigen::Vector3i unit = Eigen::Vector3i::Unit(axis);
+  return fmt::format("[{}, {}, {}]", unit.x(), unit.y(), unit.z());
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(const MeshOfFile& read, const std::filesystem::path& file,
+             const std::filesystem::path& scene_folder)
+      : read_(read), names_(mesh_names(read.mesh)), extent_(read.mesh.upper() - read.mesh.lower()) {
+    const auto relative = std::filesystem::relative(file, scene_folder);
+    values_["model.file"] = in_quotes((relative.empty() ? file : relative).string());
+    set_unit(mesh_format(file) == MeshFormat::gmsh);
+  }
+
+  std::string make() {
+    choose_support();
+    choose_contact();
+    choose_points();
+    std::string text = "# What the mesh has:\n";
+    std::istringstream table(describe_names(read_.mesh, read_.length_unit));
+    for (std::string line; std::getline(table, line);) text += "#   " + line + '\n';
+    text += scene_template("mesh", values_, remarks_);
+    return has_contact_ ? text : without_contact(text);
+  }
+
+ private:
+  void set_unit(bool is_gmsh) {
+    constexpr double longest = 3.0;  // m
+    if (read_.length_unit) {
+      values_["model.length_unit"] = "";  // the file tells it
+      return;
+    }
+    values_["model.length_unit"] = extent_.maxCoeff() < longest ? "\"m\"" : "\"mm\"";
+    remarks_["model.length_unit"] =
+        fmt::format("{}the file does not tell it: chosen by the size, which is {}",
+                    is_gmsh ? "" : "CHECK: ", size_readings(read_.mesh));
+  }
+
+  void choose_support() {
+    const Words words{"root", "fix", "clamp", "held", "hold", "support", "foot", "spc", "encastre"};
+    const Names possible = candidates(
+        names_, words, [](const MeshName& name) { return name.n_nodes >= 3 || name.n_faces > 0; });
+    if (!possible.empty() && speaks_of(possible.front().name, words)) {
+      clamped_ = possible.front().name;
+    }
+    values_["supports.clamped"] = clamped_.empty() ? "[]" : "[" + in_quotes(clamped_) + "]";
+    if (clamped_.empty()) {
+      remarks_["supports.clamped"] = "CHOOSE what is held: no name tells it; there are: " +
+                                     (possible.empty() ? "none" : listed(possible));
+    } else if (possible.size() > 1) {
+      remarks_["supports.clamped"] = "or some of: " + listed(possible);
+    }
+  }
+
+  void choose_contact() {
+    const Names possible = candidates(
+        names_, {"contact", "rub", "fric", "slave", "damper", "shroud", "platform", "pload"},
+        [&](const MeshName& name) { return can_rub(name) && name.name != clamped_; });
+    has_contact_ = !possible.empty();
+    if (!has_contact_) {
+      for (const char* key : {"response.preload", "response.maps"}) values_[key] = "";
+      return;
+    }
+    const MeshName& chosen = possible.front();
+    values_["contact.surface"] = in_quotes(chosen.name);
+    if (possible.size() > 1) remarks_["contact.surface"] = "plane ones: " + listed(possible);
+    // In the face; of two axes in it that along which the blade is longer.
+    const Eigen::Vector3d in_face = Eigen::Vector3d::Ones() - chosen.normal.cwiseAbs();
+    values_["contact.slip_direction"] =
+        axis_of_largest(in_face + 1e-3 * extent_ / extent_.maxCoeff());
+  }
+
+  void choose_points() {
+    const auto elsewhere = [&](const MeshName& name) {
+      return name.n_nodes > 0 && name.name != clamped_;
+    };
+    Names possible = candidates(names_, {"force", "load", "excit"}, elsewhere);
+    std::ranges::stable_partition(
+        possible, [](const MeshName& name) { return name.kind == MeshName::Kind::point; });
+    if (possible.empty()) {
+      throw SceneError(
+          "the mesh names nothing but what is held: name a place for the force and for the output "
+          "in the file");
+    }
+    const std::string force =
+        first_with(possible, {"force", "load", "excit"}).value_or(possible.front().name);
+    const std::string output =
+        first_with(possible, {"output", "respon", "sensor", "tip"}).value_or(possible.front().name);
+    const std::string bends = axis_of_largest(-extent_);  // a blade bends where it is thin
+    values_["excitation.forces"] =
+        fmt::format("[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = 0 }},\n]",
+                    in_quotes(force), bends);
+    values_["response.output"] =
+        fmt::format("{{ at = {}, direction = {} }}", in_quotes(output), bends);
+    remarks_["excitation.forces"] = "at one of: " + listed(possible);
+    remarks_["response.output"] = "at one of: " + listed(possible);
+    remarks_["response.frequency"] = "CHANGE: `microslip modes` tells the natural frequencies";
+  }
+
+  static std::optional<std::string> first_with(const Names& names, const Words& words) {
+    const auto found = std::ranges::find_if(
+        names, [&](const MeshName& name) { return speaks_of(name.name, words); });
+    return found == names.end() ? std::nullopt : std::optional<std::string>(found->name);
+  }
+
+  /// The section in comments.
+  static std::string without_contact(const std::string& text) {
+    std::istringstream lines(text);
+    std::string result;
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("[")) inside = line == "[contact]";
+      if (line == "[contact]") result += "# No name holds a plane face, so that nothing rubs.\n";
+      result += (inside && !line.empty() && line[0] != '#' ? "# " : "") + line + '\n';
+    }
+    return result;
+  }
+
+  const MeshOfFile& read_;
+  Names names_;
+  Eigen::Vector3d extent_;
+  TemplateTexts values_;
+  TemplateTexts remarks_;
+  std::string clamped_;
+  bool has_contact_ = false;
+};
+
+}  // namespace
+
+std::string scene_of_mesh(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const MeshOfFile read = read_mesh(file, std::nullopt);
+  return SceneMaker(read, file, folder).make();
+}
+
+}  // namespace microslip::pipelines

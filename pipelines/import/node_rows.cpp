@@ -1,0 +1,74 @@
+#include "pipelines/import/node_rows.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+// Results are printed with six digits of each coordinate.
+constexpr double node_tolerance = 1e-5;
+
+/// Nodes in the order of their x, to be found by their places.
+class NodeFinder {
+ public:
+  explicit NodeFinder(const Eigen::MatrixX3d& nodes) : nodes_(nodes), order_(nodes.rows()) {
+    std::iota(order_.begin(), order_.end(), Eigen::Index{0});
+    std::ranges::sort(order_, {}, [&](Eigen::Index i) { return nodes_(i, 0); });
+  }
+
+  /// The node nearest to a place within `distance` along every axis; −1: none.
+  [[nodiscard]] Eigen::Index near(const Eigen::RowVector3d& place, double distance) const {
+    const auto x = [&](Eigen::Index i) { return nodes_(i, 0); };
+    const auto first = std::ranges::lower_bound(order_, place.x() - distance, {}, x);
+    Eigen::Index best = -1;
+    for (auto i = first; i != order_.end() && x(*i) <= place.x() + distance; ++i) {
+      const double away = (nodes_.row(*i) - place).cwiseAbs().maxCoeff();
+      if (away > distance) continue;
+      distance = away;
+      best = *i;
+    }
+    return best;
+  }
+
+ private:
+  const Eigen::MatrixX3d& nodes_;
+  std::vector<Eigen::Index> order_;
+};
+
+std::string extents(const Eigen::MatrixX3d& nodes) {
+  const Eigen::RowVector3d size = nodes.colwise().maxCoeff() - nodes.colwise().minCoeff();
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m", size.x(), size.y(), size.z());
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> rows_of_nodes(const mesh::Mesh& mesh, const Eigen::MatrixX3d& nodes,
+                                        const std::filesystem::path& file,
+                                        const std::string& place_of_file) {
+  const double tolerance = node_tolerance * mesh.nodes().cwiseAbs().maxCoeff();
+  const NodeFinder finder(nodes);
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(mesh.n_nodes()));
+  Eigen::Index n_missing = 0;
+  Eigen::Index missing = 0;
+  for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
+    rows[static_cast<std::size_t>(i)] = finder.near(mesh.nodes().row(i), tolerance);
+    if (rows[static_cast<std::size_t>(i)] >= 0) continue;
+    ++n_missing;
+    missing = i;
+  }
+  if (n_missing == 0) return rows;
+  const auto place = mesh.nodes().row(missing);
+  throw SceneError(fmt::format(
+      "{}: {} of the {} nodes of the mesh have no place in {} (within {:.2g} m), one of them at "
+      "({:.6g}, {:.6g}, {:.6g}) m; the mesh measures {}, those nodes {}: give the mesh "
+      "they were computed on, in the same unit",
+      place_of_file, n_missing, mesh.n_nodes(), file.filename().string(), tolerance, place.x(),
+      place.y(), place.z(), extents(mesh.nodes()), extents(nodes)));
+}
+
+}  // namespace microslip::pipelines

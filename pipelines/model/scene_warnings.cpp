@@ -1,0 +1,70 @@
+#include "pipelines/model/scene_warnings.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace microslip::pipelines {
+namespace {
+
+/// By a force that varies in time.
+bool is_excited(const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    return modal->force_sine.cwiseAbs().maxCoeff() > 0.0 ||
+           modal->force_cosine.cwiseAbs().maxCoeff() > 0.0;
+  }
+  return std::ranges::any_of(scene.forces,
+                             [](const ForceDescription& force) { return force.amplitude != 0.0; });
+}
+
+/// A mode that vibrates without damping.
+bool is_undamped(const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model))
+    return ((modal->damping_ratio.array() == 0.0) && (modal->frequency_hz.array() > 0.0)).any();
+  if (const auto* rayleigh = std::get_if<RayleighDamping>(&scene.modes.damping)) {
+    return rayleigh->alpha == 0.0 && rayleigh->beta == 0.0;
+  }
+  const auto& ratios = std::get<std::vector<double>>(scene.modes.damping);
+  return std::ranges::find(ratios, 0.0) != ratios.end();
+}
+
+}  // namespace
+
+std::vector<std::string> scene_warnings(const SceneDescription& scene) {
+  std::vector<std::string> warnings;
+  for (const contact::SurfaceRules& rules : surface_rules(scene)) {
+    const auto& law = rules.friction;
+    if (!law) continue;
+    constexpr double fast = 1e300;  // [m/s]: the law at any speed there is
+    const double kinetic = law->at(fast).value;
+    if (kinetic > law->at_rest()) {
+      warnings.push_back(
+          fmt::format("friction law: the kinetic coefficient {:g} is above the static {:g}: "
+                      "friction grows with the slip speed; "
+                      "are the two exchanged?",
+                      kinetic, law->at_rest()));
+    }
+  }
+  if (!scene.response) return warnings;
+  if (!is_excited(scene))
+    warnings.emplace_back("no force excites the structure: its response will be zero");
+  if (is_undamped(scene)) {
+    warnings.emplace_back(
+        "a mode has no damping: where friction takes no energy, as in the free and the stuck "
+        "limit, its peak may "
+        "have no end, and the curve be incomplete then");
+  }
+  const auto [low, high] =
+      std::minmax(scene.response->frequency_begin_hz, scene.response->frequency_end_hz);
+  for (const MapEntry& entry : scene.response->maps) {
+    const auto* frequency = std::get_if<double>(&entry);
+    if (frequency == nullptr || (*frequency >= low && *frequency <= high)) continue;
+    warnings.push_back(fmt::format(
+        "response.maps: {:g} Hz lies outside the range {:g} to {:g} Hz: there will be no map of it",
+        *frequency, low, high));
+  }
+  return warnings;
+}
+
+}  // namespace microslip::pipelines

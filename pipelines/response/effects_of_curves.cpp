@@ -1,0 +1,78 @@
+#include "pipelines/response/effects_of_curves.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/model/effect_choice.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+bool is_limit(const CurveSummary& curve) {
+  return std::holds_alternative<LimitName>(curve.preload);
+}
+
+void tell_harmonics(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
+                    EffectRecord& effect) {
+  if (!scene.response || !scene.settings.harmonics.chosen()) return;
+  std::set<int> orders;
+  std::size_t most = 0;
+  double left_out = 0.0;
+  for (const CurveSummary& curve : curves) {
+    orders.insert(curve.harmonic_orders.begin(), curve.harmonic_orders.end());
+    most = std::max(most, curve.most_harmonics);
+    left_out = std::max(left_out, curve.largest_left_out);
+  }
+  if (orders.empty()) return;
+  effect.simulated = *orders.rbegin() > 1 ? Simulated::yes : Simulated::no;
+  effect.reason =
+      fmt::format("{}: {}, of the orders {}; those left out change them by {:.2g} % at most",
+                  harmonics_text(scene), most, fmt::join(orders, ", "), 100.0 * left_out);
+}
+
+void tell_nonlinearity(const std::vector<CurveSummary>& curves, EffectRecord& effect) {
+  const auto solved = std::ranges::count_if(
+      curves, [](const CurveSummary& curve) { return !is_limit(curve) && curve.points > 0; });
+  const auto proved = std::ranges::count_if(
+      curves, [](const CurveSummary& curve) { return !curve.certificate.empty(); });
+  if (solved == 0) return;
+  effect.simulated = proved == solved ? Simulated::no : Simulated::yes;
+  effect.reason += fmt::format("; proved linear: {} of {} curves", proved, solved);
+}
+
+void tell_solutions(const std::vector<CurveSummary>& curves, EffectRecord& effect) {
+  int n_starts = 0;
+  std::size_t n_found = 0;
+  std::size_t n_folds = 0;
+  for (const CurveSummary& curve : curves) {
+    n_starts += curve.search_starts;
+    n_found += curve.detached_branches;
+    n_folds += curve.folds.size();
+  }
+  if (n_folds > 0) {
+    effect.reason +=
+        fmt::format("; curves have {} folds, between which solutions coexist", n_folds);
+  }
+  if (n_starts == 0) return;
+  effect.reason += n_found > 0
+                       ? fmt::format("; {} starts found {} beside the curves", n_starts, n_found)
+                       : fmt::format("; {} starts found none, which proves nothing", n_starts);
+}
+
+}  // namespace
+
+void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
+                 std::vector<EffectRecord>& effects) {
+  for (EffectRecord& effect : effects) {
+    if (effect.name == "higher_harmonics") tell_harmonics(scene, curves, effect);
+    if (effect.name == "nonlinearity" && effect.simulated == Simulated::undecided) {
+      tell_nonlinearity(curves, effect);
+    }
+    if (effect.name == "coexistence") tell_solutions(curves, effect);
+  }
+}
+
+}  // namespace microslip::pipelines

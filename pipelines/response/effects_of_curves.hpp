@@ -1,0 +1,18 @@
+/// @file
+/// What curves, once solved, say of the effects they were simulated with: told in the table of effects.
+#pragma once
+
+#include <vector>
+
+#include "pipelines/model/effect_record.hpp"
+#include "pipelines/response/run_summary.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// What harmonics = "auto" has chosen, whether contact was proved linear, and what the search for other solutions found:
+/// nothing of these stays undecided.
+void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
+                 std::vector<EffectRecord>& effects);
+
+}  // namespace microslip::pipelines

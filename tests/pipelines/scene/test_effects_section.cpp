@@ -1,0 +1,209 @@
+// [effects] against the rest of a scene: settings that contradict another key are refused, and both
+// are named.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "pipelines/effect_table.hpp"
+#include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+constexpr const char* modal = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10, 20]
+damping_ratio = 0.01
+force_sine = [1, 0]
+output = [1, 0]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e3
+normal_stiffness = 3e3
+friction_coefficient = 0.4
+preload = 20
+phi_u_1 = 1
+phi_u_2 = 0.3
+phi_v_1 = 0.5
+phi_v_2 = -1
+[response]
+frequency = [8, 12]
+harmonics = 3
+)toml";
+
+constexpr const char* chain = R"toml([model]
+kind = "chain"
+masses = [1]
+springs = [1e4]
+[modes]
+damping_ratio = 0.02
+[contact]
+points = [ { slip = "m1", tangential_stiffness = 1e4, friction_coefficient = 0.5, cells = [2, 2], size = [0.1, 0.1] } ]
+[excitation]
+forces = [ { at = "m1", amplitude = 1 } ]
+[response]
+output = "m1"
+frequency = [10, 30]
+preload = ["free", 10, "stuck"]
+)toml";
+
+constexpr const char* blade = R"toml([model]
+kind = "blade"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["root"]
+[contact]
+surface = "contact"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = 1e12
+tangential_stiffness = 1e12
+[excitation]
+forces = [ { at = "B", direction = [1, 0, 0], amplitude = 1 } ]
+[response]
+output = { at = "A", direction = [1, 0, 0] }
+frequency = [300, 350]
+preload = [100]
+)toml";
+
+/// Empty: the scene is taken.
+std::string complaint(const char* text, const Overrides& overrides) {
+  try {
+    static_cast<void>(parse_scene(text, "scene.toml", "/nowhere", overrides));
+    return {};
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+struct Contradicting {
+  const char* text;
+  Overrides overrides;
+  const char* effect;  ///< its key,
+  const char* other;   ///< and the one that it contradicts
+};
+
+class Contradictions : public testing::TestWithParam<Contradicting> {};
+
+TEST_P(Contradictions, AreRefusedByBothNames) {
+  const Contradicting& scene = GetParam();
+  const std::string message = complaint(scene.text, scene.overrides);
+  EXPECT_NE(message.find(std::string("effects.") + scene.effect + ": "), std::string::npos)
+      << message;
+  EXPECT_NE(message.find(scene.other), std::string::npos) << message;
+}
+
+const char* const no_normal = "normal_stiffness";
+const std::string wear = "contact.wear_coefficient=1e-13";
+
+INSTANTIATE_TEST_SUITE_P(
+    OfAScene, Contradictions,
+    testing::Values(
+        Contradicting{
+            modal, {"effects.nonlinearity=on", "modal.points="}, "nonlinearity", "[contact]"},
+        Contradicting{chain, {"effects.nonlinearity=off"}, "nonlinearity", "response.preload"},
+        Contradicting{modal, {"effects.nonlinearity=off"}, "nonlinearity", "preload_scale"},
+        Contradicting{chain, {"effects.normal_motion=on"}, "normal_motion", no_normal},
+        Contradicting{
+            blade,
+            {"effects.normal_motion=off", "contact.roughness={ law = \"cubic\", height = 1e-6 }"},
+            "normal_motion",
+            "contact.roughness"},
+        Contradicting{modal,
+                      {"effects.separation=on", "effects.normal_motion=off"},
+                      "separation",
+                      "effects.normal_motion"},
+        Contradicting{chain, {"effects.separation=on"}, "separation", no_normal},
+        Contradicting{modal, {"effects.separation=off"}, "separation", "effects.normal_motion"},
+        Contradicting{modal,
+                      {"effects.mean_coupling=on", "effects.normal_motion=off"},
+                      "mean_coupling",
+                      "effects.normal_motion"},
+        Contradicting{chain, {"effects.mean_coupling=on"}, "mean_coupling", no_normal},
+        Contradicting{
+            modal, {"effects.mean_coupling=off"}, "mean_coupling", "effects.normal_motion"},
+        Contradicting{modal, {"effects.second_direction=on"}, "second_direction", "phi_w_1"},
+        Contradicting{chain, {"effects.second_direction=on"}, "second_direction", "along r"},
+        Contradicting{modal,
+                      {"effects.higher_harmonics=on", "response.harmonics=1"},
+                      "higher_harmonics",
+                      "response.harmonics"},
+        Contradicting{
+            modal, {"effects.higher_harmonics=off"}, "higher_harmonics", "response.harmonics"},
+        Contradicting{modal, {"effects.roughness=on"}, "roughness", "contact.roughness"},
+        Contradicting{modal,
+                      {"effects.rate_dependence=on"},
+                      "rate_dependence",
+                      "contact.friction_coefficient"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    OfItsOtherSections, Contradictions,
+    testing::Values(
+        Contradicting{modal, {"effects.moments=on"}, "moments", "contact.points"},
+        Contradicting{chain, {"effects.moments=off"}, "moments", "cells"},
+        Contradicting{modal, {"effects.residual=on"}, "residual", "modes.residual"},
+        Contradicting{blade, {"effects.residual=off"}, "residual", "modes.residual"},
+        Contradicting{blade, {"effects.local_frames=on"}, "local_frames", "contact.slip_direction"},
+        Contradicting{
+            blade, {"effects.static_preload=on"}, "static_preload", "contact.preload_field"},
+        Contradicting{blade, {"effects.centrifugal=on"}, "centrifugal", "static.speed"},
+        Contradicting{blade,
+                      {"effects.centrifugal=off", "static.speed=\"3000 rpm\"",
+                       "static.axis={ direction = [1, 0, 0] }"},
+                      "centrifugal",
+                      "static.speed"},
+        Contradicting{modal, {"effects.stability=off"}, "stability", "steps along a curve"},
+        Contradicting{modal, {"effects.wear=on"}, "wear", "contact.wear_coefficient"},
+        Contradicting{modal, {"effects.wear=on", wear}, "wear", "response.maps"},
+        Contradicting{modal, {"effects.wear=off", wear}, "wear", "contact.wear_coefficient"},
+        Contradicting{modal, {"effects.maps=on"}, "maps", "response.maps"},
+        Contradicting{
+            modal, {"effects.maps=off", "response.maps=[\"peak\"]"}, "maps", "response.maps"},
+        Contradicting{modal,
+                      {"effects.coexistence=on", "response.search_starts=0"},
+                      "coexistence",
+                      "response.search_starts"},
+        Contradicting{modal,
+                      {"effects.coexistence=off", "response.search_starts=4"},
+                      "coexistence",
+                      "response.search_starts"},
+        Contradicting{modal,
+                      {"effects.coexistence=on", "response.method=time"},
+                      "coexistence",
+                      "response.method"}));
+
+TEST(EffectsSection, ASpeedWithoutAnAxisIsRefusedByBothNames) {
+  const std::string message = complaint(blade, {"static.speed=\"3000 rpm\""});
+  EXPECT_NE(message.find("static.speed"), std::string::npos) << message;
+  EXPECT_NE(message.find("static.axis"), std::string::npos) << message;
+}
+
+TEST(EffectsSection, SettingsThatAgreeAreTaken) {
+  EXPECT_EQ(complaint(modal, {"effects.separation=on", "effects.normal_motion=on"}), "");
+  EXPECT_EQ(complaint(modal, {"effects.separation=off", "effects.normal_motion=off",
+                              "effects.mean_coupling=off"}),
+            "");
+  EXPECT_EQ(
+      complaint(chain, {"effects.nonlinearity=off", "response.preload=[\"free\", \"stuck\"]"}), "");
+  EXPECT_EQ(complaint(modal, {"effects.coexistence=on", "response.search_starts=4"}), "");
+  EXPECT_EQ(complaint(modal, {"effects.wear=on", wear, "response.maps=[\"peak\"]"}), "");
+}
+
+TEST(EffectsSection, EveryRowOfTheTableIsAKey) {
+  for (const EffectRow& row : effect_table) {
+    const std::string key = "effects." + std::string(row.name);
+    EXPECT_EQ(complaint(modal, {key + "=auto"}), "") << key;
+    EXPECT_NE(complaint(modal, {key + "=perhaps"}).find("auto, on, off"), std::string::npos) << key;
+  }
+}
+
+}  // namespace
+}  // namespace microslip::pipelines

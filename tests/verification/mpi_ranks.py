@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""The program on several MPI ranks: the results of one rank, one log, and no rank that stays behind.
+
+usage: mpi_ranks.py MICROSLIP SOURCE WORK_FOLDER
+"""
+import csv
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from program_run import without_plots
+
+PROGRAM, SOURCE, WORK = sys.argv[1:4]
+del sys.argv[1:4]
+SCENES = os.path.join(SOURCE, "share", "scenes")
+BLADE = os.path.join(SCENES, "blade_to_ground.toml")
+PLATE = os.path.join(SCENES, "plate_matrices.toml")
+COARSE = ["--set", "model.element_size=10 mm", "--set", "response.harmonics=1", "--set", "response.optimum=", "--set",
+          "response.optimum_range=", "--set", "response.preload=[300]", "--set", "response.maps=[]", "--set",
+          "accuracy.error_budget=off", "--without", "plots"]
+ENVIRONMENT = {**without_plots(), "MICROSLIP_CACHE": "off", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+SOLVED = 1e-9  # of a sum in another order, after the solver's tolerance
+MPIRUN = shutil.which("mpirun")
+
+
+def path(name):
+    return os.path.join(WORK, name)
+
+
+def on_ranks(n, *words):
+    return ([MPIRUN, "--oversubscribe", "-n", str(n)] if n > 1 else []) + [PROGRAM, *words]
+
+
+def call(command, code=0):
+    """Standard error of a command, which must end with this code; one that hangs fails."""
+    ended = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, timeout=120)
+    assert ended.returncode == code, f"{command}: {ended.returncode}\n{ended.stdout}\n{ended.stderr}"
+    return ended.stderr
+
+
+def summary(folder):
+    with open(os.path.join(path(folder), "summary.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def children_of(pid):
+    found = []
+    for task in os.listdir(f"/proc/{pid}/task"):
+        with open(f"/proc/{pid}/task/{task}/children", encoding="utf-8") as file:
+            found += file.read().split()
+    return found
+
+
+def rank_of(pid):
+    with open(f"/proc/{pid}/environ", encoding="utf-8", errors="replace") as file:
+        return next(int(entry[21:]) for entry in file.read().split("\0") if entry.startswith("OMPI_COMM_WORLD_RANK="))
+
+
+def table(*names):
+    with open(path(os.path.join(*names)), encoding="utf-8") as file:
+        return [[float(value) for value in row] for row in list(csv.reader(file))[1:]]
+
+
+@unittest.skipUnless(MPIRUN, "mpirun is not installed: apt-get install openmpi-bin")
+class Ranks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        os.makedirs(WORK)
+
+    def near(self, found, expected):
+        self.assertLess(abs(found / expected - 1.0), SOLVED, f"{found} against {expected}")
+
+    def compare(self, scene, *options):
+        for n in (1, 2):
+            self.error = call(on_ranks(n, "run", scene, *options, "-o", path(f"on_{n}")))
+        one, two = summary("on_1"), summary("on_2")
+        self.assertEqual(len(two["modes"]), len(one["modes"]))
+        for found, expected in zip(two["modes"], one["modes"]):
+            self.near(found["frequency_Hz"], expected["frequency_Hz"])
+        for found, expected in zip(two["curves"], one["curves"]):
+            for key in ("frequency_Hz", "amplitude_m"):
+                self.near(found["peak"][key], expected["peak"][key])
+
+    def test_the_blade_is_that_of_one_rank_and_the_log_comes_once(self):
+        self.compare(BLADE, *COARSE)
+        self.assertEqual(self.error.count("mode  1:"), 1)
+        self.assertEqual(self.error.count("2 MPI ranks"), 1)
+
+    def test_matrices_of_another_code(self):
+        self.compare(PLATE, "--set", "response.preload=[20]", "--set", "response.maps=[]", "--set", "accuracy.error_budget=off",
+                     "--without", "plots")
+
+    def test_speeds_one_after_the_other(self):
+        scene = path("rotating.toml")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(f'[model]\nkind = "mesh"\nfile = "{SCENES}/plate/coarse.inp"\nlength_unit = "mm"\n[material]\n'
+                       'youngs_modulus = "210 GPa"\npoissons_ratio = 0.3\ndensity = 7800\n[supports]\nclamped = ["root"]\n'
+                       '[static]\naxis = { origin = [0, "-200 mm", 0], direction = [0, 0, 1] }\n[modes]\ncount = 4\n')
+        for n in (1, 2):
+            call(on_ranks(n, "campbell", scene, "--speeds", "0", "3000 rpm", "3", "-q", "-o", path(f"speeds_{n}")))
+        for found, expected in zip(*(table(f"speeds_{n}", "campbell", "frequencies.csv") for n in (2, 1))):
+            for value, reference in zip(found[1:], expected[1:]):
+                self.near(value, reference)
+
+    def test_commands_that_solve_nothing_answer_once(self):
+        ended = subprocess.run(on_ranks(2, "--version"), capture_output=True, text=True, env=ENVIRONMENT, timeout=60, check=True)
+        self.assertEqual(ended.stdout.count("microslip "), 1)
+
+    def test_what_is_wrong_is_told_once_and_all_leave(self):
+        error = call(on_ranks(2, "run", PLATE, "--set", 'contact.surface="contract"', "-o", path("wrong")), code=1)
+        self.assertEqual(error.count('no surface is named "contract"'), 1)
+        self.assertEqual(call(on_ranks(2, "fly"), code=1).count("unknown command"), 1)
+
+    def test_what_all_ranks_refuse_is_told_once(self):
+        error = call(on_ranks(2, "modes", PLATE, "--set", "modes.count=100000", "-o", path("refused")), code=1)
+        self.assertEqual(error.count("microslip: "), 1)
+
+    def test_what_fails_on_one_rank_alone_ends_all(self):
+        """Rank 1 may not grow any more while rank 0 still meshes: it fails within what both solve."""
+        process = subprocess.Popen(on_ranks(2, "modes", BLADE, "--set", "model.element_size=6 mm", "-q", "-o", path("starved")),
+                                   env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while not os.path.exists(os.path.join(path("starved"), "summary.json")):
+            time.sleep(0.02)
+        ranks = {rank_of(pid): int(pid) for pid in children_of(process.pid)}
+        with open(f"/proc/{ranks[1]}/statm", encoding="utf-8") as file:
+            size = int(file.read().split()[0]) * resource.getpagesize()
+        resource.prlimit(ranks[1], resource.RLIMIT_AS, (size, size))
+        error = process.communicate(timeout=100)[1]
+        self.assertEqual(process.returncode, 4, error)
+
+    def test_an_interrupt_ends_all_and_leaves_a_summary(self):
+        process = subprocess.Popen(on_ranks(2, "run", BLADE, "-q", "-o", path("stopped")), env=ENVIRONMENT,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not os.path.exists(os.path.join(path("stopped"), "summary.json")):
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        self.assertNotEqual(process.wait(timeout=30), 0)
+        self.assertEqual(summary("stopped")["exit_code"], 3)
+        self.assertIn("interrupted", summary("stopped")["message"])
+
+    def test_more_ranks_than_cores_are_warned_of(self):
+        n = os.cpu_count() + 1
+        self.assertIn(f"{n} MPI ranks share {n - 1} cores", call(on_ranks(n, "modes", PLATE, "-o", path("crowd"))))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
