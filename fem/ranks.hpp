@@ -47,7 +47,8 @@ struct Failure {
 /// After what all ranks did together.
 /// @param own  of this rank; none: it has done its part.
 /// @return     that of the lowest rank with one.
-/// @note Ends all processes with the code of `own` where others do not come within a quarter of a minute.
+/// @note Ends all processes with the code of `own` where others do not come within a quarter of a minute, or cannot be
+///       told.
 [[nodiscard]] std::optional<Failure> agree(const std::optional<Failure>& own);
 
 /// Whether it is so on any rank. Collective.

@@ -137,7 +137,9 @@ std::optional<Failure> agree(const std::optional<Failure>& own) {
   const int mine = own ? rank() : nobody;
   int first = nobody;
   MPI_Request request = MPI_REQUEST_NULL;
-  check(MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request));
+  const int code = MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
+  if (own && code != MPI_SUCCESS) end_all(*own);  // without memory, MPI has none either
+  check(code);
   if (!wait_asleep(request, own ? Clock::duration(patience) : Clock::duration::max())) {
     end_all(*own);
   }
