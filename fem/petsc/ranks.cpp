@@ -137,16 +137,18 @@ std::optional<Failure> agree(const std::optional<Failure>& own) {
   const int mine = own ? rank() : nobody;
   int first = nobody;
   MPI_Request request = MPI_REQUEST_NULL;
-  const int code = MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
-  if (own && code != MPI_SUCCESS) end_all(*own);  // without memory, MPI has none either
-  check(code);
+  const auto tell = [&](int code) {
+    if (own && code != MPI_SUCCESS) end_all(*own);  // without memory, MPI has none either
+    check(code);
+  };
+  tell(MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request));
   if (!wait_asleep(request, own ? Clock::duration(patience) : Clock::duration::max())) {
     end_all(*own);
   }
   if (first == nobody) return std::nullopt;
   Failure failure = first == mine ? *own : Failure{};
   std::array<std::int64_t, 2> head{failure.code, static_cast<std::int64_t>(failure.message.size())};
-  check(MPI_Bcast(head.data(), 2, MPI_INT64_T, first, MPI_COMM_WORLD));
+  tell(MPI_Bcast(head.data(), 2, MPI_INT64_T, first, MPI_COMM_WORLD));
   failure.code = static_cast<int>(head[0]);
   failure.message.resize(static_cast<std::size_t>(head[1]));
   broadcast(failure.message, first);
