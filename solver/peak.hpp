@@ -42,9 +42,10 @@ struct OptimumOptions {
   /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best value and at
   /// both ends of the interval that is as good to 1 %; 0: none beside those the scene asks for.
   int search_starts = 2;
+  Together together = one_by_one;  ///< curves that do not wait for one another
 };
 
-/// @param family  scene for a value of the parameter.
+/// @param family  scene for a value of the parameter; on whatever threads `together` runs its tasks.
 /// @throws std::invalid_argument  bounds or counts out of range.
 [[nodiscard]] Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
                                     const OptimumOptions& options);

@@ -99,15 +99,17 @@ solver::OptimumOptions OptimumSearch::options_for(const Factors& factors) const 
   return options;
 }
 
-solver::Optimum OptimumSearch::search(const Factors& factors) {
+solver::Optimum OptimumSearch::search(const Factors& factors, int jobs) {
   solver::ContinuationOptions range = continuation_options(scene_, model_);
   if (factors.n_harmonics > 0) {
     range.n_harmonics = factors.n_harmonics;
     range.orders.clear();
     range.harmonic_tolerance = 0.0;
   }
+  solver::OptimumOptions options = options_for(factors);
+  options.together = [jobs](std::size_t n, const auto& task) { in_parallel(n, jobs, task); };
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); }, range,
-                               options_for(factors));
+                               options);
 }
 
 std::string OptimumSearch::warning() const {
@@ -126,7 +128,7 @@ std::string OptimumSearch::warning() const {
 }
 
 solver::Optimum OptimumSearch::best() {
-  solver::Optimum optimum = search({});
+  solver::Optimum optimum = search({}, jobs_);
   if (const std::string text = warning(); !text.empty()) {
     optimum.notes.insert(optimum.notes.begin(), text);
   }
@@ -227,7 +229,7 @@ OptimumBracket OptimumSearch::bracket() {
   std::vector<std::string> refused(list.size());
   in_parallel(list.size(), jobs_, [&](std::size_t i) {
     try {
-      found[i] = search(list[i].factors);
+      found[i] = search(list[i].factors, 1);
     } catch (const RefusedError& error) {
       refused[i] = error.what();
     }

@@ -46,7 +46,7 @@ class OptimumSearch {
   };
   /// The bounds of the scene, or wider ones where the best value is known to move.
   [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
-  [[nodiscard]] solver::Optimum search(const Factors& factors);
+  [[nodiscard]] solver::Optimum search(const Factors& factors, int jobs);
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
   /// What harmonics beyond those given do to the best value and its neighbours; empty: little, or not checked.
   [[nodiscard]] std::string left_out(const solver::PeakOfParameter& best);

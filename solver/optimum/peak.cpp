@@ -182,7 +182,8 @@ class Search {
             .upper = options.upper,
             .n_values = options.n_scan,
             .n_checks = 3,
-            .scale = options.scale};
+            .scale = options.scale,
+            .together = options.together};
   }
 
   [[nodiscard]] double parameter(double position) const {
@@ -303,7 +304,8 @@ class Search {
   bool edges_hold(const std::vector<PeakOfParameter>& trace) {
     if (options_.search_starts == 0) return true;
     const auto [left, right] = below(trace, result_.best, as_good * result_.best.amplitude);
-    const std::array<double, 2> ends{left->parameter, std::prev(right)->parameter};
+    const std::vector<double> ends{left->parameter, std::prev(right)->parameter};
+    peaks_.prepare(ends, options_.search_starts);
     return std::ranges::all_of(
         ends, [&](double end) { return peaks_.confirm(end, options_.search_starts); });
   }
@@ -427,6 +429,7 @@ OptimumOptions about(const OptimumOptions& options, double best) {
   near.lower = std::max(options.lower, logarithmic ? best / factor : best - way);
   near.upper = std::min(options.upper, logarithmic ? best * factor : best + way);
   near.n_scan = std::min(options.n_scan, n_scan);
+
   return near;
 }
 

@@ -46,15 +46,20 @@ void check(const PeakTraceOptions& options) {
   const bool finite = std::isfinite(options.lower) && std::isfinite(options.upper);
   if (!positive || !finite || !(options.upper > options.lower) || options.n_values < 2 ||
       options.n_checks < 2) {
-    throw std::invalid_argument(
-        "peak trace: bounds " + std::to_string(options.lower) + " to " +
-        std::to_string(options.upper) + " with " + std::to_string(options.n_values) +
-        " values and " + std::to_string(options.n_checks) +
-        " checks; needs lower < upper, 0 < lower on the logarithmic scale, and at least 2 of each");
+    throw std::invalid_argument("peak trace: bounds " + std::to_string(options.lower) + " to " +
+                                std::to_string(options.upper) + " with " +
+                                std::to_string(options.n_values) + " values and " +
+                                std::to_string(options.n_checks) +
+                                " checks; needs lower < upper, 0 < lower on the logarithmic scale, "
+                                "at least 2 values and 1 check");
   }
 }
 
 }  // namespace
+
+void one_by_one(std::size_t n, const std::function<void(std::size_t)>& task) {
+  for (std::size_t i = 0; i < n; ++i) task(i);
+}
 
 PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions& range,
                            const PeakTraceOptions& options)
@@ -154,14 +159,39 @@ bool PeakFamilies::needs_curve(double position) const {
   return followed == nullptr || followed->rises;
 }
 
+ContinuationOptions PeakFamilies::range_with(int search_starts) const {
+  ContinuationOptions range = range_;
+  range.search_starts = std::max(range.search_starts, search_starts);
+  return range;
+}
+
+void PeakFamilies::trace_ahead(const std::vector<double>& positions, int search_starts) {
+  const ContinuationOptions range = range_with(search_starts);
+  std::vector<std::pair<double, int>> keys;
+  for (const double position : positions) {
+    const auto known = curves_.find(position);
+    const bool traced =
+        known != curves_.end() && known->second.search_starts >= range.search_starts;
+    if (!traced) keys.emplace_back(position, range.search_starts);
+  }
+  std::vector<ResponseCurve> curves(keys.size());
+  options_.together(keys.size(), [&](std::size_t i) {
+    curves[i] = trace_response(family_(parameter(keys[i].first)), range, until_stopped(range));
+  });
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    ahead_.insert_or_assign(keys[i], std::move(curves[i]));
+  }
+}
+
 const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_starts) {
-  if (range_.stop && range_.stop()) throw SearchStopped{};
   const auto known = curves_.find(position);
   if (known != curves_.end() && known->second.search_starts >= search_starts) return known->second;
   const Scene scene = family_(parameter(position));
-  ContinuationOptions range = range_;
-  range.search_starts = std::max(range.search_starts, search_starts);
-  const ResponseCurve curve = trace_response(scene, range, until_stopped(range));
+  const ContinuationOptions range = range_with(search_starts);
+  const auto ahead = ahead_.extract({position, range.search_starts});
+  if (ahead.empty() && range_.stop && range_.stop()) throw SearchStopped{};
+  const ResponseCurve curve = ahead.empty() ? trace_response(scene, range, until_stopped(range))
+                                            : std::move(ahead.mapped());
   if (curve.diagnosis == "interrupted") throw SearchStopped{};
   ++result_.n_curves;
   result_.iterations += curve.iterations;
@@ -378,7 +408,10 @@ void PeakFamilies::settle() {
 void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
   for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
-  for (int i = 0; i < options_.n_checks; ++i) seed(check_position(i));
+  std::vector<double> checks;
+  for (int i = 0; i < options_.n_checks; ++i) checks.push_back(check_position(i));
+  trace_ahead(checks, 0);
+  for (const double check : checks) seed(check);
   settle();
   for (int i = 0; i <= last; ++i) {
     const double here = value_position(i);
@@ -414,6 +447,12 @@ bool PeakFamilies::confirm(double parameter, int search_starts) {
   const bool confirmed = followed >= (1.0 - same_amplitude) * solved;
   if (!confirmed) note("the curve has another highest peak than those followed", here);
   return confirmed;
+}
+
+void PeakFamilies::prepare(const std::vector<double>& parameters, int search_starts) {
+  std::vector<double> positions;
+  for (const double parameter : parameters) positions.push_back(known_position(parameter));
+  trace_ahead(positions, search_starts);
 }
 
 PeakTrace PeakFamilies::result() const {

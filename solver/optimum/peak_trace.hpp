@@ -39,6 +39,10 @@ using SceneFamily = std::function<Scene(double parameter)>;
 
 enum class ParameterScale { logarithmic, linear };
 
+/// Runs task(i) for every i < n, in any order and on any thread.
+using Together = std::function<void(std::size_t n, const std::function<void(std::size_t)>& task)>;
+void one_by_one(std::size_t n, const std::function<void(std::size_t)>& task);
+
 struct PeakOfParameter {
   double parameter = 0.0;
   double frequency = 0.0;  ///< [rad/s]
@@ -56,6 +60,7 @@ struct PeakTraceOptions {
   int n_values = 30;   ///< spread evenly on the scale, both bounds included, ≥ 2
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
   ParameterScale scale = ParameterScale::logarithmic;
+  Together together = one_by_one;  ///< curves that do not wait for one another
 };
 
 struct PeakTrace {
@@ -89,6 +94,8 @@ class PeakFamilies {
   /// missing are followed from here on.
   /// @param search_starts  of a search for detached branches there, beside what the options ask for.
   bool confirm(double parameter, int search_starts = 0);
+  /// Traces the curves that confirm() will ask for, together.
+  void prepare(const std::vector<double>& parameters, int search_starts);
 
   [[nodiscard]] PeakTrace result() const;
 
@@ -115,6 +122,8 @@ class PeakFamilies {
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
   [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
+  void trace_ahead(const std::vector<double>& positions, int search_starts);
+  [[nodiscard]] ContinuationOptions range_with(int search_starts) const;
   const Curve& curve_at(double position, int search_starts);
   void seed(double position, int search_starts = 0);
   void settle();
@@ -138,6 +147,8 @@ class PeakFamilies {
   std::vector<Peaks> families_;
   std::map<std::pair<std::size_t, double>, Reach> reach_;  // by family and position
   std::map<double, Curve> curves_;
+  /// Traced ahead of what asks for them: by position and number of starts of their search.
+  std::map<std::pair<double, int>, ResponseCurve> ahead_;
   std::set<double> asked_;    // positions whose highest peak is known
   std::set<double> pending_;  // positions whose curve is to be traced whole
   bool told_detached_ = false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -206,6 +208,23 @@ TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
   EXPECT_FALSE(best.warnings.empty());
   options.search_starts = 0;
   EXPECT_LT(minimise_peak(family, frequency_range(0.6, 1.4), options).best.amplitude, 2.0);
+}
+
+TEST(MinimisePeak, OfCurvesTracedTogetherIsTheSameToTheLastBit) {
+  OptimumOptions options = preloads(0.1, 10.0);
+  const Optimum alone = minimise_peak(rubbing, range(), options);
+  std::size_t most = 0;
+  options.together = [&](std::size_t n, const auto& task) {
+    most = std::max(most, n);
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < n; ++i) threads.emplace_back(task, i);
+  };
+  const Optimum together = minimise_peak(rubbing, range(), options);
+  EXPECT_EQ(most, 3U);
+  EXPECT_EQ(together.best.parameter, alone.best.parameter);
+  EXPECT_EQ(together.best.amplitude, alone.best.amplitude);
+  EXPECT_EQ(together.message, alone.message);
+  EXPECT_EQ(together.n_curves, alone.n_curves);
 }
 
 TEST(MinimisePeak, SaysWhenTheSmallestPeakLiesAtABound) {
