@@ -1,0 +1,83 @@
+"""The program beside the truth of the coarse default blade, and the stored truth beside the program that prints it.
+
+Truth (tests/verification/truth/) keeps every contact node and shares nothing with contact/ and solver/. With as many
+harmonics, what is left is the error of basis, cells, fit and sampling. A few curves of three harmonics, open and
+slipping, along x and y, are traced anew by both; MICROSLIP_CAMPAIGNS=whole takes nine harmonics as well.
+
+usage: truth_compared.py MICROSLIP SOURCE_FOLDER WORK_FOLDER TRUTH_PROGRAM
+"""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from program_run import run_scene, whole_campaigns
+
+PROGRAM, SOURCE, WORK, TRUTH = sys.argv[1:5]
+SCENES = {"x": "blade_to_ground.toml", "y": "blade_to_ground_y.toml"}
+PRELOADS = {"x": (-500, 267, 500), "y": (2, 10)}
+AMPLITUDE, FREQUENCY = 3e-3, 2e-4  # of the program; the largest found are 1.5e-3 and 6e-5
+PRINTED = 2e-5                     # digits of the stored table, and the tolerance of its curves
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return {(r["force"], float(r["preload_N"]), r["directions"], int(r["harmonics"])): r
+                for r in csv.DictReader(file) if r["complete"] == "1"}
+
+
+STORED = rows_of(os.path.join(SOURCE, "share", "reference", "truth_blade_10mm.csv"))
+
+
+def program_peaks(force, harmonics):
+    """{preload: (amplitude, frequency)} of curves without a search for the best preload."""
+    with open(os.path.join(SOURCE, "share", "scenes", SCENES[force]), encoding="utf-8") as file:
+        text = re.sub(r"^optimum.*\n", "", file.read(), flags=re.M)
+    scene = os.path.join(WORK, SCENES[force])
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(text)
+    folder = run_scene(PROGRAM, scene, os.path.join(WORK, f"run_{force}_{harmonics}"), "model.element_size=10 mm",
+                       f"response.harmonics={harmonics}", "response.maps=[]", "effects.second_direction=off",
+                       "accuracy.error_budget=off", f"response.preload={list(PRELOADS[force])}")
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        curves = json.load(file)["curves"]
+    return {curve["preload_N"]: (1e6 * curve["peak"]["amplitude_m"], curve["peak"]["frequency_Hz"]) for curve in curves}
+
+
+def truth_peaks(force, harmonics):
+    table = os.path.join(WORK, f"truth_{force}_{harmonics}.csv")
+    subprocess.run([TRUTH, "--force", force, "--harmonics", str(harmonics), "--directions", "p", "--csv", table,
+                    "--preloads", ",".join(str(preload) for preload in PRELOADS[force])],
+                   check=True, stdout=subprocess.DEVNULL, timeout=3600)
+    return {key[1]: (float(row["peak_um"]), float(row["peak_Hz"])) for key, row in rows_of(table).items()}
+
+
+class Truth(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        os.makedirs(WORK, exist_ok=True)
+
+    def test_the_program_is_right_with_the_harmonics_of_the_truth(self):
+        for force in ("x", "y"):
+            for harmonics in (3, 9) if whole_campaigns() else (3,):
+                found, truth = program_peaks(force, harmonics), truth_peaks(force, harmonics)
+                for preload in PRELOADS[force]:
+                    with self.subTest(force=force, preload=preload, harmonics=harmonics):
+                        self.compare(found[preload], truth[preload], (force, float(preload), "p", harmonics))
+
+    def compare(self, found, truth, key):
+        errors = [a / b - 1.0 for a, b in zip(found, truth)]
+        print(f"force along {key[0]}, {key[1]:g} N, {key[3]} harmonics: truth {truth[0]:.2f} um at {truth[1]:.3f} Hz; "
+              f"program {100 * errors[0]:+.3f} %, {100 * errors[1]:+.4f} %", flush=True)
+        self.assertLess(abs(errors[0]), AMPLITUDE)
+        self.assertLess(abs(errors[1]), FREQUENCY)
+        stored = STORED[key]
+        self.assertAlmostEqual(truth[0] / float(stored["peak_um"]), 1, delta=PRINTED)
+        self.assertAlmostEqual(truth[1] / float(stored["peak_Hz"]), 1, delta=PRINTED)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
