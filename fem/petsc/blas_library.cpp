@@ -8,8 +8,10 @@
 #include <thread>
 
 #include <dlfcn.h>
-#include <petscblaslapack.h>
+#include <petscsys.h>
 #include <sched.h>
+
+#include <petscblaslapack.h>  // uses what petscsys.h declares, and does not include it
 
 #include "fem/slepc_session.hpp"
 
