@@ -107,14 +107,14 @@ struct Spline {
     const Pack m2 = 0.5 * (w3 - w1);
     return {w1, m1, 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise};
   }
-  MICROSLIP_INLINE Pack at(const Pack& x) const {
+  [[nodiscard]] MICROSLIP_INLINE Pack at(const Pack& x) const {
     return begin + x * (slope + x * (square + x * cube));
   }
-  MICROSLIP_INLINE Pack slope_at(const Pack& x) const {
+  [[nodiscard]] MICROSLIP_INLINE Pack slope_at(const Pack& x) const {
     return slope + x * (2.0 * square + 3.0 * x * cube);
   }
   /// Where a slope that is positive at 0 and negative at 1 vanishes.
-  MICROSLIP_INLINE Pack top() const {
+  [[nodiscard]] MICROSLIP_INLINE Pack top() const {
     const Pack root = square_root(square * square - 3.0 * slope * cube);
     return slope / (root - square);
   }

@@ -93,7 +93,7 @@ class MeshMaker {
     }
   }
 
-  Eigen::Index node(std::int64_t tag, const GmshElement& element) const {
+  [[nodiscard]] Eigen::Index node(std::int64_t tag, const GmshElement& element) const {
     const auto found = index_.find(tag);
     if (found == index_.end()) {
       throw MeshError(file_ + ": element " + std::to_string(element.tag) + " uses node " +

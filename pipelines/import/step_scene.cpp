@@ -88,7 +88,7 @@ class StepSceneMaker {
 
   /// The largest plane face that fits; nullptr: none.
   template <typename Fits>
-  const StepFace* largest(const Fits& fits) const {
+  [[nodiscard]] const StepFace* largest(const Fits& fits) const {
     const StepFace* best = nullptr;
     for (const StepFace& face : geometry_.faces) {
       if (face.kind != "plane" || !fits(face)) continue;
@@ -98,7 +98,7 @@ class StepSceneMaker {
   }
 
   /// From a plane across the longest side to the nearest corner of the face's triangles [m].
-  double distance(const StepFace& face, double plane) const {
+  [[nodiscard]] double distance(const StepFace& face, double plane) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < geometry_.owner.size(); ++i) {
       if (geometry_.owner[i] != face.number) continue;
