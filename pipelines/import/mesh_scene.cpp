@@ -53,8 +53,8 @@ Names candidates(const Names& names, const Words& words,
         std::ranges::any_of(found, [&](const MeshName& other) { return other.name == name.name; });
     if (possible(name) && !is_there) found.push_back(name);
   }
-  std::ranges::stable_partition(found,
-                                [&](const MeshName& name) { return speaks_of(name.name, words); });
+  std::stable_partition(found.begin(), found.end(),
+                        [&](const MeshName& name) { return speaks_of(name.name, words); });
   return found;
 }
 
@@ -145,8 +145,8 @@ class SceneMaker {
       return name.n_nodes > 0 && name.name != clamped_;
     };
     Names possible = candidates(names_, {"force", "load", "excit"}, elsewhere);
-    std::ranges::stable_partition(
-        possible, [](const MeshName& name) { return name.kind == MeshName::Kind::point; });
+    std::stable_partition(possible.begin(), possible.end(),
+                          [](const MeshName& name) { return name.kind == MeshName::Kind::point; });
     if (possible.empty()) {
       throw SceneError(
           "the mesh names nothing but what is held: name a place for the force and for the output "
