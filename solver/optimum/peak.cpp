@@ -445,7 +445,7 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
   const HarmonicSet least = least_harmonics(family(options.upper));
   ContinuationOptions lean = with_harmonics(range, least.united(HarmonicSet(few).orders()));
   lean.search_starts = 0;
-  const Optimum first = Search(family, lean, first_options).run();
+  Optimum first = Search(family, lean, first_options).run();
   const auto is_stopped = [](const Optimum& one) { return one.objection == out_of_time; };
   if (is_stopped(first)) return first;
   if (!first.found) return Search(family, range, options).run();
