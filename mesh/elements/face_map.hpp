@@ -32,6 +32,8 @@ struct FaceUse {
   std::size_t block = 0;
   Eigen::Index element = 0;
   std::size_t face = 0;
+  // clang-tidy takes the 0 that an ordering is compared with for a pointer.
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   [[nodiscard]] auto operator<=>(const FaceUse&) const = default;
 };
 
