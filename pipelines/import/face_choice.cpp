@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -61,7 +61,8 @@ using Candidates = std::vector<Candidate>;
 std::string listed(const Candidates& candidates, bool with_distance) {
   constexpr std::size_t most = 4;
   std::string text;
-  for (const Candidate& candidate : candidates | std::views::take(most)) {
+  for (const Candidate& candidate :
+       std::span(candidates).first(std::min(most, candidates.size()))) {
     text += (text.empty() ? "" : "; ") + text_of(*candidate.face);
     if (with_distance) text += fmt::format(", {:.3g} m away", candidate.distance);
   }
