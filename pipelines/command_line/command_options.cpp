@@ -38,6 +38,78 @@ CLI::App* with_output(CLI::App* command, Arguments& a, const char* what) {
   return command;
 }
 
+void add_init(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = add_command(app, a, chosen, "init", "print a commented template scene",
+                              [&] { return init(a); });
+  command->add_option("kind", a.input, "blade, step, mesh, modes, modal, bar, chain or block")
+      ->default_str("blade");
+  command->add_option(
+      "file", a.mesh_file,
+      "with kind mesh or step: a file whose names or faces, size and unit the scene begins with");
+  with_output(command, a, "file to write; it must not exist");
+}
+
+void add_check(CLI::App& app, Arguments& a, Action& chosen) {
+  with_scene(add_command(app, a, chosen, "check",
+                         "parse, check units and names, show mesh, effects and forecast; question "
+                         "what is unusual; solve nothing",
+                         [&] { return check(a); }),
+             a)
+      ->add_option("--plot", a.picture,
+                   "picture of the blade with supports, contacts, forces and output marked, for "
+                   "kinds with a mesh (.png, .svg, .pdf)");
+}
+
+void add_surfaces(CLI::App& app, Arguments& a, Action& chosen) {
+  add_command(
+      app, a, chosen, "surfaces",
+      "names of a mesh file: surfaces, node sets and points, with area, centre, normal, flatness",
+      [&] { return surfaces(a); })
+      ->add_option("file", a.input,
+                   "mesh: .msh, .inp, .bdf, .nas, .fem, .unv, .med, .vtu, .vtk, .e, .exo, .ex2")
+      ->required();
+}
+
+void add_faces(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = add_command(
+      app, a, chosen, "faces",
+      "faces of a STEP file with number, kind, area, centre, normal; a VTK file and a picture",
+      [&] { return faces(a); });
+  command->add_option("file", a.input, "STEP: .step, .stp")->required();
+  with_output(command, a, "folder for STEM_faces.vtp and .png; default the working folder");
+}
+
+void add_mesh(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = with_scene(
+      add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
+  with_output(command, a, "gmsh file to write (.msh); of kind blade also its geometry (.step)")
+      ->get_option("--output")
+      ->required();
+}
+
+void add_modes(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command =
+      with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
+                             [&] { return run_scene(a, modes_study); }),
+                 a);
+  with_output(command, a, "run folder; default runs/SCENE");
+}
+
+void add_run(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command =
+      with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
+                             [&] { return run_scene(a, run_study); }),
+                 a);
+  with_output(command, a, "run folder; default runs/SCENE");
+  command
+      ->add_option("--without", a.without,
+                   "leaves a part out; may be repeated: plots (and report.html), maps (and the "
+                   "motion at the peaks), bracket (of a search for a best value)")
+      ->take_all()
+      ->expected(1)
+      ->check(CLI::IsMember({"plots", "maps", "bracket"}));
+}
+
 void add_campbell(CLI::App& app, Arguments& a, Action& chosen) {
   auto* command = with_scene(
       add_command(
@@ -78,6 +150,28 @@ void add_cycle(CLI::App& app, Arguments& a, Action& chosen) {
                             "folder for loops of every row: sampled CSV, SVG and PNG by its id");
 }
 
+void add_converge(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = with_scene(
+      add_command(app, a, chosen, "converge",
+                  "what accuracy costs: every choice of the discretisation from coarse to fine",
+                  [&] { return run_scene(a, converge_study); }),
+      a);
+  with_output(command, a, "folder for converge/; default runs/SCENE");
+}
+
+void add_columns(CLI::App& app, Arguments& a, Action& chosen) {
+  with_output(add_command(app, a, chosen, "columns",
+                          "print every column and array of the files a run writes, with units",
+                          [&] { return columns(a); }),
+              a, "file to write; default standard output");
+}
+
+void add_report(CLI::App& app, Arguments& a, Action& chosen) {
+  auto* command = add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
+                              [&] { return report_study(a.input); });
+  command->add_option("folder", a.input, "run folder")->required();
+}
+
 }  // namespace
 
 void add_global_options(CLI::App& app, Arguments& a) {
@@ -104,73 +198,10 @@ void add_global_options(CLI::App& app, Arguments& a) {
 }
 
 void add_commands(CLI::App& app, Arguments& a, Action& chosen) {
-  auto* init_command = add_command(app, a, chosen, "init", "print a commented template scene",
-                                   [&] { return init(a); });
-  init_command->add_option("kind", a.input, "blade, step, mesh, modes, modal, bar, chain or block")
-      ->default_str("blade");
-  init_command->add_option(
-      "file", a.mesh_file,
-      "with kind mesh or step: a file whose names or faces, size and unit the scene begins with");
-  with_output(init_command, a, "file to write; it must not exist");
-  with_scene(add_command(app, a, chosen, "check",
-                         "parse, check units and names, show mesh, effects and forecast; question "
-                         "what is unusual; solve nothing",
-                         [&] { return check(a); }),
-             a)
-      ->add_option("--plot", a.picture,
-                   "picture of the blade with supports, contacts, forces and output marked, for "
-                   "kinds with a mesh (.png, .svg, .pdf)");
-  add_command(
-      app, a, chosen, "surfaces",
-      "names of a mesh file: surfaces, node sets and points, with area, centre, normal, flatness",
-      [&] { return surfaces(a); })
-      ->add_option("file", a.input,
-                   "mesh: .msh, .inp, .bdf, .nas, .fem, .unv, .med, .vtu, .vtk, .e, .exo, .ex2")
-      ->required();
-  auto* faces_command = add_command(
-      app, a, chosen, "faces",
-      "faces of a STEP file with number, kind, area, centre, normal; a VTK file and a picture",
-      [&] { return faces(a); });
-  faces_command->add_option("file", a.input, "STEP: .step, .stp")->required();
-  with_output(faces_command, a, "folder for STEM_faces.vtp and .png; default the working folder");
-  auto* mesh_command = with_scene(
-      add_command(app, a, chosen, "mesh", "geometry to mesh", [&] { return mesh(a); }), a);
-  with_output(mesh_command, a, "gmsh file to write (.msh); of kind blade also its geometry (.step)")
-      ->get_option("--output")
-      ->required();
-  auto* modes_command =
-      with_scene(add_command(app, a, chosen, "modes", "mesh to modes and residual flexibility",
-                             [&] { return run_scene(a, modes_study); }),
-                 a);
-  with_output(modes_command, a, "run folder; default runs/SCENE");
-  auto* run_command =
-      with_scene(add_command(app, a, chosen, "run", "everything: modes, curves, maps, report",
-                             [&] { return run_scene(a, run_study); }),
-                 a);
-  with_output(run_command, a, "run folder; default runs/SCENE");
-  run_command
-      ->add_option("--without", a.without,
-                   "leaves a part out; may be repeated: plots (and report.html), maps (and the "
-                   "motion at the peaks), bracket (of a search for a best value)")
-      ->take_all()
-      ->expected(1)
-      ->check(CLI::IsMember({"plots", "maps", "bracket"}));
-  add_campbell(app, a, chosen);
-  add_cycle(app, a, chosen);
-  auto* converge_command = with_scene(
-      add_command(app, a, chosen, "converge",
-                  "what accuracy costs: every choice of the discretisation from coarse to fine",
-                  [&] { return run_scene(a, converge_study); }),
-      a);
-  with_output(converge_command, a, "folder for converge/; default runs/SCENE");
-  with_output(add_command(app, a, chosen, "columns",
-                          "print every column and array of the files a run writes, with units",
-                          [&] { return columns(a); }),
-              a, "file to write; default standard output");
-  auto* report_command =
-      add_command(app, a, chosen, "report", "rebuild plots and report of a run folder",
-                  [&] { return report_study(a.input); });
-  report_command->add_option("folder", a.input, "run folder")->required();
+  for (const auto add : {add_init, add_check, add_surfaces, add_faces, add_mesh, add_modes, add_run,
+                         add_campbell, add_cycle, add_converge, add_columns, add_report}) {
+    add(app, a, chosen);
+  }
 }
 
 }  // namespace microslip::pipelines
