@@ -108,7 +108,9 @@ std::string arithmetic() {
   const Machine machine = describe_machine();
   std::string text =
       fmt::format("{}, {} threads, {} ranks", machine.blas, machine.blas_threads, fem::n_ranks());
-  for (const auto& [name, version] : fem::library_versions()) text += ", " + name + ' ' + version;
+  for (const auto& [name, version] : fem::library_versions()) {
+    text += fmt::format(", {} {}", name, version);
+  }
   return text;
 }
 

@@ -45,6 +45,7 @@ std::vector<PointDescription> read_points(const toml::table& table, const std::s
   std::vector<KeySpec> keys;
   for (const auto& [key, node] : table) keys.push_back(point_key(key.str()));
   const SectionReader section(&table, {"points", keys}, "points", file, complete);
+  points.reserve(keys.size());
   for (const KeySpec& key : keys) {
     points.push_back({std::string(key.name), place_in(section, key.name), section.place(key.name)});
   }

@@ -185,7 +185,7 @@ SectionReader read_structure(Reading& reading, const std::string& kind, SceneDes
   const SectionReader loads = reading.section("static", "static");
   scene.rotation = read_rotation(loads);
   scene.static_loads = read_static_loads(loads, scene.points);
-  const SectionReader modes = reading.section("modes", "modes");
+  SectionReader modes = reading.section("modes", "modes");
   scene.settings.basis = read_basis(modes);
   scene.modes = read_modes(modes, scene.settings.basis.n_modes);
   return modes;
@@ -198,7 +198,7 @@ SectionReader read_given_structure(Reading& reading, SceneDescription& scene) {
   scene.model = read_modes_file(reading.section("model", "model.modes"), reading.folder,
                                 scene.material.density > 0.0);
   const bool solved = given_matrices(scene) != nullptr;
-  const SectionReader modes = reading.section("modes", solved ? "modes" : "modes.modes");
+  SectionReader modes = reading.section("modes", solved ? "modes" : "modes.modes");
   scene.settings.basis = solved ? read_basis(modes) : read_given_basis(modes);
   scene.modes.damping = read_damping(modes);
   return modes;
