@@ -7,13 +7,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 
 namespace {
 
 constexpr std::string_view variable = "OPENBLAS_NUM_THREADS=";
-char one_thread[] = "OPENBLAS_NUM_THREADS=1";
+constinit std::array one_thread = std::to_array("OPENBLAS_NUM_THREADS=1");
 constexpr rlim_t enough_for_threads = rlim_t{4} << 30U;  // bytes
 
 /// Returns where there is nothing to do, or it cannot be done.
@@ -27,10 +28,10 @@ void start_with_one_thread(int /*argc*/, char** arguments, char** environment) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::string_view entry(environment[i]);
-    if (entry == one_thread) return;
+    if (entry == one_thread.data()) return;
     if (!entry.starts_with(variable)) changed[kept++] = environment[i];
   }
-  changed[kept++] = one_thread;
+  changed[kept++] = one_thread.data();
   changed[kept] = nullptr;
   execve("/proc/self/exe", arguments, changed);
 }

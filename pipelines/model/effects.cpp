@@ -72,6 +72,7 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
 std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
   const EffectFacts facts = effect_facts(scene, model);
   std::vector<EffectRecord> effects;
+  effects.reserve(effect_table.size());
   for (const EffectRow& row : effect_table) effects.push_back(record_of(row, facts));
   return effects;
 }
