@@ -47,22 +47,4 @@ LineRule gauss_legendre(int order) {
   return rule;
 }
 
-LineRule graded(const LineRule& rule, GradedEnds ends) {
-  LineRule result = rule;
-  for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
-    const double t = rule.nodes[i];
-    if (ends.begin && ends.end) {
-      result.nodes[i] = t * t * (3.0 - 2.0 * t);
-      result.weights[i] *= 6.0 * t * (1.0 - t);
-    } else if (ends.begin) {
-      result.nodes[i] = t * t;
-      result.weights[i] *= 2.0 * t;
-    } else if (ends.end) {
-      result.nodes[i] = t * (2.0 - t);
-      result.weights[i] *= 2.0 * (1.0 - t);
-    }
-  }
-  return result;
-}
-
 }  // namespace microslip::contact
