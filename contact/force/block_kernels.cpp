@@ -9,24 +9,6 @@ namespace {
 // so sums are plain arrays.
 
 template <int W>
-MICROSLIP_INLINE void project(std::size_t n_modes, std::size_t n_points, const double* phi,
-                              const double* q, double* motion) {
-  using Vector = typename Lanes<W>::Vector;
-  for (std::size_t point = 0; point < n_points; point += W) {
-    Vector sum[3] = {};
-    for (std::size_t mode = 0; mode < n_modes; ++mode) {
-      const Vector& shape = lanes_at<W>(phi + mode * block_points + point);
-      for (std::size_t r = 0; r < 3; ++r) {
-        sum[r] += shape * q[r * n_modes + mode];
-      }
-    }
-    for (std::size_t r = 0; r < 3; ++r) {
-      *reinterpret_cast<Vector*>(motion + r * block_points + point) = sum[r];
-    }
-  }
-}
-
-template <int W>
 MICROSLIP_INLINE double total(const typename Lanes<W>::Vector& x) {
   double sum = 0.0;
   for (int k = 0; k < W; ++k) {
@@ -89,29 +71,25 @@ MICROSLIP_INLINE void add_products(std::size_t n_modes, std::size_t n_points, co
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute cannot stand in parentheses.
 // One set of kernels per instruction set; the bodies above take on the target of the function they
 // are inlined into.
-#define MICROSLIP_KERNELS(name, width, attribute)                                                  \
-  struct name {                                                                                    \
-    attribute static void motion(std::size_t n, std::size_t k, const double* phi, const double* q, \
-                                 double* u) {                                                      \
-      project<width>(n, k, phi, q, u);                                                             \
-    }                                                                                              \
-    attribute static void force(std::size_t n, std::size_t k, const double* phi, const double* f,  \
-                                double* g) {                                                       \
-      add_force<width>(n, k, phi, f, g);                                                           \
-    }                                                                                              \
-    attribute static void products_9(std::size_t n, std::size_t k, const double* phi,              \
-                                     const double* psi, const double* a, double* c) {              \
-      add_products<width, 9>(n, k, phi, psi, a, c, false);                                         \
-    }                                                                                              \
-    attribute static void products_7(std::size_t n, std::size_t k, const double* phi,              \
-                                     const double* a, double* c) {                                 \
-      add_products<width, 7>(n, k, phi, phi, a, c, true);                                          \
-    }                                                                                              \
-    attribute static void products_6(std::size_t n, std::size_t k, const double* phi,              \
-                                     const double* a, double* c) {                                 \
-      add_products<width, 6>(n, k, phi, phi, a, c, true);                                          \
-    }                                                                                              \
-    static constexpr BlockKernels all{motion, force, products_9, products_7, products_6};          \
+#define MICROSLIP_KERNELS(name, width, attribute)                                                 \
+  struct name {                                                                                   \
+    attribute static void force(std::size_t n, std::size_t k, const double* phi, const double* f, \
+                                double* g) {                                                      \
+      add_force<width>(n, k, phi, f, g);                                                          \
+    }                                                                                             \
+    attribute static void products_9(std::size_t n, std::size_t k, const double* phi,             \
+                                     const double* psi, const double* a, double* c) {             \
+      add_products<width, 9>(n, k, phi, psi, a, c, false);                                        \
+    }                                                                                             \
+    attribute static void products_7(std::size_t n, std::size_t k, const double* phi,             \
+                                     const double* a, double* c) {                                \
+      add_products<width, 7>(n, k, phi, phi, a, c, true);                                         \
+    }                                                                                             \
+    attribute static void products_6(std::size_t n, std::size_t k, const double* phi,             \
+                                     const double* a, double* c) {                                \
+      add_products<width, 6>(n, k, phi, phi, a, c, true);                                         \
+    }                                                                                             \
+    static constexpr BlockKernels all{force, products_9, products_7, products_6};                 \
   };
 
 // NOLINTEND(bugprone-macro-parentheses)

@@ -3,7 +3,6 @@
 /// [row][point] with `block_points` points per row, of which the first n_points, a multiple of
 /// `lane_points`, are read; points that are missing up to there are zero.
 ///
-///   project            u_r = Σ_m φ_m q_rm                       motion of the points, harmonic r
 ///   add_force          G_rm += Σ_points φ_m f_r                  modal force
 ///   add_products       C_eij += Σ_points φ_i ψ_j a_e             modal Jacobian, entry e
 ///   add_symmetric_products    the same for ψ = φ, only j ≤ i
@@ -21,9 +20,6 @@ inline constexpr std::size_t block_points = 64;
 inline constexpr std::size_t lane_points = 8;
 
 struct BlockKernels {
-  /// phi [n_modes][block], q [3][n_modes] → motion [3][block].
-  void (*project)(std::size_t n_modes, std::size_t n_points, const double* phi, const double* q,
-                  double* motion);
   /// phi [n_modes][block], force [3][block] → sum [3][n_modes].
   void (*add_force)(std::size_t n_modes, std::size_t n_points, const double* phi,
                     const double* force, double* sum);

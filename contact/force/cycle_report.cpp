@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/closed_form/friction_cycle.hpp"
-
 namespace microslip::contact {
 namespace {
 
@@ -106,19 +104,6 @@ CycleReport ReportSum::result() const {
     report.three_states_share = coexistence > 1e-12 ? coexistence : 0.0;
   }
   return report;
-}
-
-CycleReport cycle_report(const ContactPatch& patch, const std::vector<PointMotion>& motions) {
-  ReportSum sum;
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    const double weight = patch.weights()[static_cast<Eigen::Index>(i)];
-    if (weight == 0.0) {
-      continue;
-    }
-    const FrictionCycle cycle = friction_cycle(patch.points()[i], motions[i]);
-    sum.add(cycle.segments(), cycle.dissipated_energy, weight);
-  }
-  return sum.result();
 }
 
 }  // namespace microslip::contact

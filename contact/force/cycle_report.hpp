@@ -5,16 +5,15 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/contact_state.hpp"
 #include "contact/modal_force.hpp"
-#include "contact/point/point_motion.hpp"
 
 namespace microslip::contact {
 
-/// Adds up points, by whatever method.
+/// Adds up points, by whatever method: shares by the lengths of the segments; the largest coexistence of the three
+/// states by a sweep over all transition angles, between which the area fractions do not change; slip work
+/// ∬∮μn|ds|dA. Shares are 0 if all weights are.
 class ReportSum {
  public:
   ReportSum();
@@ -35,12 +34,5 @@ class ReportSum {
   double area_ = 0.0;
   double slip_work_ = 0.0;
 };
-
-/// Shares by the lengths of the segments; the largest coexistence of the three states by a sweep
-/// over all transition angles, between which the area fractions do not change; slip work ∬∮μn|ds|dA.
-/// Shares are 0 if all weights are.
-/// @param motions  one per point.
-[[nodiscard]] CycleReport cycle_report(const ContactPatch& patch,
-                                       const std::vector<PointMotion>& motions);
 
 }  // namespace microslip::contact

@@ -2,45 +2,53 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "contact/closed_form/cycle_force.hpp"
+#include "contact/closed_form/cycle_phases.hpp"
 #include "contact/closed_form/cycle_states.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
+#include "contact/closed_form/slip_functions.hpp"
 #include "contact/force/block_kernels.hpp"
-#include "contact/force/cycle_report.hpp"
-#include "contact/force/linear_proof.hpp"
-#include "contact/patch/mode_shape_check.hpp"
-#include "contact/patch/point_motions.hpp"
 
 namespace microslip::contact {
 namespace {
 
-ModalShapes checked(ModalShapes shapes, Eigen::Index n_points) {
-  require_mode_shape("PatchForce", "u", shapes.u, n_points, shapes.u.cols());
-  require_mode_shape("PatchForce", "v", shapes.v, n_points, shapes.u.cols());
+void require_one(int n_harmonics) {
+  if (n_harmonics == 1) return;
+  throw std::invalid_argument("PatchForce: " + std::to_string(n_harmonics) +
+                              " harmonics; the closed form has one");
+}
+
+RestingPoints at_rest(const ContactPatch& patch) {
+  const Eigen::Index n = patch.n_points();
+  RestingPoints points{patch.weights(), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PointParameters& point = patch.points()[static_cast<std::size_t>(i)];
+    const double k_u = point.friction_coefficient > 0.0 ? point.tangential_stiffness : 0.0;
+    const Eigen::Vector3d stiffness(k_u, point.normal_stiffness, 0.0);
+    points.load_at_rest[i] = std::max(point.preload, 0.0);
+    points.stuck_stiffness.row(i) = stiffness.transpose();
+    points.ranges.emplace_back(
+        LinearRange{stiffness, point.preload, FrictionLaw::constant(point.friction_coefficient)});
+  }
+  return points;
+}
+
+ModalShapes along_p(ModalShapes shapes) {
+  shapes.w.resize(0, 0);
   return shapes;
 }
 
-// Mode shapes of the points in this order.
-std::vector<double> packed(const ModalShapes& shapes, const std::vector<Eigen::Index>& order) {
-  const auto n_points = order.size();
-  const auto n_modes = static_cast<std::size_t>(shapes.u.cols());
-  const std::size_t n_blocks = (n_points + block_points - 1) / block_points;
-  std::vector<double> blocks(n_blocks * 2 * n_modes * block_points, 0.0);
-  for (std::size_t mode = 0; mode < n_modes; ++mode) {
-    for (std::size_t point = 0; point < n_points; ++point) {
-      const std::size_t row = point / block_points * 2 * n_modes + mode;
-      const std::size_t column = point % block_points;
-      const Eigen::Index i = order[point];
-      const auto j = static_cast<Eigen::Index>(mode);
-      blocks[row * block_points + column] = shapes.u(i, j);
-      blocks[(row + n_modes) * block_points + column] = shapes.v(i, j);
-    }
+/// @param phi  receives the mode shapes of these points, [mode][block], padded with zeros.
+void pack(const Eigen::MatrixXd& shape, std::span<const Eigen::Index> points, double* phi) {
+  for (Eigen::Index mode = 0; mode < shape.cols(); ++mode, phi += block_points) {
+    const double* column = shape.col(mode).data();
+    for (std::size_t i = 0; i < points.size(); ++i) phi[i] = column[points[i]];
+    std::fill(phi + points.size(), phi + block_points, 0.0);
   }
-  return blocks;
 }
 
 template <std::size_t E>
@@ -100,7 +108,7 @@ struct ModalSums {
 };
 
 void add_block(ModalSums& sums, std::size_t n_modes, std::size_t n_points, const double* phi_u,
-               const double* phi_v, const BlockForces& forces) {
+               const double* phi_v, const BlockForces& forces, bool derivatives) {
   const BlockKernels& kernels = block_kernels();
   // The normal force counts even where nothing touches: a preload that is gone.
   kernels.add_force(n_modes, n_points, phi_v, forces.normal[0].data(), sums.force.data());
@@ -108,6 +116,7 @@ void add_block(ModalSums& sums, std::size_t n_modes, std::size_t n_points, const
     return;
   }
   kernels.add_force(n_modes, n_points, phi_u, forces.friction[0].data(), sums.force.data());
+  if (!derivatives) return;
   kernels.add_symmetric_products_7(n_modes, n_points, phi_u, forces.friction_by_u[0].data(),
                                    sums.by_uu.data());
   kernels.add_symmetric_products_6(n_modes, n_points, phi_v, forces.normal_by_v[0].data(),
@@ -152,99 +161,53 @@ ForceAndJacobian unpacked(const ModalSums& sums, std::size_t n) {
   return result;
 }
 
-void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harmonics& q) {
-  const Eigen::Index N = part.mean.size();
-  result.force.rows() += q.rows() * part.stiffness;  // symmetric
-  result.force.rows().row(0) += part.mean.transpose();
-  for (Eigen::Index h = 0; h < 3; ++h) {
-    result.jacobian.block(h * N, h * N, N, N) += part.stiffness;
-  }
-}
-
 }  // namespace
 
 PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
-    : ModalForce(shapes.u.cols()),
-      patch_(std::move(patch)),
-      shapes_(checked(std::move(shapes), patch_.n_points())),
-      sleep_(patch_, shapes_),
-      blocks_(packed(shapes_, sleep_.order())) {}
+    : PointwiseForce(at_rest(patch), along_p(std::move(shapes))), patch_(std::move(patch)) {}
 
-ForceAndJacobian PatchForce::evaluated(const Harmonics& q, double /*frequency*/,
-                                       const Asked& asked) {
-  require_single_harmonic(q, n_modes());
-  if (asked.n_harmonics > 1) {
-    throw std::invalid_argument("PatchForce: " + std::to_string(asked.n_harmonics) +
-                                " harmonics of the force; the closed form has one");
-  }
+PointMotion PatchForce::motion_of(Eigen::Index point) const {
+  const PointRows x = motion().of(point);
+  return {x.u[0], x.u[1], x.u[2], x.v[0], x.v[1], x.v[2]};
+}
+
+ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& asked) {
+  require_one(motion().n_harmonics());
+  require_one(std::max(asked.n_harmonics, 1));
   const auto n = static_cast<std::size_t>(n_modes());
-  if (sleep_.look_at(q, patch_, shapes_)) {
-    blocks_ = packed(shapes_, sleep_.order());
-  }
-  const auto n_awake = static_cast<std::size_t>(sleep_.n_awake());
-  const BlockKernels& kernels = block_kernels();
+  phi_.resize(2 * n * block_points);
+  double* const phi_u = phi_.data();
+  double* const phi_v = phi_u + n * block_points;
   ModalSums sums(n);
-  for (std::size_t first = 0; first < n_awake; first += block_points) {
-    const std::size_t last = std::min(first + block_points, n_awake);
-    const std::size_t n_lanes = (last - first + lane_points - 1) / lane_points * lane_points;
-    const double* phi_u = &blocks_[2 * n * first];
-    const double* phi_v = phi_u + n * block_points;
-    Rows<3> u;
-    Rows<3> v;
-    kernels.project(n, n_lanes, phi_u, q.rows().data(), u[0].data());
-    kernels.project(n, n_lanes, phi_v, q.rows().data(), v[0].data());
+  for (std::span<const Eigen::Index> rest(awake()); !rest.empty();) {
+    const auto block = rest.first(std::min(block_points, rest.size()));
+    rest = rest.subspan(block.size());
+    pack(shapes().u, block, phi_u);
+    pack(shapes().v, block, phi_v);
     BlockForces forces{};
-    for (std::size_t point = first; point < last; ++point) {
-      const std::size_t i = point - first;
-      const Eigen::Index which = sleep_.order()[point];
-      const PointParameters& parameters = patch_.points()[static_cast<std::size_t>(which)];
-      forces.set(i, patch_.weights()[which], std::max(parameters.preload, 0.0),
-                 cycle_force(parameters, {u[0][i], u[1][i], u[2][i], v[0][i], v[1][i], v[2][i]}));
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const PointParameters& point = patch_.points()[static_cast<std::size_t>(block[i])];
+      const PointMotion at = motion_of(block[i]);
+      const SlipFunctions w = slip_functions(point, at);
+      const CycleRegime regime = cycle_regime(w);
+      const CyclePhases phases = cycle_phases(w, regime);
+      forces.set(i, points().weights[block[i]], points().load_at_rest[block[i]],
+                 cycle_force(point, at, w, regime, phases));
+      keep(block[i], cycle_states(regime, phases));
     }
-    add_block(sums, n, n_lanes, phi_u, phi_v, forces);
+    const std::size_t n_lanes = (block.size() + lane_points - 1) / lane_points * lane_points;
+    add_block(sums, n, n_lanes, phi_u, phi_v, forces, !asked.rows.empty());
   }
-  ForceAndJacobian result = unpacked(sums, n);
-  if (const SleepingPart* part = sleep_.part()) {
-    add_sleeping(result, *part, q);
-  }
-  return restricted(std::move(result), asked.rows);
+  return restricted(unpacked(sums, n), asked.rows);
 }
 
-CycleReport PatchForce::report(const Harmonics& q, double /*frequency*/) {
-  CycleReport report = cycle_report(patch_, point_motions(shapes_, q));
-  report.awake_share = sleep_.awake_share_at(q);
-  return report;
-}
-
-Eigen::MatrixXd PatchForce::stuck_stiffness() const {
-  Eigen::VectorXd k_u(patch_.n_points());
-  Eigen::VectorXd k_v(patch_.n_points());
-  for (Eigen::Index i = 0; i < patch_.n_points(); ++i) {
-    const PointParameters& point = patch_.points()[static_cast<std::size_t>(i)];
-    const double weight = patch_.weights()[i];
-    k_u[i] = point.friction_coefficient > 0.0 ? weight * point.tangential_stiffness : 0.0;
-    k_v[i] = weight * point.normal_stiffness;
-  }
-  return shapes_.u.transpose() * k_u.asDiagonal() * shapes_.u +
-         shapes_.v.transpose() * k_v.asDiagonal() * shapes_.v;
-}
-
-LinearState PatchForce::linear_state(const Harmonics& centre, double radius) const {
-  return contact::linear_state(patch_, shapes_, centre, radius);
-}
-
-void PatchForce::states(const Harmonics& q, double /*frequency*/, ContactStates& result) {
-  require_single_harmonic(q, n_modes());
-  u_.noalias() = shapes_.u * q.rows().transpose();
-  v_.noalias() = shapes_.v * q.rows().transpose();
-  const double area = patch_.weights().sum();
-  result.clear();
-  for (Eigen::Index i = 0; i < patch_.n_points(); ++i) {
-    const double weight = patch_.weights()[i];
-    if (weight == 0.0) continue;
-    const PointMotion motion{u_(i, 0), u_(i, 1), u_(i, 2), v_(i, 0), v_(i, 1), v_(i, 2)};
-    result.push_back(
-        {weight / area, cycle_states(patch_.points()[static_cast<std::size_t>(i)], motion)});
+void PatchForce::add_cycles(std::span<const Eigen::Index> points, double /*frequency*/,
+                            ReportSum& sum) {
+  require_one(motion().n_harmonics());
+  for (const Eigen::Index i : points) {
+    const FrictionCycle cycle =
+        friction_cycle(patch_.points()[static_cast<std::size_t>(i)], motion_of(i));
+    sum.add(cycle.segments(), cycle.dissipated_energy, this->points().weights[i]);
   }
 }
 

@@ -4,8 +4,7 @@
 ///
 ///   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,      J_i the Jacobian of the point
 ///
-/// PatchForce does the same faster where the closed form of one harmonic and one tangential direction is
-/// enough.
+/// PatchForce does the same faster where the closed form of one harmonic and one direction is enough.
 #pragma once
 
 #include <memory>

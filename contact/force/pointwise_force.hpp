@@ -31,7 +31,7 @@ class PointwiseForce : public ModalForce {
   /// At another motion than the last one: costs its evaluation, without derivatives by the modes.
   void states(const Harmonics& q, double frequency, ContactStates& result) final;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const final;
-  /// Of any number of harmonics; unknown where a point has no range. See linear_proof.hpp.
+  /// Of any number of harmonics; unknown where a point has no range. See SleepingSet.
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const final;
 
  protected:

@@ -16,7 +16,6 @@
 #include <Eigen/Core>
 
 #include "contact/contact_patch.hpp"
-#include "contact/force/sleeping_points.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/surface/linear_range.hpp"
 
@@ -38,6 +37,12 @@ struct PatchMotion {
   void copy(Eigen::Index point, Harmonics& result) const;
 };
 
+/// (1): the same linear law on every harmonic, and a constant mean.
+struct SleepingPart {
+  Eigen::MatrixXd stiffness;  ///< K [1/s²], n_modes × n_modes
+  Eigen::VectorXd mean;  ///< g: of preloads that are gone, and of gaps that are closed [N/√kg]
+};
+
 class SleepingSet {
  public:
   SleepingSet() = default;
@@ -56,7 +61,11 @@ class SleepingSet {
   /// After look_at(): (1); nullptr: none sleeps.
   [[nodiscard]] const SleepingPart* part() const;
 
-  /// What is proved of a ball of motions, see linear_proof.hpp.
+  /// Whether the patch answers every motion of a ball like a linear spring through the origin: all points stuck with
+  /// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A preload that the mean motion takes away, or a gap that it closes,
+  /// leaves a constant force: unknown. Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not
+  /// count.
+  /// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
   [[nodiscard]] LinearState linear_state(const ModalShapes& shapes, const Harmonics& centre,
                                          double radius) const;
 

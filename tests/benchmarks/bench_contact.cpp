@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "contact/closed_form/friction_cycle.hpp"
 #include "contact/force/block_kernels.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/line/line_events.hpp"
@@ -112,20 +113,6 @@ void whole_cycles(benchmark::State& state) {
   count_points(state, motions.size());
 }
 BENCHMARK(whole_cycles)->Arg(3000);
-
-void projection_only(benchmark::State& state) {
-  const std::vector<double> phi(n_modes * block_points, 0.5);
-  const std::vector<double> q(3 * n_modes, 1e-6);
-  std::vector<double> motion(3 * block_points);
-  for (auto _ : state) {
-    for (int direction = 0; direction < 2; ++direction) {
-      block_kernels().project(n_modes, block_points, phi.data(), q.data(), motion.data());
-      benchmark::ClobberMemory();
-    }
-  }
-  count_points(state, block_points);
-}
-BENCHMARK(projection_only);
 
 void jacobian_only(benchmark::State& state) {
   const std::vector<double> phi(n_modes * block_points, 0.5);

@@ -30,23 +30,6 @@ constexpr double rounding = 5e-15;
 
 class BlockKernelSets : public testing::TestWithParam<const BlockKernels*> {};
 
-TEST_P(BlockKernelSets, ProjectIsTheSumOverModes) {
-  const std::vector<double> phi = random_rows(n_modes, 1);
-  const std::vector<double> q{1.0, -2.0, 0.5, 3.0, 0.1, 0.2, 0.3, 0.4,
-                              0.5, 0.6,  7.0, 8.0, 9.0, 1.0, 2.0};
-  std::vector<double> motion(3 * block_points, 0.0);
-  GetParam()->project(n_modes, n_points, phi.data(), q.data(), motion.data());
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t point = 0; point < n_points; ++point) {
-      double expected = 0.0;
-      for (std::size_t mode = 0; mode < n_modes; ++mode) {
-        expected += phi[mode * block_points + point] * q[r * n_modes + mode];
-      }
-      EXPECT_NEAR(motion[r * block_points + point], expected, rounding);
-    }
-  }
-}
-
 TEST_P(BlockKernelSets, ForceIsTheSumOverPoints) {
   const std::vector<double> phi = random_rows(n_modes, 2);
   const std::vector<double> force = random_rows(3, 3);

@@ -60,10 +60,16 @@ std::vector<Case> cases() {
   return list;
 }
 
+CycleStates states_of(const Case& c) {
+  const SlipFunctions w = slip_functions(c.point, c.motion);
+  const CycleRegime regime = cycle_regime(w);
+  return cycle_states(regime, cycle_phases(w, regime));
+}
+
 TEST(CycleStates, AreThoseOfTheCycleAtTheirInstants) {
   for (const Case& c : cases()) {
     const FrictionCycle cycle = friction_cycle(c.point, c.motion);
-    const CycleStates states = cycle_states(c.point, c.motion);
+    const CycleStates states = states_of(c);
     EXPECT_EQ(states.regime, cycle.regime);
     PeriodStates expected;
     for (int k = 0; k < PeriodStates::n_instants; ++k) {
@@ -76,7 +82,7 @@ TEST(CycleStates, AreThoseOfTheCycleAtTheirInstants) {
 
 TEST(CycleStates, AreTheSameByEveryLaw) {
   for (const Case& c : cases()) {
-    const CycleStates expected = cycle_states(c.point, c.motion);
+    const CycleStates expected = states_of(c);
     Harmonics motion(1, n_point_signals);
     motion.rows().col(0) << c.motion.u_mean, c.motion.u_sin, c.motion.u_cos;
     motion.rows().col(1) << c.motion.v_mean, c.motion.v_sin, c.motion.v_cos;

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <vector>
+
+#include "contact/closed_form/friction_cycle.hpp"
+#include "contact/contact_patch.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -11,6 +15,16 @@ constexpr PointParameters stuck{1.0, 0.0, 0.5, 100.0};
 constexpr PointParameters slips_freely{1.0, 0.0, 0.0, 1.0};
 constexpr PointParameters open{1.0, 1.0, 0.5, -5.0};
 constexpr PointMotion swing{.u_sin = 1.0};
+
+CycleReport cycle_report(const ContactPatch& patch, const std::vector<PointMotion>& motions) {
+  ReportSum sum;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const FrictionCycle cycle = friction_cycle(patch.points()[i], motions[i]);
+    sum.add(cycle.segments(), cycle.dissipated_energy,
+            patch.weights()[static_cast<Eigen::Index>(i)]);
+  }
+  return sum.result();
+}
 
 TEST(CycleReport, SharesAreFractionsOfAreaTimesPeriod) {
   const ContactPatch patch(Eigen::Vector3d(1.0, 2.0, 5.0), {stuck, slips_freely, open});

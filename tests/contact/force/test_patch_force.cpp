@@ -115,6 +115,30 @@ TEST(PatchForce, EqualInputGivesEqualBits) {
   EXPECT_EQ(a.jacobian, b.jacobian);
 }
 
+// Points fall asleep and wake up on the way: who sleeps depends on the motion alone.
+TEST(PatchForce, GivesTheSameBitsWhateverWasAskedBefore) {
+  const ContactPatch points = random_patch(300, 6.0, 10);
+  const ModalShapes shapes = random_shapes(300, 11);
+  PatchForce walked(points, shapes);
+  Harmonics q = random_motion(12);
+  q.vector() *= 30.0;
+  double least_awake = 1.0;
+  double most_awake = 0.0;
+  for (int step = 0; step < 40; ++step) {
+    q.vector() *= step < 20 ? 0.8 : 1.2;
+    PatchForce fresh(points, shapes);
+    const ForceAndJacobian a = walked.evaluate(q, 1.0);
+    const ForceAndJacobian b = fresh.evaluate(q, 1.0);
+    ASSERT_EQ(a.force.vector(), b.force.vector());
+    ASSERT_EQ(a.jacobian, b.jacobian);
+    const double awake = walked.report(q, 1.0).awake_share;
+    least_awake = std::min(least_awake, awake);
+    most_awake = std::max(most_awake, awake);
+  }
+  EXPECT_LT(least_awake, 0.3);
+  EXPECT_GT(most_awake, 0.8);
+}
+
 TEST(PatchForce, PowersOfTwoScaleBitByBit) {
   const Eigen::Index n = 100;
   const ContactPatch patch = random_patch(n, 0.7, 10);
