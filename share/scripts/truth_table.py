@@ -163,7 +163,7 @@ def run_case(program, work, force, settings, limit):
     scene = os.path.join(work, SCENES[force] + ".toml")
     with open(scene, "w", encoding="utf-8") as file:
         file.write(scene_text(force))
-    command = [program, "run", scene, "-q", "-o", folder]
+    command = [program, "run", scene, "-q", "--without", "plots", "-o", folder]
     for key, value in {**BASE, **settings}.items():
         command += ["--set", f"{key}={value}"]
     start = time.monotonic()
