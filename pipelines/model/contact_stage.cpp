@@ -141,9 +141,8 @@ void set_fields(contact::Patch& patch, const ContactDescription& contact) {
   const Eigen::Vector3d origin = contact::centroid(patch);
   const auto centres = in_plane(patch.cells.points, origin, patch.frame);
   const auto vertices = in_plane(patch.vertices.points, origin, patch.frame);
-  const Field friction(contact.friction);
-  patch.cells.friction = friction.at(centres.p, centres.r);
-  patch.vertices.friction = friction.at(vertices.p, vertices.r);
+  patch.cells.friction = contact.friction.at(centres.p, centres.r);
+  patch.vertices.friction = contact.friction.at(vertices.p, vertices.r);
   if (contact.preload_moment != std::array{0.0, 0.0}) {
     patch.tilted_areas.push_back(
         {contact.key + ".preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});

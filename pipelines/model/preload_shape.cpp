@@ -10,7 +10,7 @@
 #include "mesh/surface.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/scene/curve_request.hpp"
-#include "pipelines/scene/field_description.hpp"
+#include "pipelines/scene/field.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -50,7 +50,7 @@ void require_balance(const FacePoints& face, const ContactDescription& contact, 
 Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& r, const Eigen::VectorXd& weights) {
   if (!contact.preload_field) return contact::uniform_preload(weights, 1.0);
-  const Eigen::VectorXd shape = Field(*contact.preload_field).at(p, r);
+  const Eigen::VectorXd shape = contact.preload_field->at(p, r);
   try {
     Eigen::VectorXd preload = contact::scaled_preload(shape, weights, 1.0);
     contact::require_total(preload, weights, 1.0,

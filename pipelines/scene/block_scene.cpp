@@ -9,6 +9,7 @@
 #include "contact/patch/contact_area.hpp"
 #include "pipelines/scene/chain_system.hpp"
 #include "pipelines/scene/contact_section.hpp"
+#include "pipelines/scene/friction_section.hpp"
 #include "pipelines/text/scene_keys.hpp"
 
 namespace microslip::pipelines {
@@ -114,10 +115,10 @@ Eigen::MatrixXd centre_motions(const Eigen::MatrixXd& shapes, const Eigen::Vecto
 }
 
 void set_contact(ModalModel& model, const SectionReader& s, const Rectangle& rectangle,
-                 const Eigen::MatrixXd& shapes, double friction) {
+                 const Eigen::MatrixXd& shapes, const Field& friction) {
   const double area = rectangle.area;
   const contact::PointParameters point{s.number("tangential_stiffness") / area,
-                                       s.number("normal_stiffness") / area, friction, 1.0 / area};
+                                       s.number("normal_stiffness") / area, 0.0, 1.0 / area};
   const contact::ContactArea cells(rectangle.cells);
   model.load_measure = LoadMeasure::force;
   model.weights = rectangle.cells.weights;
@@ -125,6 +126,10 @@ void set_contact(ModalModel& model, const SectionReader& s, const Rectangle& rec
   model.shapes = cells.modal_shapes(centre_motions(shapes, rectangle.centre));
   model.positions.resize(cells.n_cells(), 2);
   model.positions << rectangle.cells.z, rectangle.cells.y;
+  const Eigen::VectorXd coefficient = friction.at(rectangle.cells.z, rectangle.cells.y);
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    model.points[i].friction_coefficient = coefficient[static_cast<Eigen::Index>(i)];
+  }
   if (rectangle.moment != std::array{0.0, 0.0}) {
     model.tilted_areas.push_back(
         {"contact.preload_moment", 0, rectangle.cells.z, rectangle.cells.y, 1.0, rectangle.moment});
@@ -178,7 +183,8 @@ BlockOutput read_block_output(SectionReader& s) {
 }
 
 ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& output,
-                      contact::SurfaceRules& rules, double& wear_coefficient) {
+                      const std::filesystem::path& folder, contact::SurfaceRules& rules,
+                      double& wear_coefficient) {
   const ChainSystem system = read_system(sections);
   const Eigen::Index n_modes = system.frequency.size();
   ModalModel model;
@@ -186,11 +192,13 @@ ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& o
   model.damping_ratio = read_damping_ratios(sections.modes, system.frequency);
   model.force_sine = model.force_cosine = model.force_static = Eigen::VectorXd::Zero(n_modes);
   set_forces(model, sections.excitation, system.shapes);
-  const double friction = read_friction(sections.contact, rules);
+  const FrictionDescription friction =
+      read_friction(sections.contact, "friction_coefficient", folder);
+  rules.friction = friction.law;
   rules.roughness = read_roughness(sections.contact);
   wear_coefficient = sections.contact.number("wear_coefficient");
   set_contact(model, sections.contact, read_rectangle(sections.model, sections.contact),
-              system.shapes, friction);
+              system.shapes, friction.at_rest);
   if (rules.roughness && rules.roughness->height() > 0.0 &&
       !(model.points[0].normal_stiffness > 0.0)) {
     sections.contact.fail("roughness", "rough surfaces need a normal_stiffness above 0",

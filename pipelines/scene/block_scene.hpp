@@ -34,11 +34,13 @@ struct BlockOutput {
 [[nodiscard]] BlockOutput read_block_output(SectionReader& response);
 
 /// @param output  none: the scene has no response.
-/// @param laws    receives friction law and roughness, @param wear_coefficient  Archard [m²/N].
+/// @param folder  relative files start here.
+/// @param rules   receives friction law and roughness, @param wear_coefficient  Archard [m²/N].
 /// @return modes and one point per cell, constants per area. The load of a curve is the total normal force.
 /// @throws SceneError  none or both of the springs' two forms, a matrix that is not symmetric or not
 ///         positive semidefinite, moments on an area one cell wide.
 [[nodiscard]] ModalModel read_block(LeanSections sections, const std::optional<BlockOutput>& output,
+                                    const std::filesystem::path& folder,
                                     contact::SurfaceRules& rules, double& wear_coefficient);
 
 }  // namespace microslip::pipelines

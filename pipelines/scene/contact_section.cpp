@@ -1,17 +1,15 @@
 #include "pipelines/scene/contact_section.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <stdexcept>
+#include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "pipelines/text/units.hpp"
+#include "pipelines/scene/friction_section.hpp"
+#include "pipelines/scene/law_table.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -23,107 +21,11 @@ std::optional<double> read_stiffness(const SectionReader& s, std::string_view ke
   return s.number_or_word_in(node, key, words);
 }
 
-/// A number with a unit inside an inline table.
-double entry_of(const SectionReader& s, std::string_view key, const toml::table& table,
-                std::string_view name, const char* unit) {
-  const toml::node* node = table.get(name);
-  if (node == nullptr) s.fail(key, fmt::format("{} is missing", name), &table);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  if (node->is_number()) {
-    value = *node->value<double>();
-  } else if (node->is_string()) {
-    try {
-      value = to_si(*node->value<std::string>(), unit);
-    } catch (const UnitError& error) {
-      s.fail(key, fmt::format("{}: {}", name, error.what()), node);
-    }
-  }
-  if (!(std::isfinite(value) && value >= 0.0)) {
-    s.fail(key, fmt::format("{}: expected a number, at least 0 [{}]", name, unit), node);
-  }
-  return value;
-}
-
-/// The law named in an inline table whose other keys are among those of the law.
-template <std::size_t N>
-std::string law_of(const SectionReader& s, std::string_view key, const toml::table& table,
-                   const std::array<std::string_view, N>& laws,
-                   const std::vector<std::string_view>& keys) {
-  const auto law = table["law"].value<std::string>();
-  if (!law || std::find(laws.begin(), laws.end(), *law) == laws.end()) {
-    s.fail(key, fmt::format("law: expected one of: {}", fmt::join(laws, ", ")), &table);
-  }
-  for (const auto& [name, value] : table) {
-    if (name.str() == "law" || std::find(keys.begin(), keys.end(), name.str()) != keys.end())
-      continue;
-    s.fail(key,
-           fmt::format("unknown key \"{}\"; known: law, {}", name.str(), fmt::join(keys, ", ")),
-           &value);
-  }
-  return *law;
-}
-
-contact::FrictionLaw friction_law_in(const SectionReader& s, std::string_view key,
-                                     const toml::table& table) {
-  constexpr std::array<std::string_view, 2> laws{"exponential", "hyperbolic"};
-  const auto entry = [&](std::string_view name, const char* unit) {
-    return entry_of(s, key, table, name, unit);
-  };
-  if (law_of(s, key, table, laws, {"static", "kinetic", "rate"}) == "exponential") {
-    return contact::FrictionLaw::exponential(entry("static", "1"), entry("kinetic", "1"),
-                                             entry("rate", "s/m"));
-  }
-  if (table.contains("kinetic")) {
-    s.fail(key, "kinetic: the hyperbolic law has none; known: law, static, rate", &table);
-  }
-  return contact::FrictionLaw::hyperbolic(entry("static", "1"), entry("rate", "s/m"));
-}
-
-/// A number, an expression in p and r, or { file = … }. The completed scene keeps the absolute path.
-FieldDescription field_in(SectionReader& s, std::string_view key,
-                          const std::filesystem::path& folder, const char* unit) {
-  const toml::node& node = *s.node(key);
-  FieldDescription field;
-  field.place = place_of(&node, s.file()) + ": " + s.path() + "." + std::string(key);
-  if (const toml::table* table = node.as_table()) {
-    const bool expression = table->contains("expression");
-    const auto text = (*table)[expression ? "expression" : "file"].value<std::string>();
-    if (!text || table->size() != 1) {
-      s.fail(key, "expected { expression = \"…\" } or { file = \"….csv\" }", &node);
-    }
-    if (expression) {
-      field.value = FieldExpression{*text};
-      static_cast<void>(Field(field));  // its mistakes are those of the scene
-      return field;
-    }
-    const std::filesystem::path file = *text;
-    field.value = FieldTable{file.is_absolute() ? file : folder / file};
-    static_cast<void>(Field(field));  // so are those of the table
-    toml::table complete;
-    complete.is_inline(true);
-    complete.insert_or_assign("file", std::get<FieldTable>(field.value).file.string());
-    s.complete(key, std::move(complete));
-    return field;
-  }
-  if (!node.is_string()) {
-    field.value = s.number_in(node, key);
-    return field;
-  }
-  const std::string text = *node.value<std::string>();
-  try {
-    field.value = to_si(text, unit);
-  } catch (const UnitError&) {  // no quantity, so an expression: its own messages follow
-    field.value = FieldExpression{text};
-    static_cast<void>(Field(field));
-  }
-  return field;
-}
-
 void read_preload(SectionReader& s, const std::filesystem::path& folder,
                   ContactDescription& contact) {
   const toml::node& field = *s.node("preload_field");
   if (!(field.is_string() && *field.value<std::string>() == "uniform")) {
-    contact.preload_field = field_in(s, "preload_field", folder, "Pa");
+    contact.preload_field = read_field(s, "preload_field", folder, "Pa");
   }
   const toml::node& moment = *s.node("preload_moment");
   const toml::array* list = moment.as_array();
@@ -193,26 +95,46 @@ void read_fit(const SectionReader& s, PatchSettings& patch) {
   patch.fit_degree = static_cast<int>(*degree);
 }
 
+struct RoughLaw {
+  std::string_view law;
+  std::vector<std::string_view> keys;
+};
+
+/// μ of the points that rub, by their place.
+void set_friction(const SectionReader& s, const Field& friction, ModalModel& model) {
+  if (model.positions.rows() == 0) {
+    s.fail("friction_law", "depends on the place: the points need columns p and r",
+           s.node("friction_law"));
+  }
+  const Eigen::VectorXd values = friction.at(model.positions.col(0), model.positions.col(1));
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    double& own = model.points[i].friction_coefficient;
+    if (own > 0.0) own = values[static_cast<Eigen::Index>(i)];
+  }
+}
+
 }  // namespace
 
 std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
   if (!s.given("roughness")) return std::nullopt;
-  constexpr std::array<std::string_view, 2> laws{"cubic", "gaussian"};
+  static const std::array rough_laws{RoughLaw{"cubic", {"height"}},
+                                     RoughLaw{"gaussian", {"height"}}};
   const toml::node& node = *s.node("roughness");
   double height = 0.0;
-  std::string law;
+  std::string_view law;
   const auto add = [&](const toml::node& entry) {
     const toml::table* table = entry.as_table();
     if (table == nullptr) {
       s.fail("roughness",
              "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two", &entry);
     }
-    const std::string one = law_of(s, "roughness", *table, laws, {"height"});
-    if (!law.empty() && one != law) {
+    const LawTable one(s, "roughness", *table);
+    const std::string_view name = one.choose(std::span<const RoughLaw>(rough_laws)).law;
+    if (!law.empty() && name != law) {
       s.fail("roughness", "a cubic surface against a gaussian one has no law of its own", &entry);
     }
-    law = one;
-    height = std::hypot(height, entry_of(s, "roughness", *table, "height", "m"));
+    law = name;
+    height = std::hypot(height, one.number("height", "m"));
   };
   if (const toml::array* list = node.as_array()) {
     if (list->empty() || list->size() > 2)
@@ -223,14 +145,6 @@ std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
   }
   return law == "cubic" ? contact::RoughSurface::cubic(height)
                         : contact::RoughSurface::matching_gaussian(height);
-}
-
-double read_friction(const SectionReader& s, contact::SurfaceRules& rules) {
-  const toml::node& node = *s.node("friction_coefficient");
-  const toml::table* law = node.as_table();
-  if (law == nullptr) return s.number_in(node, "friction_coefficient");
-  rules.friction = friction_law_in(s, "friction_coefficient", *law);
-  return rules.friction->at_rest();
 }
 
 ContactDescription read_contact(SectionReader s, const std::filesystem::path& folder) {
@@ -246,14 +160,9 @@ ContactDescription read_contact(SectionReader s, const std::filesystem::path& fo
   contact.name = s.given("name") ? s.text("name") : contact.surface;
   if (s.given("preload_share")) contact.preload_share = s.number("preload_share");
   contact.slip_direction = s.direction("slip_direction");
-  const toml::node& friction = *s.node("friction_coefficient");
-  if (const toml::table* law = friction.as_table(); law != nullptr && !law->contains("file")) {
-    rules.friction = friction_law_in(s, "friction_coefficient", *law);
-    contact.friction.value = rules.friction->at_rest();
-  } else {
-    contact.friction = field_in(s, "friction_coefficient", folder, "1");
-    contact.friction.low = 0.0;
-  }
+  FrictionDescription friction = read_friction(s, "friction_coefficient", folder);
+  contact.friction = std::move(friction.at_rest);
+  rules.friction = friction.law;
   contact.normal_stiffness = read_stiffness(s, "normal_stiffness");
   contact.tangential_stiffness = read_stiffness(s, "tangential_stiffness");
   rules.roughness = read_roughness(s);
@@ -270,13 +179,15 @@ PatchSettings read_patch_settings(const SectionReader& s) {
   return patch;
 }
 
-contact::SurfaceRules read_surface_rules(const SectionReader& s, double& wear_coefficient) {
+contact::SurfaceRules read_surface_rules(SectionReader s, const std::filesystem::path& folder,
+                                         ModalModel& model, double& wear_coefficient) {
   contact::SurfaceRules rules;
   if (s.given("friction_law")) {
     const toml::node& node = *s.node("friction_law");
-    if (!node.is_table())
-      s.fail("friction_law", "expected { law = …, static = …, rate = … }", &node);
-    rules.friction = friction_law_in(s, "friction_law", *node.as_table());
+    if (!node.is_table()) s.fail("friction_law", "expected a table { law = …, … }", &node);
+    const FrictionDescription friction = read_friction(s, "friction_law", folder);
+    rules.friction = friction.law;
+    if (!friction.law) set_friction(s, friction.at_rest, model);
   }
   rules.roughness = read_roughness(s);
   wear_coefficient = s.number("wear_coefficient");

@@ -17,13 +17,12 @@ namespace microslip::pipelines {
 /// How it is discretised.
 [[nodiscard]] PatchSettings read_patch_settings(const SectionReader& section);
 
-/// Modal scenes: laws beside the constants that the points carry.
+/// Modal scenes: laws beside the constants that the points carry, or in their place.
+/// @param model             its points take friction that depends on the place.
 /// @param wear_coefficient  [m²/N], written.
-[[nodiscard]] contact::SurfaceRules read_surface_rules(const SectionReader& section,
-                                                       double& wear_coefficient);
-
-/// `friction_coefficient` as a number or a law, which goes into `rules`. @return μ at rest.
-[[nodiscard]] double read_friction(const SectionReader& section, contact::SurfaceRules& rules);
+[[nodiscard]] contact::SurfaceRules read_surface_rules(SectionReader section,
+                                                       const std::filesystem::path& folder,
+                                                       ModalModel& model, double& wear_coefficient);
 
 /// `roughness` of one surface, or of two: variances of independent heights add. None: smooth.
 [[nodiscard]] std::optional<contact::RoughSurface> read_roughness(const SectionReader& section);

@@ -20,7 +20,7 @@
 #include "fem/rotation.hpp"
 #include "mesh/blade_geometry.hpp"
 #include "pipelines/scene/discretisation.hpp"
-#include "pipelines/scene/field_description.hpp"
+#include "pipelines/scene/field.hpp"
 
 namespace microslip::pipelines {
 
@@ -122,8 +122,8 @@ struct ContactDescription {
   std::string surface;
   std::string place;  ///< "file:line: key" of `surface`, for messages
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
-  FieldDescription friction;  ///< μ over the patch, in p and r from its centroid
-  std::optional<FieldDescription> preload_field;  ///< shape of the preload; none: uniform
+  Field friction;                      ///< μ over the patch, in p and r from its centroid
+  std::optional<Field> preload_field;  ///< shape of the preload; none: uniform
   /// "file:line: key" of preload = "static": that of the static loads, in place of a shape; empty: it is not.
   std::string static_preload;
   double gap = 0.0;  ///< before the static loads act [m]; below 0: interference

@@ -234,9 +234,9 @@ void read_modal_scene(Reading& reading, SceneDescription& scene) {
   static_cast<void>(reading.section("model", "model.modal"));
   ModalModel model = read_modal(reading.section("modal", "modal"), reading.folder);
   scene.settings.basis.residual = model.residual;
+  scene.rules = read_surface_rules(reading.section("contact", "contact.modal"), reading.folder,
+                                   model, scene.wear_coefficient);
   scene.model = std::move(model);
-  scene.rules =
-      read_surface_rules(reading.section("contact", "contact.modal"), scene.wear_coefficient);
   if (reading.given.contains("response")) {
     const SectionReader response = reading.section("response", "response.modal");
     scene.response = read_modal_response(response, "modal");
@@ -261,10 +261,10 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
     if (kind == "chain") coordinate = response.text("output");
     if (kind == "block") output = read_block_output(response);
   }
-  const ModalModel model = kind == "bar" ? read_bar(sections)
-                           : kind == "chain"
-                               ? read_chain(sections, coordinate)
-                               : read_block(sections, output, scene.rules, scene.wear_coefficient);
+  const ModalModel model = kind == "bar"     ? read_bar(sections)
+                           : kind == "chain" ? read_chain(sections, coordinate)
+                                             : read_block(sections, output, reading.folder,
+                                                          scene.rules, scene.wear_coefficient);
   if (model.points.empty() && reading.given.contains("response")) {
     scene.without_contact = contact_keys_without_contact(section("response"));
   }

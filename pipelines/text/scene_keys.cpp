@@ -374,8 +374,9 @@ constexpr std::array block_contact_keys{
     KeySpec{"tangential_stiffness", number, "N/m", "", 0.0, unbounded, false,
             "the same along p and along r"},
     KeySpec{"friction_coefficient", other, "1", "", 0.0, unbounded, false,
-            "μ: a number, or a law of the slip speed: { law = \"exponential\", static = …, kinetic "
-            "= …, rate = \"… s/m\" } or "
+            "μ: a number, an expression in p and r [m] from the centre, { file = \"mu.csv\" } with "
+            "columns p, r, value, or a law of the slip speed: { law = \"exponential\", static = …, "
+            "kinetic = …, rate = \"… s/m\" } or "
             "{ law = \"hyperbolic\", static = …, rate = … }"},
     roughness_key,
     KeySpec{"preload_moment", other, "N*m", "[0, 0]", -unbounded, unbounded, false,
@@ -388,7 +389,8 @@ constexpr std::array modal_contact_keys{
     KeySpec{"friction_law", other, "1", "", 0.0, unbounded, false,
             "of all points that rub, in place of their coefficient: { law = \"exponential\", "
             "static = …, "
-            "kinetic = …, rate = \"… s/m\" } or { law = \"hyperbolic\", static = …, rate = … }",
+            "kinetic = …, rate = \"… s/m\" }, { law = \"hyperbolic\", static = …, rate = … }, or, "
+            "where the points have p and r, { expression = \"…\" }, { file = \"mu.csv\" }",
             true},
     roughness_key,
     wear_key,

@@ -517,6 +517,26 @@ TEST(BadScene, WhatThisVersionDoesNotHaveIsRefusedByName) {
   expect_complaint(complaint(mesh), {"x.cas", ".msh, .inp"});
 }
 
+TEST(SceneFile, FrictionByPlaceIsThatOfTheModalPointsThatRub) {
+  const std::string there = "contact.friction_law={ expression = \"0.3 + 10*p\" }";
+  const std::string text =
+      replaced(replaced(modal_text, "{ weight = 1,", "{ p = 0.01, weight = 1,"), "{ weight = 2,",
+               "{ p = 0.02, weight = 2,");
+  const auto friction = [](const SceneDescription& scene) {
+    const std::vector<contact::PointParameters>& points = std::get<ModalModel>(scene.model).points;
+    return std::array{points[0].friction_coefficient, points[1].friction_coefficient};
+  };
+  const SceneDescription scene = parse(text, {there});
+  EXPECT_EQ(friction(scene), (std::array{0.3 + 10 * 0.01, 0.3 + 10 * 0.02}));
+  EXPECT_FALSE(scene.rules.friction);
+  const std::string smooth =
+      replaced(text, "friction_coefficient = 0.3", "friction_coefficient = 0");
+  EXPECT_EQ(friction(parse(smooth, {there}))[0], 0.0);
+  expect_complaint(complaint(modal_text, {there}), {"contact.friction_law", "columns p and r"});
+  expect_complaint(complaint(text, {"contact.friction_law={ expression = \"p - 1\" }"}),
+                   {"contact.friction_law", "at least 0"});
+}
+
 TEST(SceneFile, LawsOfContactAreRead) {
   const SceneDescription blade = parse(
       blade_text, {"contact.friction_coefficient={ law = \"exponential\", static = 0.5, kinetic = "
@@ -533,8 +553,15 @@ TEST(SceneFile, LawsOfContactAreRead) {
   EXPECT_EQ(complaint(blade.complete_toml), "");
   const SceneDescription field = parse(blade_text, {"contact.friction_coefficient=0.3+0.1*p",
                                                     "contact.preload_moment=[\"2 N*m\", 0]"});
-  EXPECT_TRUE(std::holds_alternative<FieldExpression>(field.contacts.front().friction.value));
+  const Eigen::VectorXd p = Eigen::Vector2d(0.0, 1.0);
+  EXPECT_EQ(field.contacts.front().friction.at(p, p), Eigen::VectorXd(0.3 + 0.1 * p.array()));
   EXPECT_EQ(field.contacts.front().preload_moment[0], 2.0);
+  const SceneDescription table =
+      parse(blade_text, {"contact.friction_coefficient={ expression = \"0.3 + 0.1*p\" }"});
+  EXPECT_EQ(table.contacts.front().friction.at(p, p), field.contacts.front().friction.at(p, p));
+  expect_complaint(complaint(blade_text, {"contact.friction_coefficient={ law = \"hyperbolic\", "
+                                          "static = 0.4, kinetic = 0.2, rate = 3 }"}),
+                   {"kinetic", "known: law, static, rate"});
   const SceneDescription modal =
       parse(modal_text, {"contact.friction_law={ law = \"hyperbolic\", static = 0.4, rate = 3 }",
                          "response.harmonics=5", "response.method=time", "response.points=7"});
