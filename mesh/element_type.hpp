@@ -34,6 +34,13 @@ inline constexpr std::array all_element_types{
     ElementType::tet4,   ElementType::tet10,   ElementType::hex8,     ElementType::hex20,
     ElementType::wedge6, ElementType::wedge15, ElementType::pyramid5, ElementType::pyramid13};
 
+inline constexpr std::array all_face_types{FaceType::tri3, FaceType::tri6, FaceType::quad4,
+                                           FaceType::quad8};
+
+/// Of any type: what storage of one element or face holds without allocation.
+inline constexpr int most_element_nodes = 20;
+inline constexpr int most_face_nodes = 8;
+
 [[nodiscard]] int n_nodes(ElementType type);
 [[nodiscard]] int n_nodes(FaceType type);
 [[nodiscard]] int n_corners(ElementType type);

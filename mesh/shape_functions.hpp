@@ -27,13 +27,13 @@
 namespace microslip::mesh {
 
 struct ElementShapes {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 20, 1> values;     ///< N_a, n
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 20, 3> gradients;  ///< ∂N_a/∂ξ, n × 3
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_element_nodes, 1> values;  ///< N_a, n
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_element_nodes, 3> gradients;  ///< ∂N_a/∂ξ, n × 3
 };
 
 struct FaceShapes {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1> values;     ///< N_a, n
-  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 8, 2> gradients;  ///< ∂N_a/∂ξ, n × 2
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_face_nodes, 1> values;     ///< N_a, n
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_face_nodes, 2> gradients;  ///< ∂N_a/∂ξ, n × 2
 };
 
 [[nodiscard]] ElementShapes shapes(ElementType type, const Eigen::Vector3d& xi);

@@ -190,8 +190,7 @@ QuadratureRule square_rule(int n) {
 }
 
 QuadratureRule face_rule(mesh::FaceType type, int degree) {
-  const bool triangle = type == mesh::FaceType::tri3 || type == mesh::FaceType::tri6;
-  return triangle ? triangle_rule(degree) : square_rule(degree / 2 + 1);
+  return mesh::n_corners(type) == 3 ? triangle_rule(degree) : square_rule(degree / 2 + 1);
 }
 
 }  // namespace microslip::fem

@@ -28,7 +28,7 @@ std::vector<Eigen::Vector2d> sample_points(FaceType type) {
 class FaceSamples {
  public:
   FaceSamples() {
-    for (const FaceType type : {FaceType::tri3, FaceType::tri6, FaceType::quad4, FaceType::quad8}) {
+    for (const FaceType type : all_face_types) {
       for (const Eigen::Vector2d& xi : sample_points(type)) {
         shapes_[static_cast<std::size_t>(type)].push_back(shapes(type, xi));
       }
@@ -39,7 +39,7 @@ class FaceSamples {
   }
 
  private:
-  std::array<std::vector<FaceShapes>, 4> shapes_;
+  std::array<std::vector<FaceShapes>, all_face_types.size()> shapes_;
 };
 
 /// One outer face with an element before it.

@@ -197,8 +197,13 @@ std::vector<FacePoint> face_points(FaceType type) {
 
 /// ∫ x·n dA over one face seen from outside: by Gauss's theorem the faces of a body sum to 3 V.
 double flux_of_position(FaceType type, const Eigen::MatrixX3d& nodes) {
-  static const std::array tables{face_points(FaceType::tri3), face_points(FaceType::tri6),
-                                 face_points(FaceType::quad4), face_points(FaceType::quad8)};
+  static const auto tables = [] {
+    std::array<std::vector<FacePoint>, all_face_types.size()> all;
+    for (const FaceType each : all_face_types) {
+      all[static_cast<std::size_t>(each)] = face_points(each);
+    }
+    return all;
+  }();
   double flux = 0.0;
   for (const FacePoint& point : tables[static_cast<std::size_t>(type)]) {
     const Eigen::Vector3d x = nodes.transpose() * point.shapes.values;

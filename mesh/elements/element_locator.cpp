@@ -108,7 +108,8 @@ ElementLocator::Box ElementLocator::box_of(const ElementReference& element) cons
     return all;
   }();
   const ElementBlock& block = elements_[element.block];
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 20, 3> own(block.connectivity.cols(), 3);
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_element_nodes, 3> own(block.connectivity.cols(),
+                                                                         3);
   for (Eigen::Index a = 0; a < own.rows(); ++a)
     own.row(a) = nodes_.row(block.connectivity(element.element, a));
   const auto corners = own.topRows(n_corners(block.type));
