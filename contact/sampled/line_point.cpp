@@ -58,10 +58,11 @@ void LineDerivatives::add_outer(const std::vector<double>& a, const std::vector<
 }
 
 void LineDerivatives::add_anchor(const Anchor& anchor, const std::vector<double>& a) {
-  const std::size_t n = instants_->size();
   std::fill(b_.begin(), b_.end(), 0.0);
-  for (std::size_t j = 0; j < anchor.share.size(); ++j) {
-    if (anchor.share[j] != 0.0) add(b_, anchor.share[j], instants_->basis((anchor.first + j) % n));
+  std::size_t instant = anchor.first;
+  for (const double share : anchor.share) {
+    if (share != 0.0) add(b_, share, instants_->basis(instant));
+    instant = instant + 1 < instants_->size() ? instant + 1 : 0;
   }
   add_outer(a, b_, 1.0, anchor.by_approach);
   if (anchor.by_rate != 0.0) {
