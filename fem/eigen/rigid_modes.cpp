@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
@@ -66,10 +66,10 @@ Eigen::MatrixXd free_motions(const mesh::Mesh& mesh, const DofMap& dofs, const P
     ++n_held;
   }
   if (n_held == 0) return Eigen::MatrixXd::Identity(6, 6);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(held / double(n_held));
+  const SymmetricPairs eigen = symmetric_pairs(held / double(n_held));
   // Squares of lever arms over the size of the part: 1e-12 is a support of 1e-6 of that size.
-  const auto n_free = static_cast<Eigen::Index>((eigen.eigenvalues().array() < 1e-12).count());
-  return eigen.eigenvectors().leftCols(n_free);
+  const auto n_free = static_cast<Eigen::Index>((eigen.values.array() < 1e-12).count());
+  return eigen.vectors.leftCols(n_free);
 }
 
 std::vector<Part> parts_of(const mesh::Mesh& mesh) {
