@@ -41,7 +41,7 @@ std::string or_empty(const std::optional<double>& value) {
   return value ? format_number(*value) : std::string();
 }
 
-constexpr std::array curve_table{
+constexpr std::array point_table{
     Column<ResponsePoint>{"frequency_Hz", "Hz", "of the excitation",
                           [](const auto& p) { return format_number(in_hertz(p.frequency)); }},
     Column<ResponsePoint>{"amplitude_m", "m",
@@ -264,7 +264,7 @@ void add_table(std::string& text, const std::string& title, const Rows& rows,
 
 }  // namespace
 
-std::span<const Column<ResponsePoint>> curve_columns() { return curve_table; }
+std::span<const Column<ResponsePoint>> curve_columns() { return point_table; }
 std::span<const Column<CycleReport>> patch_columns() { return patch_table; }
 std::span<const Column<TrustedAmplitude>> trust_columns() { return trust_table; }
 std::span<const Column<RungResult>> ladder_columns() { return ladder_table; }
@@ -295,7 +295,7 @@ std::string columns_text() {
       "# Columns and arrays\n\n"
       "Printed by `microslip columns` from the tables the files are written from "
       "(`pipelines/files/columns.cpp`); a test keeps the two the same.\n";
-  add_table(text, "curves/NAME.csv", curve_table);
+  add_table(text, "curves/NAME.csv", point_table);
   add_table(text, "curves/NAME.csv, where its error is told ([accuracy])", trust_table);
   add_table(text, "curves/NAME.csv, for each of several contacts", patch_table, "CONTACT.");
   add_table(text, "converge/KNOB.csv", ladder_table);

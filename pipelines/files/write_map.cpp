@@ -119,9 +119,9 @@ void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eig
 }
 
 double in_degrees(double phase) {
-  const double degrees = phase / degree;
-  const double rounded = std::round(degrees * 1e6) / 1e6;  // 45, not 45.00000000000001
-  return std::abs(rounded - degrees) < 1e-9 ? rounded : degrees;
+  const double exact = phase / degree;
+  const double rounded = std::round(exact * 1e6) / 1e6;  // 45, not 45.00000000000001
+  return std::abs(rounded - exact) < 1e-9 ? rounded : exact;
 }
 
 void write_series(const std::filesystem::path& folder, const contact::Patch& patch,

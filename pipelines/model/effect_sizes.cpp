@@ -9,7 +9,7 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// ∬ n₀' dA at load 1, of points that press.
 double force_at_unit_load(const ReducedModel& model) {
@@ -23,7 +23,7 @@ double force_at_unit_load(const ReducedModel& model) {
 
 /// That presses [N]; 0: none does.
 double smallest_force(const ReducedModel& model, const SceneDescription& scene) {
-  double smallest = unlimited;
+  double smallest = no_limit;
   for (const CurveRequest& request : curve_requests(scene)) {
     if (std::holds_alternative<UniformGap>(request.preload)) continue;
     const auto* load = std::get_if<double>(&request.preload);
@@ -32,7 +32,7 @@ double smallest_force(const ReducedModel& model, const SceneDescription& scene) 
   return std::isfinite(smallest) ? smallest * force_at_unit_load(model) : 0.0;
 }
 
-double over(double part, double whole) { return whole > 0.0 ? part / whole : unlimited; }
+double over(double part, double whole) { return whole > 0.0 ? part / whole : no_limit; }
 
 double half_size(const Eigen::VectorXd& places) {
   return 0.5 * (places.maxCoeff() - places.minCoeff());

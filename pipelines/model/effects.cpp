@@ -16,7 +16,7 @@ namespace {
 
 using enum Simulated;
 
-constexpr double percent = 100.0;
+constexpr double in_percent = 100.0;
 
 /// What the curves take longer with an effect than without, where the method of the points tells.
 std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
@@ -99,7 +99,7 @@ std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects) 
                                 effect.reason));
     if (effect.bound && std::isfinite(*effect.bound)) {
       lines.back() += fmt::format("; having it would change the highest peaks by {:.2g} % at most",
-                                  percent * *effect.bound);
+                                  in_percent * *effect.bound);
     }
     if (!effect.objection.empty()) lines.back() += "; but " + effect.objection;
   }

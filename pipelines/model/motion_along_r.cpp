@@ -12,7 +12,7 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr int n_trial_frequencies = 200;
+constexpr int n_sampled_frequencies = 200;
 
 bool rubs(const contact::PatchSamples& cells, Eigen::Index point) {
   return cells.friction[point] > 0.0 &&
@@ -67,8 +67,8 @@ double largest_ratio(const ReducedModel& model, const Eigen::MatrixXd& stiffness
                      double high) {
   PatchMotion most_along_p;
   PatchMotion most_along_r;
-  for (int i = 0; i < n_trial_frequencies; ++i) {
-    const double frequency = low + (high - low) * i / (n_trial_frequencies - 1);
+  for (int i = 0; i < n_sampled_frequencies; ++i) {
+    const double frequency = low + (high - low) * i / (n_sampled_frequencies - 1);
     const PatchMotion motion = motion_at(model, stiffness, frequency);
     if (motion.along_p > most_along_p.along_p) most_along_p = motion;
     if (motion.along_r > most_along_r.along_r) most_along_r = motion;

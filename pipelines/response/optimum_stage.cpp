@@ -30,7 +30,7 @@ bool ends_sooner(const SceneDescription& scene) {
   return !scene.contacts.empty() && (harmonics.chosen() || harmonics.highest > few_harmonics);
 }
 
-solver::OptimumOptions options_of(const SceneDescription& scene) {
+solver::OptimumOptions optimum_options(const SceneDescription& scene) {
   solver::OptimumOptions options;
   if (scene.response->optimum->range) {
     options.lower = (*scene.response->optimum->range)[0];
@@ -63,7 +63,7 @@ OptimumSearch::OptimumSearch(const ReducedModel& model, const SceneDescription& 
       family_(scene, request_.key, model, std::move(structure)),
       // Another number may need other modes, which one thread alone may ask for.
       jobs_(request_.of_preload() ? jobs : 1),
-      options_(options_of(scene)) {}
+      options_(optimum_options(scene)) {}
 
 const ReducedModel& OptimumSearch::model_at(double value, double stiffness_factor) {
   const std::lock_guard lock(family_mutex_);  // what it gives stays where it is

@@ -25,7 +25,7 @@ std::vector<double> swept_frequencies(const ResponseDescription& response) {
   return frequencies;
 }
 
-solver::TimeOptions options_of(const SceneDescription& scene) {
+solver::TimeOptions time_options(const SceneDescription& scene) {
   const ResponseDescription& response = *scene.response;
   solver::TimeOptions options;
   options.n_harmonics = std::max(scene.settings.harmonics.highest, least_harmonics_of_time);
@@ -68,7 +68,7 @@ struct Irregular {
 
 solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& description,
                             const solver::PointObserver& observe) {
-  const solver::TimeOptions options = options_of(description);
+  const solver::TimeOptions options = time_options(description);
   solver::ResponseCurve curve;
   Irregular irregular;
   solver::TimeState state;

@@ -104,12 +104,12 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
   keep_budgets(now, record);
 }
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
 std::string reached_text(const AccuracySummary& accuracy) {
   std::string text =
-      fmt::format("asked for {}, reached {}", percent(accuracy.asked),
-                  std::isfinite(accuracy.reached) ? percent(accuracy.reached)
+      fmt::format("asked for {}, reached {}", percent_text(accuracy.asked),
+                  std::isfinite(accuracy.reached) ? percent_text(accuracy.reached)
                                                   : "what is not known of every curve");
   if (!accuracy.not_known.empty()) {
     text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));

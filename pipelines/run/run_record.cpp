@@ -41,7 +41,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto patience = 600ms;  // what a stage may take to notice an interrupt by itself
-constexpr double to_hz = 0.5 / std::numbers::pi;
+constexpr double hz_per_rad = 0.5 / std::numbers::pi;
 
 /// Where the summary of an earlier run is kept until this one has begun.
 std::filesystem::path earlier_summary(const std::filesystem::path& folder) {
@@ -300,7 +300,7 @@ void RunRecord::warn_of_unsolved(const CurveResult& result) {
     }
     if (event.remedy != "peak-unsolved" && event.remedy != "fold-unsolved") continue;
     progress_.warning(fmt::format("{}: curve {}: near {:.8g} Hz the nearest point found is marked",
-                                  event.remedy, result.name, to_hz * event.frequency));
+                                  event.remedy, result.name, hz_per_rad * event.frequency));
   }
 }
 
@@ -371,7 +371,7 @@ void RunRecord::keep_unfinished() {
   for (auto& [name, result] : unfinished_) {
     solver::ResponseCurve& curve = result.curve;
     curve.diagnosis = "interrupted";
-    curve.message = fmt::format("stopped at {:.8g} Hz", to_hz * curve.points.back().frequency);
+    curve.message = fmt::format("stopped at {:.8g} Hz", hz_per_rad * curve.points.back().frequency);
     progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
                                curve.points.size(), curve.message));
     summary_.curves.push_back(summarise(result));
@@ -389,7 +389,7 @@ void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::si
 void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint& point) {
   if (!structure_) return;  // a modal scene has no body to draw
   write_motion(staged_ / "motion", name, structure_->mesh, structure_->basis, point.q,
-               to_hz * point.frequency);
+               hz_per_rad * point.frequency);
 }
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,

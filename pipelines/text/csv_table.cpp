@@ -20,7 +20,7 @@ namespace {
 constexpr std::uintmax_t largest_table = 1'000'000'000;  // bytes
 constexpr std::size_t longest_line = 1'000'000;          // bytes: columns for ten thousand modes
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_cell(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -46,7 +46,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = end_of_cell(line, begin);
-    cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
+    cells.push_back(unquoted(trimmed_cell(line.substr(begin, end - begin))));
     begin = end + 1;
   }
   return cells;
@@ -100,7 +100,7 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
   std::optional<std::size_t> id_column;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = trimmed(text.substr(begin, end - begin));
+    const std::string_view line = trimmed_cell(text.substr(begin, end - begin));
     begin = end + 1;
     ++line_number;
     if (line.size() > longest_line) {

@@ -23,7 +23,7 @@ struct Expression::Parser {
 
 namespace {
 
-constexpr std::size_t longest = 10000;
+constexpr std::size_t longest_expression = 10000;
 
 std::vector<std::string_view> known_names(const mu::Parser& parser) {
   std::vector<std::string_view> names;
@@ -110,9 +110,9 @@ void set_coordinates(mu::Parser& parser, const std::array<std::string, 2>& names
 }
 
 void require_writable(const std::string& text, const std::string& place) {
-  if (text.size() > longest) {
-    throw SceneError(
-        fmt::format("{}: expression of {} characters; at most {}", place, text.size(), longest));
+  if (text.size() > longest_expression) {
+    throw SceneError(fmt::format("{}: expression of {} characters; at most {}", place, text.size(),
+                                 longest_expression));
   }
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw SceneError(fmt::format("{}: expression \"{}\": is empty", place, text));

@@ -11,11 +11,11 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr std::size_t longest_line =
+constexpr std::size_t searched_length =
     1000;  // of those searched for keys: scenes are written by hand
 
 /// The part of a line that may hold a key or the name of a section.
-std::string searched(std::string_view line) { return std::string(line.substr(0, longest_line)); }
+std::string searched(std::string_view line) { return std::string(line.substr(0, searched_length)); }
 
 /// section.key that the text breaks off in, as far as its lines tell; empty in front of the first key. A guess for a
 /// message: what cannot be parsed has no keys to ask for.

@@ -8,7 +8,7 @@ build="$root/build"
 mkdir -p "$build"
 
 echo "build: configuring in $build"
-cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@" >"$build/configure.log" 2>&1 ||
+cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DMICROSLIP_UNITY=ON "$@" >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log" >&2; exit 1; }
 # A compiler of VTK code takes up to 1 GB: two at a time where memory is short.
 jobs=$(awk '/MemAvailable/ {n = int($2 / 1.5e6); print n < 1 ? 1 : n}' /proc/meminfo)

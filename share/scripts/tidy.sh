@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs what is missing, runs clang-tidy over the product's sources and fails on any finding. Builds
-# nothing, and reads every source by itself and without precompiled headers: a missing include is found as well.
-# A source that was clean is read again only when it, or what it includes, has changed (tidy.py says more).
+# nothing, and reads every source alone, without precompiled headers and drawers compiled as one unit: a missing
+# include is found as well. A source that was clean is read again only when it, or what it includes, has changed
+# (tidy.py says more).
 #
 #   share/scripts/tidy.sh [SOURCE …]     no source: all of mesh, fem, contact, solver and pipelines
 set -eu

@@ -9,7 +9,7 @@ namespace microslip::solver {
 namespace {
 
 // Of an eigenvector of length one: less is rounding.
-constexpr double rounding = 1e-14;
+constexpr double negligible = 1e-14;
 
 /// Excitation of a unit shape by one harmonic, against all of that harmonic.
 double excited_share(const Harmonics& excitation, int order, const Eigen::VectorXd& shape) {
@@ -33,11 +33,11 @@ std::optional<double> unbounded_resonance(const Scene& scene, const Eigen::Matri
     const Eigen::VectorXd shape = modes->vectors.col(i);
     const double resonance = std::sqrt(std::max(0.0, modes->values[i]));
     const double damping = (shape.array().square() * scene.damping_ratio.array() * omega).sum();
-    if (damping > rounding * resonance) continue;
+    if (damping > negligible * resonance) continue;
     for (int order = 1; order <= scene.excitation.n_harmonics(); ++order) {
       const double frequency = resonance / order;
       if (frequency < low || frequency > high) continue;
-      if (excited_share(scene.excitation, order, shape) <= rounding) continue;
+      if (excited_share(scene.excitation, order, shape) <= negligible) continue;
       const bool nearer = !first || std::abs(frequency - begin) < std::abs(*first - begin);
       if (nearer) first = frequency;
     }

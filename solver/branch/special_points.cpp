@@ -17,7 +17,7 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
 constexpr int n_cubics = 4;
-constexpr double across = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
+constexpr double steep = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
 // One that is this large where the cubic has its extremum does not; below, parabolas look closer.
@@ -176,7 +176,7 @@ class Segment {
       const double square = dot(chord, chord);
       const auto by_share = [&](const Node& at) {
         return at.value.slope * square /
-               std::max(dot(at.tangent, chord), across * std::sqrt(square));
+               std::max(dot(at.tangent, chord), steep * std::sqrt(square));
       };
       c[0] = by_share(a);
       last = by_share(b);

@@ -19,7 +19,7 @@ constexpr std::size_t handful = 8;
 // curve.
 constexpr double shortest_cut = 1e-3;
 // Where more than (1) changes within the shortest, it changes at once: a step across.
-constexpr double across = 0.02;
+constexpr double step_across = 0.02;
 // A step to be cut counts 2, another takes 1 back: beyond the patience the least length doubles
 // with each. Ten changes may follow one another closely; states that chatter at every third step
 // run the patience out.
@@ -109,7 +109,7 @@ double StepStates::least_length(double patient) const {
 }
 
 double StepStates::cut(double share, double length) {
-  const double least = least_length(is_at_once_ ? across : shortest_cut);
+  const double least = least_length(is_at_once_ ? step_across : shortest_cut);
   if (share >= nearly_all || least >= nearly_all * length) return 1.0;
   ++n_cuts_;
   return std::max(share, least / length);
@@ -155,7 +155,7 @@ StepStates::Place StepStates::look(const BranchVector& at, double share) {
 double StepStates::next_length(double length) const {
   const bool is_bound = reader_ && !is_few() && !is_at_once_ && change_.share > 0.5 * share_wanted;
   if (!is_bound) return std::numeric_limits<double>::infinity();
-  return std::max(share_wanted / change_.share * length, least_length(across));
+  return std::max(share_wanted / change_.share * length, least_length(step_across));
 }
 
 }  // namespace microslip::solver

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double level = 1e-4;          // of the amplitude per scaled length
 constexpr double narrowest = 1e-5;      // of a bracket: the peak is a kink
-constexpr double longest_step = 0.3;    // scaled
+constexpr double longest_trial = 0.3;   // scaled
 constexpr double shortest_step = 1e-3;  // where Newton's method fails
 constexpr int most_steps = 60;
 constexpr double tolerance = 1e-8;  // of the residual
@@ -74,12 +74,12 @@ class Climb {
 
   /// To the zero of the slope by the secant of the last two places; in a bracket never next to its ends.
   [[nodiscard]] double length() const {
-    double ahead = now_.slope > 0.0 ? longest_step : -longest_step;
+    double ahead = now_.slope > 0.0 ? longest_trial : -longest_trial;
     if (before_ && before_->slope != now_.slope) {
       const double secant = now_.slope * (before_->way - now_.way) / (now_.slope - before_->slope);
-      if (secant * ahead > 0.0) ahead = std::clamp(secant, -longest_step, longest_step);
+      if (secant * ahead > 0.0) ahead = std::clamp(secant, -longest_trial, longest_trial);
     } else {
-      ahead = std::clamp(now_.slope, -longest_step, longest_step);  // a curvature of one
+      ahead = std::clamp(now_.slope, -longest_trial, longest_trial);  // a curvature of one
     }
     if (!is_bracketed()) return ahead;
     const double low = std::min(rising_->way, falling_->way);

@@ -27,7 +27,7 @@ constexpr double idle = 1e-3;         // less than this is not worth a confirmat
 constexpr std::size_t largest_block = 10;  // added at a time: estimates far away rank, no more
 constexpr std::size_t confirming_block = 4;
 constexpr int most_rounds = 15;
-constexpr double farthest = 4.0;  // amplitudes or widths: a set with a resonance moves a peak far
+constexpr double too_far = 4.0;  // amplitudes or widths: a set with a resonance moves a peak far
 
 std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double scale) {
   std::vector<int> orders;
@@ -120,7 +120,7 @@ std::optional<LocalPeak> PeakHarmonicsChoice::solved(const HarmonicSet& from, co
   const HarmonicBalance coarse(scene_, from);
   const HarmonicBalance richer(scene_, to);
   const LocalPeak start = embedded(peak, coarse, richer);
-  return level_point(richer, start, range_, work_, farthest);
+  return level_point(richer, start, range_, work_, too_far);
 }
 
 /// A peak that is far is nearer by steps: the lowest harmonic first.

@@ -11,22 +11,20 @@
 namespace microslip::solver {
 namespace {
 
-void require(bool condition, const std::string& message) {
-  if (!condition) throw std::invalid_argument("time integration: " + message);
-}
-
 void check(const TimeOptions& options) {
-  require(options.steps_per_period >= 0,
-          "steps_per_period = " + std::to_string(options.steps_per_period) + " must be at least 0");
-  require(options.step_tolerance > 0.0,
-          "step_tolerance = " + std::to_string(options.step_tolerance) + " must be above 0");
-  require(options.periodicity_tolerance > 0.0,
-          "periodicity_tolerance = " + std::to_string(options.periodicity_tolerance) +
-              " must be above 0");
-  require(options.max_periods >= 1 && options.min_periods >= 1,
-          "max_periods and min_periods must be at least 1");
-  require(options.max_events >= 0, "max_events must be at least 0");
-  require(options.n_harmonics >= 1, "n_harmonics must be at least 1");
+  require_for_time(
+      options.steps_per_period >= 0,
+      "steps_per_period = " + std::to_string(options.steps_per_period) + " must be at least 0");
+  require_for_time(
+      options.step_tolerance > 0.0,
+      "step_tolerance = " + std::to_string(options.step_tolerance) + " must be above 0");
+  require_for_time(options.periodicity_tolerance > 0.0,
+                   "periodicity_tolerance = " + std::to_string(options.periodicity_tolerance) +
+                       " must be above 0");
+  require_for_time(options.max_periods >= 1 && options.min_periods >= 1,
+                   "max_periods and min_periods must be at least 1");
+  require_for_time(options.max_events >= 0, "max_events must be at least 0");
+  require_for_time(options.n_harmonics >= 1, "n_harmonics must be at least 1");
 }
 
 /// dq/dθ.

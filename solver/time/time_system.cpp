@@ -12,28 +12,26 @@
 namespace microslip::solver {
 namespace {
 
-void require(bool condition, const std::string& message) {
-  if (!condition) throw std::invalid_argument("time integration: " + message);
-}
-
 void check(const Scene& scene, double frequency) {
   const Eigen::Index n = scene.n_modes();
-  require(std::isfinite(frequency) && frequency > 0.0,
-          "frequency = " + std::to_string(frequency) + " rad/s must be finite and above 0");
-  require(n >= 1, "no modes");
-  require(scene.damping_ratio.size() == n && scene.output.size() == n &&
-              scene.excitation.n_signals() == n,
-          "damping ratios, output and excitation must have one entry per mode (" +
-              std::to_string(n) + ")");
-  require(scene.natural_frequency.allFinite() && (scene.natural_frequency.array() >= 0.0).all(),
-          "natural frequencies must be finite and at least 0");
-  require(scene.damping_ratio.allFinite() && scene.output.allFinite() &&
-              scene.excitation.rows().allFinite(),
-          "damping ratios, output and excitation must be finite");
-  require(scene.transient != nullptr || scene.contact == nullptr,
-          "the contact of this scene is not available in time");
-  require(scene.transient == nullptr || scene.transient->n_modes() == n,
-          "the contact has another number of modes");
+  require_for_time(
+      std::isfinite(frequency) && frequency > 0.0,
+      "frequency = " + std::to_string(frequency) + " rad/s must be finite and above 0");
+  require_for_time(n >= 1, "no modes");
+  require_for_time(scene.damping_ratio.size() == n && scene.output.size() == n &&
+                       scene.excitation.n_signals() == n,
+                   "damping ratios, output and excitation must have one entry per mode (" +
+                       std::to_string(n) + ")");
+  require_for_time(
+      scene.natural_frequency.allFinite() && (scene.natural_frequency.array() >= 0.0).all(),
+      "natural frequencies must be finite and at least 0");
+  require_for_time(scene.damping_ratio.allFinite() && scene.output.allFinite() &&
+                       scene.excitation.rows().allFinite(),
+                   "damping ratios, output and excitation must be finite");
+  require_for_time(scene.transient != nullptr || scene.contact == nullptr,
+                   "the contact of this scene is not available in time");
+  require_for_time(scene.transient == nullptr || scene.transient->n_modes() == n,
+                   "the contact has another number of modes");
 }
 
 /// Largest |λ| of q̈ + C q̇ + S q = 0.
@@ -49,6 +47,10 @@ double spectral_radius(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
 }
 
 }  // namespace
+
+void require_for_time(bool condition, const std::string& message) {
+  if (!condition) throw std::invalid_argument("time integration: " + message);
+}
 
 TimeSystem::TimeSystem(const Scene& scene, double frequency)
     : scene_(scene), frequency_(frequency) {

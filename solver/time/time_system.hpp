@@ -6,6 +6,8 @@
 /// G is left to the caller: trial or held force of the scene's TransientForce.
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 #include "solver/scene.hpp"
@@ -19,6 +21,9 @@ using contact::TransientMemory;
 /// integration accepts (theory section 18). The limit of fourth-order Runge–Kutta itself is 2√2 for an
 /// undamped mode: a factor √2 is left.
 inline constexpr double largest_step_ratio = 2.0;
+
+/// @throws std::invalid_argument  the condition does not hold; the message says which.
+void require_for_time(bool condition, const std::string& message);
 
 class TimeSystem {
  public:
