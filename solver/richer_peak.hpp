@@ -1,10 +1,9 @@
 /// @file
-/// What the harmonics of a curve leave out, at its highest peak: the peak is solved again with more (theory section 24;
-/// where the step is long the richer equations are solved, and here they always are).
+/// What the harmonics that a curve was given leave out, at its highest peak: the peak is solved again with more
+/// (theory section 24; where the step is long the richer equations are solved, and here they always are).
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,16 +21,14 @@ struct RicherPeak {
   double seconds = 0.0;  ///< that solving it took
 };
 
-/// @param scene    the same with a contact that takes all harmonics asked for.
-/// @param range    of the curve.
+/// @param scene    the same with a contact that takes `highest` harmonics.
+/// @param range    of the curve, harmonics given.
 /// @param curve    its highest peak, or end of the range, is taken.
-/// @param highest  harmonics to solve with, all up to each, ascending; the last that is reached is told. The first: ≥ 5
-///                 more than those of the curve.
+/// @param highest  harmonic, ≥ 5 more than those of the curve.
 /// @return empty: the curve has no peak, and no end of the range, to begin with.
 [[nodiscard]] std::optional<RicherPeak> richer_peak(const Scene& scene,
                                                     const ContinuationOptions& range,
-                                                    const ResponseCurve& curve,
-                                                    const std::vector<int>& highest);
+                                                    const ResponseCurve& curve, int highest);
 
 /// The same blade modelled otherwise: finer cells, other shapes, another mesh, friction along r.
 struct OtherModel {

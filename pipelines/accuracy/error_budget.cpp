@@ -69,48 +69,31 @@ bool is_unsettled(const solver::ResponseCurve& curve) {
       curve.log, [](const solver::SolverEvent& event) { return event.remedy == "harmonics-kept"; });
 }
 
-/// The peak solved for with more harmonics than those of the curve.
-void add_richer(CurveBudget& budget, const CurveResult& result, const solver::ResponsePoint& peak,
-                const std::string& source) {
-  if (!result.richer || !result.richer->change) {
-    budget.unknown.push_back(source);
-    return;
-  }
-  add_rows(budget, result.name, source,
-           {result.richer->amplitude / peak.amplitude - 1.0,
-            result.richer->frequency / peak.frequency - 1.0},
-           true, result.richer->seconds);
-}
-
-/// What the choice of harmonics left out, as its peak knows.
-void add_chosen(CurveBudget& budget, const CurveResult& result, const solver::ResponsePoint& peak) {
+/// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
+/// @param is_told  the curve was solved with chosen harmonics, or more of them are known to do nothing.
+void add_harmonics(CurveBudget& budget, const CurveResult& result,
+                   const solver::ResponsePoint& peak, bool is_told) {
   const solver::SettledPeak& settled = result.curve.settled_peak;
-  if (settled.amplitude > 0.0) {
+  if (!result.richer && settled.amplitude > 0.0) {
     const double change = settled.amplitude / peak.amplitude - 1.0;
     add_rows(budget, result.name, "harmonics",
              {change + std::copysign(settled.left_out, change),
               settled.frequency / peak.frequency - 1.0},
              true, 0.0);
-  } else if (is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
+  } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
+  } else if (!result.richer && is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
+    budget.unknown.emplace_back("harmonics");
+  } else if (!result.richer) {
+    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
+  } else if (result.richer->change) {
+    add_rows(budget, result.name, "harmonics",
+             {result.richer->amplitude / peak.amplitude - 1.0,
+              result.richer->frequency / peak.frequency - 1.0},
+             true, result.richer->seconds);
   } else {
-    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
+    budget.unknown.emplace_back("harmonics");
   }
-}
-
-void add_harmonics(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,
-                   const CurveResult& result, const solver::ResponsePoint& peak) {
-  if (!result.curve.certificate.empty()) {  // more of them are known to do nothing
-    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
-    return;
-  }
-  if (!scene.settings.harmonics.chosen()) {
-    add_richer(budget, result, peak, "harmonics");
-    return;
-  }
-  add_chosen(budget, result, peak);
-  const bool ends_at_modes = !harmonics_to_check(model, scene).empty();
-  if (ends_at_modes) add_richer(budget, result, peak, "high_harmonics");
 }
 
 /// What the certificates of the peak tell: the balance of energy of how far Newton's method went, the two counts of
@@ -143,7 +126,8 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     return budget;
   }
   budget.unknown = richer.unknown;
-  add_harmonics(budget, model, scene, result, *peak);
+  const bool is_told = scene.settings.harmonics.chosen() || !result.curve.certificate.empty();
+  add_harmonics(budget, result, *peak, is_told);
   for (const RicherModel& other : richer.models) {
     if (cut_short()) {
       budget.unknown.push_back(other.source);

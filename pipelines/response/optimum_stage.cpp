@@ -141,15 +141,14 @@ solver::Optimum OptimumSearch::best() {
 }
 
 /// The peak at a value, traced with the harmonics given and solved again with more.
-std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value,
-                                                           const std::vector<int>& highest) {
+std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int highest) {
   const auto go_on = [](const solver::ResponsePoint&) {
     return !interrupt_requested() && !cut_short();
   };
   ReducedModel richer = model_;
-  richer.effects.n_harmonics = highest.back();
+  richer.effects.n_harmonics = highest;
   Factors more;
-  more.n_harmonics = highest.back();
+  more.n_harmonics = highest;
   try {
     const solver::ResponseCurve curve =
         solver::trace_response(scene_at(value, {}), continuation_options(scene_, model_), go_on);
@@ -163,9 +162,8 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value,
 
 std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
   constexpr double worth_a_word = 0.02;
-  const std::vector<int> all = harmonics_to_check(model_, scene_);
-  if (all.empty() || scene_.settings.harmonics.chosen()) return {};
-  const std::vector<int> highest{all.front()};
+  const int highest = harmonics_to_check(model_, scene_);
+  if (highest == 0) return {};
   const auto here = richer_at(best.parameter, highest);
   if (!here || (here->change && std::abs(*here->change) < worth_a_word)) return {};
   // Where the lowest of a few neighbours lies tells which way the best value moves.
@@ -195,7 +193,7 @@ std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
       "with harmonics up to {} the peak at the best value is {}; of 0.7 to 1.4 times this value "
       "the lowest is {}: "
       "set response.harmonics = {} or \"auto\"",
-      highest.front(), peak, lowest, highest.front());
+      highest, peak, lowest, highest);
 }
 
 /// What is left out is told in the bracket.

@@ -50,8 +50,7 @@ class OptimumSearch {
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
   /// What harmonics beyond those given do to the best value and its neighbours; empty: little, or not checked.
   [[nodiscard]] std::string left_out(const solver::PeakOfParameter& best);
-  [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value,
-                                                            const std::vector<int>& highest);
+  [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value, int highest);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
   /// One task of the bracket.
   struct Change {

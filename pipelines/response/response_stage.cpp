@@ -232,26 +232,16 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
   return problem;
 }
 
-std::vector<int> harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
+int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   constexpr int more = 8;
-  constexpr int few = 5;    // with fewer the peak is far from that of many
-  constexpr int many = 41;  // contact that closes shakes modes so far up (theory section 22)
   constexpr int most_harmonics = 99;   // of a scene
   constexpr int most_unknowns = 1500;  // seconds a step beyond
-  if (!harmonics.checked || model.patches.empty()) return {};
-  const auto fits = [&](int highest) {
-    return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns;
-  };
-  if (harmonics.chosen()) {
-    const bool all_are_judged =
-        most_meant(model, *scene.response, harmonics.highest) == harmonics.highest;
-    return all_are_judged || !fits(many) ? std::vector<int>{} : std::vector{many};
-  }
+  if (harmonics.chosen() || !harmonics.checked || model.patches.empty()) return 0;
   const int highest = std::min(harmonics.highest + more, most_harmonics);
-  if (highest <= harmonics.highest + more / 2 || !fits(highest)) return {};
-  const bool further = harmonics.highest >= few && highest < many && fits(many);
-  return further ? std::vector{highest, many} : std::vector{highest};
+  if (highest <= harmonics.highest + more / 2) return 0;
+  return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
+                                                                                       : 0;
 }
 
 namespace {
@@ -284,18 +274,16 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
-  const std::vector<int> highest = harmonics_to_check(model, scene);
-  if (highest.empty() || !curve.certificate.empty() || curve.points.empty()) return;
+  const int highest = harmonics_to_check(model, scene);
+  if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
   if (curve.diagnosis == "interrupted" || interrupt_requested() || cut_short()) return;
-  model.effects.n_harmonics = highest.back();
+  model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
   const bool missed = result.richer && !result.richer->change;
-  if (missed && scene.settings.harmonics.chosen()) {
-    result.richer.reset();  // what the choice says of the peak holds
-  } else if (missed && options.frequency_begin != options.frequency_end) {
-    options.n_harmonics = highest.front();
+  if (missed && options.frequency_begin != options.frequency_end) {
+    options.n_harmonics = highest;
     options.orders.clear();
     trace_about_peak(model, load, options, result);
   }

@@ -36,11 +36,9 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene);
 [[nodiscard]] solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                                const ReducedModel& model);
 
-/// The highest harmonics that peaks are checked with, one set after the other. Given harmonics: eight more, from five on
-/// up to 41 as well. Chosen ones: up to 41, where the choice ends at the highest of the modes kept. None: there is no
-/// contact, or the check would be dear.
-[[nodiscard]] std::vector<int> harmonics_to_check(const ReducedModel& model,
-                                                  const SceneDescription& scene);
+/// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are chosen, there is
+/// no contact, or the check would be dear.
+[[nodiscard]] int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene);
 
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
 /// @throws RefusedError  a preload of the list that cannot carry the moments of the scene.
@@ -54,7 +52,7 @@ void require_held(const ReducedModel& model, const SceneDescription& scene);
                                       const CurveRequest& request,
                                       const solver::PointObserver& observe);
 
-/// Solves the highest peak with more harmonics than those of the curve, where the contact is not proved linear: result.richer.
+/// Solves the highest peak with more harmonics than were given, where the contact is not proved linear: result.richer.
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result);
 

@@ -88,17 +88,12 @@ std::string left_out_text(const CurveResult& result) {
         result.name, richer.highest, given, richer.highest);
   }
   if (std::abs(*richer.change) < worth_a_warning) return {};
-  constexpr int beyond_choice = most_automatic_harmonics;
   return fmt::format(
       "curve {}: with harmonics up to {} its peak is {:.3g} m at {:.4g} Hz: harmonics up to {} put "
-      "it {:.0f} % too {}; {}",
+      "it {:.0f} % too "
+      "{}; set response.harmonics = {} or \"auto\"",
       result.name, richer.highest, richer.amplitude, to_hz * richer.frequency, given,
-      100.0 * std::abs(*richer.change), *richer.change > 0.0 ? "low" : "high",
-      richer.highest > beyond_choice
-          ? fmt::format("contact that closes shakes what moves {} times as fast: set "
-                        "response.harmonics = {}, and modes.count to modes as high",
-                        richer.highest, richer.highest)
-          : fmt::format("set response.harmonics = {} or \"auto\"", richer.highest));
+      100.0 * std::abs(*richer.change), *richer.change > 0.0 ? "low" : "high", richer.highest);
 }
 
 std::string precision_text(const CurveSummary& curve, const ReducedModel& model) {

@@ -1,7 +1,6 @@
 #include "solver/richer_peak.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -83,68 +82,31 @@ Eigen::VectorXd in_modes(const HarmonicBalance& from, const HarmonicBalance& to,
   return to.unknowns(other);
 }
 
-/// What one step says that more harmonics do to the amplitude; empty: the step is no estimate, or so large that the
-/// peak is worth solving for.
-std::optional<double> small_step(const HarmonicBalance& richer, const LocalPeak& peak) {
-  constexpr double small = 5e-3;
-  const Enrichment step = enrich(richer, peak, FrequencyStep::none);
-  if (!step.is_estimate() || !(std::abs(step.amplitude) < small)) return std::nullopt;
-  return step.amplitude;
-}
-
-struct Start {
-  const HarmonicBalance* balance;
-  LocalPeak peak;
-};
-
-/// From the nearer peak; where that fails from the other, then by half the way.
-std::optional<LocalPeak> solved_from(const Start& near, const Start& other,
-                                     const ContinuationOptions& range, int highest) {
-  const Scene& scene = near.balance->scene();
-  const int middle = (near.balance->set().highest() + highest) / 2;
-  std::optional<LocalPeak> peak = through(scene, range, near.balance->set(), near.peak, {highest});
-  if (!peak) peak = through(scene, range, other.balance->set(), other.peak, {highest});
-  if (!peak) peak = through(scene, range, near.balance->set(), near.peak, {middle, highest});
-  return peak;
-}
-
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
-                                      const ResponseCurve& curve, const std::vector<int>& highest) {
-  if (curve.points.empty() || !scene.contact || highest.empty()) return std::nullopt;
-  const HarmonicBalance coarse(scene, set_of(scene, range, curve));
+                                      const ResponseCurve& curve, int highest) {
+  if (curve.points.empty() || !scene.contact) return std::nullopt;
+  const HarmonicBalance coarse(scene, first_harmonics(scene, range));
   const std::optional<Top> top = solved_top(scene, coarse, range, curve);
   if (!top) return std::nullopt;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest.front()};
+  RicherPeak result{top->point.frequency, top->point.amplitude, std::nullopt, highest};
   const int given = coarse.set().highest();
   const ContinuationOptions wide = widened(range);
-  const int first = highest.front();
-  std::optional<LocalPeak> found = through(scene, wide, coarse.set(), top->peak, {first});
+  std::optional<LocalPeak> found = through(scene, wide, coarse.set(), top->peak, {highest});
   // A peak that is far is nearer by steps.
   if (!found) {
-    found = through(scene, wide, coarse.set(), top->peak, {given + 1, given + 2, given + 4, first});
-  }
-  double beyond = 0.0;
-  for (std::size_t i = 1; found && i < highest.size(); ++i) {
-    const HarmonicBalance now(scene, coarse.set().united(HarmonicSet(result.highest).orders()));
-    const HarmonicBalance more(scene, now.set().united(HarmonicSet(highest[i]).orders()));
-    const std::optional<double> step = small_step(more, embedded(*found, now, more));
-    std::optional<LocalPeak> next;
-    if (!step) next = solved_from({&now, *found}, {&coarse, top->peak}, wide, highest[i]);
-    if (!step && !next) break;
-    beyond = step.value_or(0.0);
-    if (next) found = std::move(next);
-    result.highest = highest[i];
+    found =
+        through(scene, wide, coarse.set(), top->peak, {given + 1, given + 2, given + 4, highest});
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!found) return result;
   result.frequency = found->point.parameter;
-  result.amplitude = found->amplitude * (1.0 + beyond);
-  if (result.amplitude > 0.0) {
-    result.change = (result.amplitude - top->point.amplitude) / result.amplitude;
+  result.amplitude = found->amplitude;
+  if (found->amplitude > 0.0) {
+    result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   }
   return result;
 }

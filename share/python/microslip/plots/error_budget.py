@@ -5,8 +5,8 @@ import numpy as np
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import legend_below, light_grid, subplots
 
-SOURCES = ("harmonics", "high_harmonics", "mesh", "second_direction", "cells", "basis", "fit", "instants", "newton")
-COLOURS = ("#c44e52", "#dd8452", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.6", "0.35")
+SOURCES = ("harmonics", "mesh", "second_direction", "cells", "basis", "fit", "instants", "newton")
+COLOURS = ("#c44e52", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.6", "0.35")
 SMALLEST = 1e-4  # %, where the axis begins
 
 
