@@ -49,6 +49,7 @@ void add_tangential(const PointRows& x, double p, double r, int n_harmonics, Amp
   for (int h = 1; h <= n_harmonics; ++h) {
     const double us = p * x.u[2 * h - 1];
     const double uc = p * x.u[2 * h];
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): r is 0 without motion along r
     sums.add(h, r > 0.0 ? half_axis(us, uc, r * x.w[2 * h - 1], r * x.w[2 * h])
                         : std::sqrt(us * us + uc * uc));
   }
@@ -99,6 +100,7 @@ bool stays_stuck(const LinearRange& range, const PointRows& x, const PhaseTable&
   Amplitudes all;
   add_normal(x.v, normal, table.n_harmonics, all);
   add_tangential(x, p, r, table.n_harmonics, all);
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): r is 0 without motion along r
   const double mean = std::hypot(p * x.u[0], r > 0.0 ? r * x.w[0] : 0.0);
   const double needed =
       reserve / limit + rounding * (1.0 + mean + all.sum + cancelled(range, x, mean_load));
