@@ -188,6 +188,9 @@ EffectDecision local_frames(const EffectFacts& facts) {
 
 EffectDecision static_preload(const EffectFacts& facts) {
   if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (has_static_preload(facts.scene)) {
+    return by(true, "contact.preload = \"static\": pressure at rest is solved for, gaps and all");
+  }
   const bool given = std::ranges::any_of(
       facts.scene.contacts, [](const auto& contact) { return contact.preload_field.has_value(); });
   return by(false, facts.scene.contacts.empty() ? "points have the preload they are given with"

@@ -58,6 +58,8 @@ bool has_residual(const SceneDescription& scene) {
 }
 bool lacks_residual(const SceneDescription& scene) { return !has_residual(scene); }
 
+bool lacks_static_preload(const SceneDescription& scene) { return !has_static_preload(scene); }
+
 bool rotates(const SceneDescription& scene) {
   return scene.rotation && scene.rotation->speed > 0.0;
 }
@@ -142,9 +144,10 @@ constexpr std::array contradictions{
     Contradiction{"local_frames", "on", always,
                   "cannot be on: a contact has one frame, from contact.slip_direction and its mean "
                   "plane; several [[contact]] have one each"},
-    Contradiction{
-        "static_preload", "on", always,
-        "cannot be on: pressure at rest is not computed here; give contact.preload_field"},
+    Contradiction{"static_preload", "on", lacks_static_preload,
+                  "needs contact.preload = \"static\" and the loads of [static]"},
+    Contradiction{"static_preload", "off", has_static_preload,
+                  "contradicts contact.preload = \"static\": leave that out"},
     Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
     Contradiction{"centrifugal", "off", rotates, "contradicts static.speed: leave that out"},
     Contradiction{"stability", "off", always,

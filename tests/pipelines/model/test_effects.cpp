@@ -223,6 +223,33 @@ TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
   }
 }
 
+TEST(Effects, APreloadOfStaticLoadsIsToldAsSimulated) {
+  constexpr const char* blade = R"toml([model]
+kind = "blade"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["root"]
+[static]
+forces = [ { at = "B", direction = [1, 0, 0], amplitude = 50 } ]
+[contact]
+surface = "contact"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = 1e12
+tangential_stiffness = 1e12
+preload = "static"
+)toml";
+  const auto told = [&](const Overrides& overrides) {
+    const SceneDescription scene = parse_scene(blade, "scene.toml", "/nowhere", overrides);
+    return effect_in(effects_of(scene, nullptr), "static_preload");
+  };
+  EXPECT_EQ(told({}).simulated, Simulated::yes) << told({}).reason;
+  EXPECT_EQ(told({"effects.static_preload=on"}).simulated, Simulated::yes);
+}
+
 TEST(Effects, TheTableInTheDocumentationIsTheOneOfTheProgram) {
   std::ifstream in(MICROSLIP_EFFECTS);
   const std::string page{std::istreambuf_iterator<char>(in), {}};

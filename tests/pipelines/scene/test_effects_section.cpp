@@ -74,6 +74,9 @@ frequency = [300, 350]
 preload = [100]
 )toml";
 
+constexpr const char* pressing =
+    "static.forces=[{ at = \"B\", direction = [1, 0, 0], amplitude = 50 }]";
+
 /// Empty: the scene is taken.
 std::string complaint(const char* text, const Overrides& overrides) {
   try {
@@ -153,7 +156,11 @@ INSTANTIATE_TEST_SUITE_P(
         Contradicting{blade, {"effects.residual=off"}, "residual", "modes.residual"},
         Contradicting{blade, {"effects.local_frames=on"}, "local_frames", "contact.slip_direction"},
         Contradicting{
-            blade, {"effects.static_preload=on"}, "static_preload", "contact.preload_field"},
+            blade, {"effects.static_preload=on"}, "static_preload", "contact.preload = \"static\""},
+        Contradicting{blade,
+                      {"effects.static_preload=off", "contact.preload=static", pressing},
+                      "static_preload",
+                      "contact.preload"},
         Contradicting{blade, {"effects.centrifugal=on"}, "centrifugal", "static.speed"},
         Contradicting{blade,
                       {"effects.centrifugal=off", "static.speed=\"3000 rpm\"",
