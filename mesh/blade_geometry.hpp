@@ -11,6 +11,8 @@
 /// mid-chord (where forces act). Lengths in m, angles in rad.
 #pragma once
 
+#include <optional>
+
 namespace microslip::mesh {
 
 struct BladeGeometry {
@@ -31,8 +33,16 @@ struct BladeGeometry {
   double lean = -0.003;        ///< shift of the tip section along x
 };
 
+/// Target edge lengths of the elements [m].
+struct ElementSizes {
+  double element_size = 0.004;  ///< > 0
+  /// At the edges where stresses are singular and the mesh errs most: the outline of the clamped foot, and the
+  /// re-entrant edges where root block and aerofoil meet the platform. None: as everywhere.
+  std::optional<double> edge_size{};
+};
+
 /// @throws MeshError  a length, angle or ratio out of its range; names it.
-void check_geometry(const BladeGeometry& geometry, double element_size);
+void check_geometry(const BladeGeometry& geometry, const ElementSizes& sizes);
 
 struct SectionPoint {
   double x, y, z;

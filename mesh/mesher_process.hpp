@@ -25,10 +25,9 @@ struct MesherLimits {
 [[nodiscard]] std::filesystem::path mesher_program();
 
 /// Meshes the blade into `file` (gmsh 4.1), second order, curved; a name that ends in .step takes its geometry.
-/// @param element_size  target edge length [m], > 0.
 /// @throws MeshError  the mesher failed, crashed, was stopped, ran out of time or memory; names which, with the
 ///         last lines it said.
-void mesh_blade(const BladeGeometry& geometry, double element_size,
+void mesh_blade(const BladeGeometry& geometry, const ElementSizes& sizes,
                 const std::filesystem::path& file, const MesherLimits& limits = {});
 
 /// The solid of a STEP file.

@@ -222,7 +222,7 @@ namespace {
 
 int write_geometry(const BladeModel& blade, const std::filesystem::path& file, bool quiet) {
   with_mesher([&](const mesh::MesherLimits& limits) {
-    mesh::mesh_blade(blade.geometry, blade.element_size, file, limits);
+    mesh::mesh_blade(blade.geometry, blade.sizes, file, limits);
   });
   if (!quiet) std::cout << "written: " << file.string() << '\n';
   return static_cast<int>(ExitCode::complete);

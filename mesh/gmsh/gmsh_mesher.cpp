@@ -1,6 +1,7 @@
 #include "mesh/gmsh/gmsh_mesher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <gmsh.h>
 
 #include "mesh/gmsh/gmsh_session.hpp"
+#include "mesh/gmsh/size_field.hpp"
 #include "mesh/mesh_error.hpp"
 
 namespace microslip::mesh {
@@ -134,6 +136,30 @@ void name_entities(const BladeGeometry& g) {
   add_group(3, {volumes.front().second}, "blade");
 }
 
+/// Outline of the foot, and where root block and aerofoil meet the platform from inside its faces.
+std::vector<double> singular_edges(const BladeGeometry& g) {
+  constexpr double nearly = 1e-4;  // boxes of gmsh are a little larger than what is in them
+  const double tolerance = nearly * g.platform_width;
+  const double top = g.root_height + g.platform_height;
+  Entities curves;
+  gmsh::model::getEntities(curves, 1);
+  std::vector<double> found;
+  for (const Entity& curve : curves) {
+    std::array<double, 6> x{};
+    gmsh::model::getBoundingBox(1, curve.second, x[0], x[1], x[2], x[3], x[4], x[5]);
+    const auto lies_at = [&](double height) {
+      return std::abs(x[1] - height) < tolerance && std::abs(x[4] - height) < tolerance;
+    };
+    const double reach = std::max(std::abs(x[0] + x[3]) / g.platform_width,
+                                  std::abs(x[2] + x[5]) / g.platform_length);
+    const bool inside = reach < 1.0 - nearly;  // not the platform's outline
+    if (lies_at(0.0) || (inside && (lies_at(g.root_height) || lies_at(top)))) {
+      found.push_back(curve.second);
+    }
+  }
+  return found;
+}
+
 /// gmsh writes the numbers of the model as millimetres. To stretch the finished body would make splines of its planes.
 BladeGeometry in_millimetres(BladeGeometry g) {
   for (double* length : {&g.root_width, &g.root_height, &g.root_length, &g.platform_width,
@@ -146,9 +172,9 @@ BladeGeometry in_millimetres(BladeGeometry g) {
 
 }  // namespace
 
-void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
+void mesh_blade_with_gmsh(const BladeGeometry& geometry, const ElementSizes& sizes,
                           const std::string& file) {
-  check_geometry(geometry, element_size);
+  check_geometry(geometry, sizes);
   const GmshSession session;
   if (std::filesystem::path(file).extension() == ".step") {
     build_volume(in_millimetres(geometry));
@@ -157,7 +183,12 @@ void mesh_blade_with_gmsh(const BladeGeometry& geometry, double element_size,
   }
   build_volume(geometry);
   name_entities(geometry);
-  write_volume_mesh(element_size, element_size, file);
+  SizeField field(sizes.element_size);
+  if (sizes.edge_size && *sizes.edge_size < sizes.element_size) {
+    field.refine_at("CurvesList", singular_edges(geometry), *sizes.edge_size);
+  }
+  field.use();
+  write_volume_mesh(sizes.element_size, field.least(), file);
 }
 
 }  // namespace microslip::mesh

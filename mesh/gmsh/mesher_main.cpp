@@ -66,14 +66,16 @@ void end_with(pid_t parent) {
 void mesh_blade(std::istream& job, const std::string& file) {
   BladeGeometry geometry;
   double element_size = 0.0;
+  double edge_size = 0.0;
   auto names = names_of(geometry);
   names["element_size"] = &element_size;
+  names["edge_size"] = &edge_size;
   for (std::string key; job >> key;) {
     const auto found = names.find(key);
     if (found == names.end()) throw std::invalid_argument("unknown parameter " + key);
     if (!(job >> *found->second)) throw std::invalid_argument(key + ": expected a number");
   }
-  microslip::mesh::mesh_blade_with_gmsh(geometry, element_size, file);
+  microslip::mesh::mesh_blade_with_gmsh(geometry, {element_size, edge_size}, file);
 }
 
 void do_job(const std::string& file) {

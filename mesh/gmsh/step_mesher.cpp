@@ -14,6 +14,7 @@
 #include <gmsh.h>
 
 #include "mesh/gmsh/gmsh_session.hpp"
+#include "mesh/gmsh/size_field.hpp"
 #include "mesh/mesh_error.hpp"
 
 namespace microslip::mesh {
@@ -147,41 +148,15 @@ void write_face(int face, double scale, std::ostream& out) {
   write_triangles(face, scale, out);
 }
 
-/// Small near faces and edges, the size of the body from where the elements have grown to it.
-void set_sizes(const Job& job) {
-  std::vector<double> fields;
-  const auto refine = [&](const char* list, const std::vector<double>& near, double size) {
-    constexpr double growth = 0.5;  // of the size per length
-    const int distance = gmsh::model::mesh::field::add("Distance");
-    gmsh::model::mesh::field::setNumbers(distance, list, near);
-    gmsh::model::mesh::field::setNumber(distance, "NumPointsPerCurve", 200);
-    const int sizes = gmsh::model::mesh::field::add("Threshold");
-    const double reach = std::max(0.0, job.element_size - size) / growth;
-    gmsh::model::mesh::field::setNumber(sizes, "InField", distance);
-    gmsh::model::mesh::field::setNumber(sizes, "SizeMin", size);
-    gmsh::model::mesh::field::setNumber(sizes, "SizeMax", job.element_size);
-    gmsh::model::mesh::field::setNumber(sizes, "DistMin", size);
-    gmsh::model::mesh::field::setNumber(sizes, "DistMax", size + reach);
-    fields.push_back(sizes);
-  };
+SizeField sizes_of(const Job& job) {
+  SizeField field(job.element_size);
   for (const auto& [face, size] : job.face_size) {
-    refine("FacesList", {static_cast<double>(face)}, size);
+    field.refine_at("FacesList", {static_cast<double>(face)}, size);
   }
-  for (const auto& [face, size] : job.edge_size) refine("CurvesList", curves_of(face), size);
-  if (fields.empty()) return;
-  // Else small edges would make all of their face small.
-  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-  const int least = gmsh::model::mesh::field::add("Min");
-  gmsh::model::mesh::field::setNumbers(least, "FieldsList", fields);
-  gmsh::model::mesh::field::setAsBackgroundMesh(least);
-}
-
-double least_size(const Job& job) {
-  double size = job.element_size;
-  for (const auto* sizes : {&job.face_size, &job.edge_size}) {
-    for (const auto& [face, own] : *sizes) size = std::min(size, own);
+  for (const auto& [face, size] : job.edge_size) {
+    field.refine_at("CurvesList", curves_of(face), size);
   }
-  return size;
+  return field;
 }
 
 }  // namespace
@@ -213,9 +188,10 @@ void mesh_step_with_gmsh(std::istream& in, const std::string& file) {
   const int solid = import_solid(job);
   for (const auto& [name, faces] : job.names) add_group(2, faces, name);
   add_group(3, {solid}, "body");
-  set_sizes(job);
+  SizeField field = sizes_of(job);
+  field.use();
   gmsh::option::setNumber("Mesh.ScalingFactor", job.scale);
-  write_volume_mesh(job.element_size, least_size(job), file);
+  write_volume_mesh(job.element_size, field.least(), file);
 }
 
 }  // namespace microslip::mesh

@@ -26,10 +26,13 @@ void require(const Range& range) {
 
 }  // namespace
 
-void check_geometry(const BladeGeometry& g, double element_size) {
+void check_geometry(const BladeGeometry& g, const ElementSizes& sizes) {
   constexpr double largest = 10.0;  // m
-  for (const Range& range : std::array<Range, 16>{{
-           {"element_size", element_size, 0.0, largest},
+  constexpr double finest = 0.01;   // of the elements elsewhere
+  for (const Range& range : std::array<Range, 17>{{
+           {"element_size", sizes.element_size, 0.0, largest},
+           {"edge_size", sizes.edge_size.value_or(sizes.element_size), finest * sizes.element_size,
+            largest},
            {"root_width", g.root_width, 0.0, largest},
            {"root_height", g.root_height, 0.0, largest},
            {"root_length", g.root_length, 0.0, largest},

@@ -30,9 +30,10 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-std::string blade_job(const BladeGeometry& g, double element_size) {
+std::string blade_job(const BladeGeometry& g, const ElementSizes& sizes) {
   std::ostringstream text = job_text();
-  text << "blade\nelement_size " << element_size << "\nroot_width " << g.root_width
+  text << "blade\nelement_size " << sizes.element_size << "\nedge_size "
+       << sizes.edge_size.value_or(sizes.element_size) << "\nroot_width " << g.root_width
        << "\nroot_height " << g.root_height << "\nroot_length " << g.root_length
        << "\nplatform_width " << g.platform_width << "\nplatform_height " << g.platform_height
        << "\nplatform_length " << g.platform_length << "\nspan " << g.span << "\nroot_chord "
@@ -209,10 +210,10 @@ void run_mesher(const std::string& job, const fs::path& file, const MesherLimits
     throw MeshError("the mesher left nothing at " + file.string() + ": " + error.message());
 }
 
-void mesh_blade(const BladeGeometry& geometry, double element_size, const fs::path& file,
+void mesh_blade(const BladeGeometry& geometry, const ElementSizes& sizes, const fs::path& file,
                 const MesherLimits& limits) {
-  check_geometry(geometry, element_size);
-  run_mesher(blade_job(geometry, element_size), file, limits);
+  check_geometry(geometry, sizes);
+  run_mesher(blade_job(geometry, sizes), file, limits);
 }
 
 }  // namespace microslip::mesh

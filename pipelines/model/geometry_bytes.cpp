@@ -21,9 +21,9 @@ auto members(Is<FaceDescription> auto& value) {
   return std::tie(name, choices);
 }
 auto members(Is<BladeModel> auto& value) {
-  auto& [geometry, element_size] = value;
+  auto& [geometry, sizes] = value;
   using Numbers = std::array<double, sizeof geometry / sizeof(double)>;  // it has nothing else
-  return std::tuple(std::bit_cast<Numbers>(geometry), element_size);
+  return std::tuple(std::bit_cast<Numbers>(geometry), sizes.element_size, sizes.edge_size);
 }
 auto members(Is<StepModel> auto& value) {
   auto& [file, element_size, length_unit, faces, place, length_place, size_place] = value;

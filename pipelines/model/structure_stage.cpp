@@ -49,7 +49,7 @@ void make_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_
   } else {
     const auto& blade = std::get<BladeModel>(scene.model);
     with_mesher([&](const mesh::MesherLimits& limits) {
-      mesh::mesh_blade(blade.geometry, blade.element_size, mesh_file, limits);
+      mesh::mesh_blade(blade.geometry, blade.sizes, mesh_file, limits);
     });
   }
 }

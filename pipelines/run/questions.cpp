@@ -84,8 +84,8 @@ Findings element_size(const Facts& facts) {
   if (blade == nullptr) return {};
   const mesh::BladeGeometry& g = blade->geometry;
   const double height = g.root_height + g.platform_height + g.span;
-  return {{"model.element_size", percent * blade->element_size / height,
-           fmt::format("({:g} m)", blade->element_size)}};
+  return {{"model.element_size", percent * blade->sizes.element_size / height,
+           fmt::format("({:g} m)", blade->sizes.element_size)}};
 }
 
 /// The height of a body that others drew is known once it is meshed.

@@ -24,7 +24,8 @@ namespace microslip::pipelines {
 BladeModel read_blade(const SectionReader& s) {
   static_cast<void>(s.integer("order"));
   BladeModel model;
-  model.element_size = s.number("element_size");
+  model.sizes.element_size = s.number("element_size");
+  if (s.given("edge_size")) model.sizes.edge_size = s.number("edge_size");
   mesh::BladeGeometry& g = model.geometry;
   g.root_width = s.number("root_width");
   g.root_height = s.number("root_height");

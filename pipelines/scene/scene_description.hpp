@@ -26,7 +26,7 @@ namespace microslip::pipelines {
 
 struct BladeModel {
   mesh::BladeGeometry geometry;
-  double element_size = 0.004;  ///< [m]
+  mesh::ElementSizes sizes;
 };
 
 /// A face of a STEP file by what a person sees of it: a point on it, its normal, or its number.
@@ -253,14 +253,17 @@ struct SceneDescription {
 
 /// Of a scene whose geometry is meshed here [m]; none: it has a mesh, or needs none.
 [[nodiscard]] inline std::optional<double> element_size_of(const SceneDescription& scene) {
-  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) return blade->element_size;
+  if (const auto* blade = std::get_if<BladeModel>(&scene.model)) return blade->sizes.element_size;
   if (const auto* step = std::get_if<StepModel>(&scene.model)) return step->element_size;
   return std::nullopt;
 }
 
 /// The same scene on elements so many times as large.
 [[nodiscard]] inline SceneDescription with_elements_scaled(SceneDescription scene, double factor) {
-  if (auto* blade = std::get_if<BladeModel>(&scene.model)) blade->element_size *= factor;
+  if (auto* blade = std::get_if<BladeModel>(&scene.model)) {
+    blade->sizes.element_size *= factor;
+    if (blade->sizes.edge_size) *blade->sizes.edge_size *= factor;
+  }
   if (auto* step = std::get_if<StepModel>(&scene.model)) {
     step->element_size *= factor;
     for (FaceDescription& face : step->faces) {

@@ -32,6 +32,9 @@ constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of th
 constexpr std::array blade_keys{
     kind_key,
     length_key("element_size", "\"4 mm\"", "target edge length of the mesh"),
+    KeySpec{"edge_size", number, "m", "", 0.0, 10.0, true,
+            "of elements at the outline of the foot and where root and aerofoil meet the platform",
+            true},
     order_key,
     length_key("root_width", "\"6.6 mm\"", "root block along x (circumferential)"),
     length_key("root_height", "\"25 mm\"", "root block along y (radial); its foot lies in y = 0"),

@@ -12,7 +12,7 @@ namespace microslip::test {
 
 [[nodiscard]] inline mesh::Mesh default_blade_mesh(double element_size) {
   const TemporaryFolder folder;
-  mesh::mesh_blade({}, element_size, folder.path() / "blade.msh");
+  mesh::mesh_blade({}, {element_size}, folder.path() / "blade.msh");
   return mesh::read_gmsh(folder.path() / "blade.msh");
 }
 

@@ -60,7 +60,7 @@ mesh::Mesh plate(mesh::ElementType type, bool curved) {
 
 mesh::Mesh blade(double element_size) {
   const test::TemporaryFolder folder;
-  mesh::mesh_blade({}, element_size, folder.path() / "blade.msh");
+  mesh::mesh_blade({}, {element_size}, folder.path() / "blade.msh");
   return mesh::read_gmsh(folder.path() / "blade.msh");
 }
 

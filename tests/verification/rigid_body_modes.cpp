@@ -50,7 +50,7 @@ mesh::Mesh distorted_box(ElementType type) {
 
 mesh::Mesh default_blade() {
   const test::TemporaryFolder folder;
-  mesh::mesh_blade({}, 0.008, folder.path() / "blade.msh");
+  mesh::mesh_blade({}, {0.008}, folder.path() / "blade.msh");
   return mesh::read_gmsh(folder.path() / "blade.msh");
 }
 

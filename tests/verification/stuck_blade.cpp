@@ -46,7 +46,7 @@ mesh::Mesh default_blade() {
   const test::TemporaryFolder folder;
   // What is compared are models of one mesh, whatever its size.
   const double element_size = tests::whole_campaigns() ? 0.005 : 0.008;
-  mesh::mesh_blade({}, element_size, folder.path() / "blade.msh");
+  mesh::mesh_blade({}, {element_size}, folder.path() / "blade.msh");
   return mesh::read_gmsh(folder.path() / "blade.msh");
 }
 

@@ -1,12 +1,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -42,7 +44,7 @@ class Blade : public ::testing::Test {
 
   std::string failure(const BladeGeometry& geometry, double size, const MesherLimits& limits = {}) {
     try {
-      mesh_blade(geometry, size, folder_ / "blade.msh", limits);
+      mesh_blade(geometry, {size}, folder_ / "blade.msh", limits);
     } catch (const MeshError& error) {
       return error.what();
     }
@@ -54,7 +56,7 @@ class Blade : public ::testing::Test {
 
 TEST_F(Blade, IsOneCurvedVolumeWithItsNames) {
   const BladeGeometry g;
-  mesh_blade(g, 0.008, folder_ / "blade.msh");
+  mesh_blade(g, {0.008}, folder_ / "blade.msh");
   const Mesh mesh = read_gmsh(folder_ / "blade.msh");
   const SurfacePlane contact = fit_plane(mesh.nodes(), mesh.surface("contact"));
   EXPECT_LT((contact.normal - Eigen::Vector3d::UnitX()).norm(), 1e-12);
@@ -77,7 +79,7 @@ TEST_F(Blade, IsOneCurvedVolumeWithItsNames) {
 
 TEST_F(Blade, VolumeOfItsBlocksAndAerofoilIsRight) {
   const BladeGeometry g;
-  mesh_blade(g, 0.006, folder_ / "blade.msh");
+  mesh_blade(g, {0.006}, folder_ / "blade.msh");
   const double blocks = g.root_width * g.root_height * g.root_length +
                         g.platform_width * g.platform_height * g.platform_length;
   // Elliptic sections: π/4 chord × thickness, both linear in height: Simpson's rule is exact.
@@ -90,6 +92,40 @@ TEST_F(Blade, VolumeOfItsBlocksAndAerofoilIsRight) {
   EXPECT_NEAR(read_gmsh(folder_ / "blade.msh").volume(), blocks + aerofoil, 0.01 * aerofoil);
 }
 
+/// Mean distance of the nodes on the outline of the foot from their nearest neighbours there.
+double spacing_at_foot(const Mesh& mesh, const BladeGeometry& g) {
+  std::vector<Eigen::RowVector3d> outline;
+  for (Eigen::Index i = 0; i < mesh.nodes().rows(); ++i) {
+    const Eigen::RowVector3d x = mesh.nodes().row(i);
+    const bool on_edge = std::abs(std::abs(x[0]) - 0.5 * g.root_width) < 1e-9 ||
+                         std::abs(std::abs(x[2]) - 0.5 * g.root_length) < 1e-9;
+    if (std::abs(x[1]) < 1e-9 && on_edge) outline.push_back(x);
+  }
+  double sum = 0.0;
+  for (const Eigen::RowVector3d& a : outline) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Eigen::RowVector3d& b : outline) {
+      if (a != b) least = std::min(least, (a - b).norm());
+    }
+    sum += least;
+  }
+  return sum / static_cast<double>(outline.size());
+}
+
+TEST_F(Blade, ElementsAreSmallerAtSharpEdgesWhereAskedFor) {
+  const BladeGeometry g;
+  mesh_blade(g, {0.010}, folder_ / "even.msh");
+  mesh_blade(g, {0.010, 0.003}, folder_ / "graded.msh");
+  const Mesh even = read_gmsh(folder_ / "even.msh");
+  const Mesh graded = read_gmsh(folder_ / "graded.msh");
+  constexpr double nodes_per_edge = 2.0;
+  EXPECT_NEAR(spacing_at_foot(graded, g), 0.003 / nodes_per_edge, 0.0005);
+  EXPECT_GT(spacing_at_foot(even, g), 1.5 * spacing_at_foot(graded, g));
+  EXPECT_LT(graded.nodes().rows(), 8 * even.nodes().rows()) << "not everywhere";
+  EXPECT_NEAR(graded.volume(), even.volume(), 0.01 * even.volume());
+  EXPECT_THROW(mesh_blade(g, {0.010, 1e-5}, folder_ / "graded.msh"), MeshError);
+}
+
 /// Large elements on a thin cambered aerofoil turn inside out when they are curved, and the optimisers leave some
 /// of them so: the reader refuses such a mesh.
 TEST_F(Blade, ElementsAtThinEdgesAreUntangled) {
@@ -98,7 +134,7 @@ TEST_F(Blade, ElementsAtThinEdgesAreUntangled) {
   g.camber = 0.2;
   std::vector<double> volumes;
   for (const double size : {0.012, 0.009, 0.006}) {
-    mesh_blade(g, size, folder_ / "blade.msh");
+    mesh_blade(g, {size}, folder_ / "blade.msh");
     const Mesh mesh = read_gmsh(folder_ / "blade.msh");
     double volume = 0.0;
     for (const ElementBlock& block : mesh.elements()) {
@@ -173,7 +209,7 @@ TEST_F(Blade, AMesherWithoutMemoryIsNamed) {
 }
 
 TEST_F(Blade, NothingIsLeftBesideTheMesh) {
-  mesh_blade({}, 0.012, folder_ / "blade.msh");
+  mesh_blade({}, {0.012}, folder_ / "blade.msh");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
@@ -192,7 +228,7 @@ void kill_while_meshing(const fs::path& file, double element_size, const Ready& 
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    mesh_blade({}, element_size, file);
+    mesh_blade({}, {element_size}, file);
     ::_exit(0);
   }
   for (int i = 0; i < 60000 && !ready(); ++i) std::this_thread::sleep_for(1ms);

@@ -194,8 +194,8 @@ TEST_F(Step, ElementsAreSmallNearAFace) {
 
 TEST_F(Step, ExportedBladeIsTheParametricOne) {
   const BladeGeometry g;
-  mesh_blade(g, 0.01, folder_ / "blade.step");
-  mesh_blade(g, 0.01, folder_ / "blade.msh");
+  mesh_blade(g, {0.01}, folder_ / "blade.step");
+  mesh_blade(g, {0.01}, folder_ / "blade.msh");
   const StepGeometry step = read(folder_ / "blade.step");
   mesh_step({folder_ / "blade.step", 1.0}, {.element_size = 0.01}, folder_ / "step.msh");
   const Mesh blade = read_gmsh(folder_ / "blade.msh");

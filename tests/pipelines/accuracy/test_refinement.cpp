@@ -11,10 +11,11 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double tolerance = 0.02;
+constexpr SpentSeconds spent{.structure = 10.0, .curves = 10.0};
 
 SceneDescription blade() {
   SceneDescription scene;
-  scene.model = BladeModel{.geometry = {}, .element_size = 0.004};
+  scene.model = BladeModel{.geometry = {}, .sizes = {0.004}};
   scene.settings.patches.resize(1);
   scene.settings.harmonics = {.highest = 1, .orders = {}, .tolerance = 0.0};
   return scene;
@@ -33,7 +34,7 @@ TEST(Refinement, RefinesWhatContributesMostAndNothingElse) {
   const std::vector<CurveBudget> told{
       budget({{"cells", 1e-3}, {"fit", 1e-5}, {"harmonics", -0.5}})};
   EXPECT_DOUBLE_EQ(largest_bar(told), 0.50101);
-  const auto step = refinement(blade(), told, tolerance, left);
+  const auto step = refinement(blade(), told, tolerance, spent, left);
   ASSERT_TRUE(step.has_value());
   EXPECT_TRUE(step->scene.settings.harmonics.chosen());
   EXPECT_LE(step->scene.settings.harmonics.tolerance, 0.5 * tolerance);
@@ -44,21 +45,56 @@ TEST(Refinement, RefinesWhatContributesMostAndNothingElse) {
 
 TEST(Refinement, SharesTheToleranceAmongSources) {
   std::string left;
-  const auto step = refinement(
-      blade(), {budget({{"mesh", 0.03}, {"harmonics", 0.02}, {"cells", 0.01}})}, tolerance, left);
+  const auto step =
+      refinement(blade(), {budget({{"mesh", 0.03}, {"harmonics", 0.02}, {"cells", 0.01}})},
+                 tolerance, spent, left);
   ASSERT_TRUE(step.has_value());
-  const double size = std::get<BladeModel>(step->scene.model).element_size;
   EXPECT_TRUE(step->new_mesh);
-  EXPECT_LT(size, 0.004 * std::sqrt(tolerance / 0.03));
-  EXPECT_GE(contact_points(step->scene.settings, 0), 4 * contact_points(blade().settings, 0));
-  EXPECT_GE(step->factor, 4.0);
+  EXPECT_FALSE(step->only_harmonics);
+  EXPECT_TRUE(step->scene.settings.harmonics.chosen());
+  EXPECT_GT(step->seconds, spent.structure + spent.curves);
+}
+
+TEST(Refinement, TakesTheCheapestWayThatIsEnough) {
+  std::string left;
+  const std::vector<CurveBudget> told{
+      budget({{"harmonics", 0.03}, {"second_direction", 0.004}, {"cells", 0.002}}),
+      budget({{"harmonics", 0.002}, {"mesh", 0.012}})};
+  const auto step = refinement(blade(), told, tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->only_harmonics) << step->text;
+  EXPECT_FALSE(step->new_mesh) << "errors of different curves do not add up";
+}
+
+TEST(Refinement, RefinesAtSharpEdgesBeforeEverywhere) {
+  std::string left;
+  const auto step = refinement(blade(), {budget({{"mesh", 0.03}})}, tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  const mesh::ElementSizes& sizes = std::get<BladeModel>(step->scene.model).sizes;
+  EXPECT_DOUBLE_EQ(sizes.element_size, 0.004);
+  ASSERT_TRUE(sizes.edge_size.has_value());
+  EXPECT_LT(*sizes.edge_size, 0.004);
+  const auto finer = refinement(step->scene, {budget({{"mesh", 0.03}})}, tolerance, spent, left);
+  ASSERT_TRUE(finer.has_value());
+  EXPECT_LT(*element_size_of(finer->scene), 0.004) << "and then both";
+}
+
+TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
+  std::string left;
+  const std::vector<CurveBudget> told{
+      budget({{"basis", 0.05}, {"harmonics", 0.05}, {"cells", 1e-3}})};
+  const auto step = refinement(blade(), told, tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_EQ(left, "basis");
+  EXPECT_TRUE(step->only_harmonics) << step->text;
+  EXPECT_GE(step->scene.settings.harmonics.tolerance, 0.25 * tolerance);
 }
 
 TEST(Refinement, ChosenHarmonicsAreChosenCloser) {
   std::string left;
   SceneDescription scene = blade();
   scene.settings.harmonics.tolerance = 0.5 * tolerance;
-  const auto step = refinement(scene, {budget({{"harmonics", 0.03}})}, tolerance, left);
+  const auto step = refinement(scene, {budget({{"harmonics", 0.03}})}, tolerance, spent, left);
   ASSERT_TRUE(step.has_value());
   EXPECT_DOUBLE_EQ(step->scene.settings.harmonics.tolerance, 0.25 * tolerance);
 }
@@ -68,7 +104,7 @@ TEST(Refinement, HarmonicsThatCannotBeToldAreRefinedFirst) {
   CurveBudget lost = budget({{"cells", 1e-4}});
   lost.unknown.emplace_back("harmonics");
   EXPECT_TRUE(std::isinf(largest_bar({lost})));
-  const auto step = refinement(blade(), {lost}, tolerance, left);
+  const auto step = refinement(blade(), {lost}, tolerance, spent, left);
   ASSERT_TRUE(step.has_value());
   EXPECT_TRUE(step->scene.settings.harmonics.chosen());
 }
@@ -77,7 +113,7 @@ TEST(Refinement, NamesWhatItCannotRefine) {
   std::string left;
   SceneDescription scene = blade();
   scene.model = MeshFileModel{};
-  EXPECT_FALSE(refinement(scene, {budget({{"mesh", 0.05}})}, tolerance, left).has_value());
+  EXPECT_FALSE(refinement(scene, {budget({{"mesh", 0.05}})}, tolerance, spent, left).has_value());
   EXPECT_EQ(left, "mesh");
 }
 
@@ -92,10 +128,11 @@ TEST(Refinement, WithoutABudgetNothingIsKnown) {
 TEST(Refinement, HarmonicsAreChosenAsCloselyAsCanBe) {
   std::string left;
   SceneDescription scene = blade();
-  const auto step = refinement(scene, {budget({{"harmonics", 0.5}})}, 1e-5, left);
+  const auto step = refinement(scene, {budget({{"harmonics", 0.5}})}, 1e-5, spent, left);
   ASSERT_TRUE(step.has_value());
   EXPECT_DOUBLE_EQ(step->scene.settings.harmonics.tolerance, 1e-5);
-  EXPECT_FALSE(refinement(step->scene, {budget({{"harmonics", 2e-5}})}, 1e-5, left).has_value());
+  EXPECT_FALSE(
+      refinement(step->scene, {budget({{"harmonics", 2e-5}})}, 1e-5, spent, left).has_value());
   EXPECT_EQ(left, "harmonics");
 }
 

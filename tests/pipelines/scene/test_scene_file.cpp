@@ -114,7 +114,7 @@ TEST(SceneFile, ABladeSceneIsReadInSi) {
 TEST(SceneFile, EveryKeyOfTheBladeHasADefault) {
   const BladeModel blade = std::get<BladeModel>(parse(blade_text).model);
   const mesh::BladeGeometry& g = blade.geometry;
-  for (const double length : {blade.element_size, g.root_width, g.root_height, g.root_length,
+  for (const double length : {blade.sizes.element_size, g.root_width, g.root_height, g.root_length,
                               g.platform_width, g.platform_height, g.platform_length, g.span,
                               g.root_chord, g.tip_chord, g.root_thickness, g.tip_thickness}) {
     EXPECT_GT(length, 0.0);

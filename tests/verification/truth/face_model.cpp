@@ -27,7 +27,7 @@ const fem::Material steel{2.1e11, 0.3, 7800.0};
 
 mesh::Mesh blade_mesh(double element_size) {
   const test::TemporaryFolder folder;
-  mesh::mesh_blade({}, element_size, folder.path() / "blade.msh");
+  mesh::mesh_blade({}, {element_size}, folder.path() / "blade.msh");
   return mesh::read_gmsh(folder.path() / "blade.msh");
 }
 
