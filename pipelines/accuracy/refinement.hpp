@@ -14,9 +14,16 @@ namespace microslip::pipelines {
 /// A scene with finer settings.
 struct Refinement {
   SceneDescription scene;
-  std::string text;       ///< what is refined, for the log
-  bool new_mesh = false;  ///< mesh and modes are solved for again
-  double factor = 1.0;    ///< about, of the time that a round takes
+  std::string text;            ///< what is refined, for the log
+  bool new_mesh = false;       ///< mesh and modes are solved for again
+  bool only_harmonics = true;  ///< curves that are exact enough may stay
+  double seconds = 0.0;        ///< about, of the round
+};
+
+/// What a scene has cost so far.
+struct SpentSeconds {
+  double structure = 0.0;  ///< mesh and modes
+  double curves = 0.0;
 };
 
 /// The largest bar of all budgets, of amplitude or frequency; infinite where one has none, or there is none.
@@ -25,12 +32,13 @@ struct Refinement {
 /// Sources that one of the bars leaves out, named once.
 [[nodiscard]] std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets);
 
-/// Refines the source with the largest error until what is left should be within the tolerance: errors of cells fall
-/// as their number grows, of the mesh with the square of its size, of fit and directions altogether, of harmonics to
-/// the tolerance of their choice.
-/// @return empty: the sources that matter cannot be refined any further; `left` names them.
+/// Of all ways to refine the sources, alone and together, the cheapest that should bring every bar below the tolerance:
+/// errors of cells fall as their number grows, of the mesh with its size, of fit and directions altogether, of harmonics
+/// to the tolerance of their choice. Where none does, the cheapest that comes as near as can be.
+/// @return empty: nothing worth a round can be refined; `left` names sources that cannot, though they matter.
 [[nodiscard]] std::optional<Refinement> refinement(const SceneDescription& scene,
                                                    const std::vector<CurveBudget>& budgets,
-                                                   double tolerance, std::string& left);
+                                                   double tolerance, const SpentSeconds& spent,
+                                                   std::string& left);
 
 }  // namespace microslip::pipelines

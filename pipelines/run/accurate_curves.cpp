@@ -17,6 +17,7 @@
 #include "pipelines/effect_table.hpp"
 #include "pipelines/model/effects.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/scene/curve_request.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -40,6 +41,31 @@ StructurePointer structure_of(const Solution& before, const Refinement& step, co
   return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
 }
 
+/// Those that are exact enough stay, where the others get other harmonics alone.
+std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinement& step) {
+  const double tolerance = before.scene.accuracy.tolerance;
+  std::vector<std::size_t> again;
+  for (std::size_t i = 0; i < before.curves.size(); ++i) {
+    const CurveBudget& budget = before.budgets[i];
+    const bool is_linear = budget.rows.empty() && budget.unknown.empty();
+    const bool stays = step.only_harmonics && before.curves[i].curve.complete &&
+                       (is_linear || largest_bar({budget}) <= tolerance);
+    if (!stays) again.push_back(i);
+  }
+  return again;
+}
+
+SpentSeconds spent_on(const Solution& solution) {
+  // Mesh and modes may come from the cache: what they took is told by their size.
+  constexpr double per_freedom = 1.5e-4;
+  SpentSeconds spent;
+  if (solution.structure) {
+    spent.structure = per_freedom * static_cast<double>(solution.structure->modes.n_dofs);
+  }
+  for (const CurveResult& curve : solution.curves) spent.curves += curve.curve.seconds;
+  return spent;
+}
+
 /// Solves the scene of a step. @return false: the time was over before its end.
 bool solve(const Solution& before, const Refinement& step, int jobs, Progress& progress,
            Round& round) {
@@ -48,9 +74,19 @@ bool solve(const Solution& before, const Refinement& step, int jobs, Progress& p
   now.structure = structure_of(before, step, round);
   if (cut_short()) return false;
   now.model = model_of(now.scene, now.structure.get(), round.warnings);
-  now.curves = trace_unkept(now.model, now.scene, jobs, progress);
+  const std::vector<std::size_t> again = curves_to_solve(before, step);
+  std::vector<CurveRequest> requests;
+  for (const std::size_t i : again) requests.push_back(curve_requests(now.scene)[i]);
+  std::vector<CurveResult> curves = trace_unkept(now.model, now.scene, requests, jobs, progress);
   if (cut_short()) return false;
-  now.budgets = budgets_of(now.model, now.scene, now.structure.get(), jobs, now.curves, progress);
+  std::vector<CurveBudget> budgets =
+      budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
+  now.curves = before.curves;
+  now.budgets = before.budgets;
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    now.curves[again[i]] = std::move(curves[i]);
+    now.budgets[again[i]] = std::move(budgets[i]);
+  }
   return !cut_short();
 }
 
@@ -144,23 +180,21 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
   accuracy.asked = solution.scene.accuracy.tolerance;
   if (accuracy.asked == 0.0) return;
   look_at(solution, accuracy);
-  double seconds = seconds_spent();
   std::string missing = "more rounds of refinement would be needed";
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
     if (accuracy.reached <= accuracy.asked) break;
     std::string left;
-    const auto next = refinement(solution.scene, solution.budgets, accuracy.asked, left);
-    missing = next ? fmt::format("next: {}, some {:.2g} s or more", next->text,
-                                 seconds * std::max(next->factor, 2.0))
+    const auto next =
+        refinement(solution.scene, solution.budgets, accuracy.asked, spent_on(solution), left);
+    missing = next ? fmt::format("next: {}, some {:.2g} s or more", next->text, next->seconds)
                    : fmt::format("this program cannot refine what is left: {}", left);
     // A mesh that is begun cannot be stopped.
-    const bool too_long = next && next->new_mesh && seconds * next->factor > seconds_left();
+    const bool too_long = next && next->new_mesh && next->seconds > seconds_left();
     if (!next || cut_short() || (too_long && leave_out())) break;
     record.progress().info(fmt::format("{}; now with {}", reached_text(accuracy), next->text));
     const double begin = seconds_spent();
     std::string obstacle;
     std::optional<Round> round = refined(solution, *next, jobs, record.progress(), obstacle);
-    seconds = std::max(seconds, seconds_spent() - begin);
     if (!round) {
       missing = fmt::format("next: {}, more than {:.2g} s", next->text, seconds_spent() - begin);
       if (!obstacle.empty()) missing = fmt::format("{} cannot be kept: {}", next->text, obstacle);

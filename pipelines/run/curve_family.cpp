@@ -75,8 +75,8 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
 }
 
 std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDescription& scene,
-                                      int jobs, Progress& progress) {
-  const std::vector<CurveRequest> requests = curve_requests(scene);
+                                      const std::vector<CurveRequest>& requests, int jobs,
+                                      Progress& progress) {
   std::vector<CurveResult> results(requests.size());
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {

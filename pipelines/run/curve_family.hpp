@@ -7,6 +7,7 @@
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/run/run_record.hpp"
+#include "pipelines/scene/curve_request.hpp"
 
 namespace microslip::pipelines {
 
@@ -17,11 +18,12 @@ namespace microslip::pipelines {
                                                     const SceneDescription& scene, int jobs,
                                                     RunRecord& record);
 
-/// The same, of which nothing is kept but the progress.
-/// @return curves that are cut short where the time is.
+/// Some of them, of which nothing is kept but the progress.
+/// @return one per request, cut short where the time is.
 [[nodiscard]] std::vector<CurveResult> trace_unkept(const ReducedModel& model,
-                                                    const SceneDescription& scene, int jobs,
-                                                    Progress& progress);
+                                                    const SceneDescription& scene,
+                                                    const std::vector<CurveRequest>& requests,
+                                                    int jobs, Progress& progress);
 
 /// Contact maps where the scene asks for them, and the motion of the blade at the peaks.
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
