@@ -13,6 +13,7 @@
 #include "fem/slepc_session.hpp"
 #include "mesh/element_shape.hpp"
 #include "pipelines/accuracy/convergence.hpp"
+#include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_campbell.hpp"
 #include "pipelines/files/write_ladder.hpp"
@@ -125,12 +126,21 @@ ReducedModel model_of_maps(const Solution& solution) {
   return model;
 }
 
+CurveBudget budget_of(const Solution& solution, const solver::Optimum& best, int jobs) {
+  if (!solution.scene.accuracy.error_budget || cut_short()) return {};
+  return optimum_budget(solution.model, solution.scene,
+                        richer_models(solution.model, solution.scene, solution.structure.get()),
+                        best, jobs);
+}
+
 void find_optimum(const Solution& solution, const RunOptions& options, RunRecord& record) {
   record.stage("optimum");
   const SceneDescription& scene = solution.scene;
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
-  record.keep_optimum(solution.model, *scene.response->optimum, search.best());
+  const solver::Optimum best = search.best();
+  record.keep_optimum(solution.model, *scene.response->optimum, best,
+                      budget_of(solution, best, options.jobs));
   if (options.bracket && !cut_short()) record.keep_bracket(search.bracket());
 }
 

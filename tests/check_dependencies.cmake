@@ -54,7 +54,7 @@ set(uses_pipelines_model system scene import)
 set(uses_pipelines_response system scene model)
 set(uses_pipelines_files system text model response accuracy)
 set(uses_pipelines_accuracy system scene model response)
-set(uses_pipelines_run system scene import model response accuracy files)
+set(uses_pipelines_run system text scene import model response accuracy files)
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_command_line system text cycle)
 

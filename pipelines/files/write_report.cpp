@@ -10,12 +10,14 @@
 #include <fmt/core.h>
 
 #include "pipelines/files/plot_script.hpp"
+#include "pipelines/response/error_row.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/json_entry.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -197,10 +199,17 @@ std::string optimum_sentence(const JsonEntry& optimum) {
   const std::string key = parameter_of(optimum);
   const std::string message = text_or_none(optimum, "message");
   if (!is_found(optimum)) return fmt::format("Best {} not found: {}.", key, message);
-  return fmt::format("Best {}: {:.6g}{}, {} {:.5g} m at {:.4f} Hz{}{}.", key, value_of(optimum),
+  const bool barred = optimum.has("bar");
+  const auto number = [&](double value, const char* goal, const char* usual) {
+    if (barred) return with_half_width(value, optimum.at("bar").number(goal));
+    return fmt::format(fmt::runtime(usual), value);
+  };
+  return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}.", key,
+                     number(value_of(optimum), best_value_goal, "{:.6g}"),
                      key == "preload" ? " N" : " (SI)",
                      place_of(optimum) == "peak" ? "peak" : "largest amplitude",
-                     optimum.number("amplitude_m"), optimum.number("frequency_Hz"),
+                     number(optimum.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
+                     number(optimum.number("frequency_Hz"), best_frequency_goal, "{:.4f}"),
                      message.empty() ? "" : "; ", message);
 }
 

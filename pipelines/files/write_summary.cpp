@@ -129,6 +129,16 @@ int digits_of(double bar) {
                                     : most);
 }
 
+/// Of every half width.
+Json digits_json(const Json& bar) {
+  if (bar.is_null()) return nullptr;
+  Json digits = Json::object();
+  for (const auto& [goal, width] : bar.items()) {
+    if (width.is_number()) digits[goal] = digits_of(width.get<double>());
+  }
+  return digits;
+}
+
 Json to_json(const ErrorRow& row) {
   const double gain = row.seconds > 0.0 ? std::abs(row.effect) / row.seconds : 0.0;
   return {{"curve", row.curve},
@@ -155,15 +165,8 @@ Json curves_json(const RunSummary& summary) {
   Json curves = to_array(summary.curves);
   for (std::size_t i = 0; i < summary.curves.size(); ++i) {
     Json bar = bar_json(summary.curves[i], summary.error_budget);
-    Json digits = nullptr;
-    if (!bar.is_null()) {
-      digits = Json::object();
-      for (const char* goal : {peak_amplitude_goal, peak_frequency_goal}) {
-        digits[goal] = digits_of(bar[goal].get<double>());
-      }
-    }
+    curves[i]["digits"] = digits_json(bar);
     curves[i]["bar"] = std::move(bar);
-    curves[i]["digits"] = std::move(digits);
   }
   return curves;
 }
@@ -221,6 +224,19 @@ Json to_json(const EffectRecord& effect) {
           {"objection", effect.objection}};
 }
 
+/// Half widths of value, amplitude and frequency; null where harmonics are not known, or nothing is.
+Json bar_json(const OptimumSummary& summary) {
+  const auto& unknown = summary.not_in_bar;
+  if (std::ranges::find(unknown, "harmonics") != unknown.end()) return nullptr;
+  Json bar = Json::object();
+  for (const ErrorRow& row : summary.error_budget) {
+    bar[row.goal] = bar_of(summary.error_budget, optimum_name, row.goal);
+  }
+  if (bar.empty()) return nullptr;
+  bar["not_known"] = unknown;
+  return bar;
+}
+
 Json to_json(const OptimumSummary& summary) {
   const solver::Optimum& optimum = summary.optimum;
   Json trace = Json::array();
@@ -246,6 +262,9 @@ Json to_json(const OptimumSummary& summary) {
   json["warnings"] = optimum.warnings;
   json["whole_curves"] = optimum.n_curves;
   json["seconds"] = optimum.seconds;
+  json["bar"] = bar_json(summary);
+  json["digits"] = digits_json(json["bar"]);
+  json["error_budget"] = to_array(summary.error_budget);
   json["bracket"] = std::move(bracket);
   json["bracket_left_out"] = summary.bracket.left_out;
   json["trace"] = std::move(trace);

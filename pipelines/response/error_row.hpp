@@ -9,10 +9,14 @@ namespace microslip::pipelines {
 
 inline constexpr const char* peak_amplitude_goal = "peak_amplitude";
 inline constexpr const char* peak_frequency_goal = "peak_frequency";
+inline constexpr const char* best_value_goal = "best_value";
+inline constexpr const char* best_amplitude_goal = "best_amplitude";
+inline constexpr const char* best_frequency_goal = "best_frequency";
+inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve's, of a best value
 
 struct ErrorRow {
-  std::string curve;  ///< its name
-  std::string goal;   ///< peak_amplitude | peak_frequency
+  std::string curve;  ///< its name, or "optimum"
+  std::string goal;   ///< one of the above
   std::string
       source;  ///< mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver
   double effect =

@@ -82,6 +82,8 @@ struct OptimumSummary {
   solver::Optimum optimum;
   OptimumBracket bracket;
   double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
+  std::vector<ErrorRow> error_budget{};   ///< of value, amplitude and frequency
+  std::vector<std::string> not_in_bar{};  ///< sources of error that could not be told
 };
 
 /// The accuracy that was asked for.

@@ -10,6 +10,7 @@
 #include "fem/slepc_session.hpp"
 #include "pipelines/effect_table.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -111,6 +112,22 @@ std::string precision_text(const CurveSummary& curve, const ReducedModel& model)
       "is done",
       curve.name, sampled ? "sampling" : "rounding", curve.largest_residual,
       curve.largest_energy_imbalance, curve.largest_dissipation_mismatch, certified);
+}
+
+std::string best_text(const solver::Optimum& optimum, const std::string& unit,
+                      const CurveBudget& budget) {
+  if (!optimum.found) {
+    return fmt::format("not found: {}{}", optimum.message, lowest_text(optimum));
+  }
+  if (!budget.has_bar() || optimum.best.place != solver::PeakPlace::peak) {
+    return fmt::format("{:.6g}{}, {}", optimum.best.parameter, unit, amplitude_text(optimum.best));
+  }
+  const auto rounded = [&](double value, const char* goal) {
+    return with_half_width(value, bar_of(budget.rows, optimum_name, goal));
+  };
+  return fmt::format("{}{}, peak {} m at {} Hz", rounded(optimum.best.parameter, best_value_goal),
+                     unit, rounded(optimum.best.amplitude, best_amplitude_goal),
+                     rounded(to_hz * optimum.best.frequency, best_frequency_goal));
 }
 
 std::string amplitude_text(const solver::PeakOfParameter& best) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
@@ -28,6 +29,11 @@ namespace microslip::pipelines {
 /// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told. Empty:
 /// all are. On rough surfaces the two counts of dissipation differ by themselves (theory section 11).
 [[nodiscard]] std::string precision_text(const CurveSummary& curve, const ReducedModel& model);
+
+/// A best value with its peak, to the digits that its errors allow where they are told; or why there is none.
+/// @param unit  of the value, with a space before it.
+[[nodiscard]] std::string best_text(const solver::Optimum& optimum, const std::string& unit,
+                                    const CurveBudget& budget);
 
 /// "peak … m at … Hz", or what stands in its place.
 [[nodiscard]] std::string amplitude_text(const solver::PeakOfParameter& best);

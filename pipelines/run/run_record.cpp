@@ -393,7 +393,7 @@ void RunRecord::keep_motion(const std::string& name, const solver::ResponsePoint
 }
 
 void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& request,
-                             const solver::Optimum& optimum) {
+                             const solver::Optimum& optimum, const CurveBudget& budget) {
   const std::string unit = !request.of_preload() ? ""
                            : in_newtons(model)   ? " N"
                                                  : " of the points' preload";
@@ -401,16 +401,15 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
       request.of_preload() ? "best preload"
       : request.load       ? fmt::format("best {} under preload {:g}", request.key, *request.load)
                            : fmt::format("best {} under the static preload", request.key);
-  progress_.info(optimum.found ? fmt::format("{}: {:.6g}{}, {}", what, optimum.best.parameter, unit,
-                                             amplitude_text(optimum.best))
-                               : fmt::format("{}: not found: {}{}", what, optimum.message,
-                                             lowest_text(optimum)));
+  progress_.info(fmt::format("{}: {}", what, best_text(optimum, unit, budget)));
   for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
   const std::lock_guard lock(mutex_);
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;
   summary.optimum = optimum;
+  summary.error_budget = budget.rows;
+  summary.not_in_bar = budget.unknown;
   if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
   write_optimum_csv(staged_, request, optimum);
 }

@@ -90,7 +90,7 @@ class RunRecord {
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
   void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
-                    const solver::Optimum& optimum);
+                    const solver::Optimum& optimum, const CurveBudget& budget);
   void keep_bracket(OptimumBracket bracket);
   /// The bar joins the curve's CSV. @param result  kept before; its bar is set.
   void keep_budget(const CurveBudget& budget, const CurveResult& result, const ReducedModel& model);

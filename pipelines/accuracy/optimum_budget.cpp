@@ -1,0 +1,137 @@
+#include "pipelines/accuracy/optimum_budget.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/deadline.hpp"
+#include "pipelines/system/in_parallel.hpp"
+#include "pipelines/system/interrupt.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::array neighbours{0.84, 1.0, 1.19};
+constexpr std::size_t middle = 1;
+using Effects = std::array<std::optional<double>, neighbours.size()>;  // at each of them
+
+/// Amplitudes over the preload, between the values that the search has solved for.
+class Peaks {
+ public:
+  explicit Peaks(const std::vector<solver::PeakOfParameter>& trace) : trace_(trace) {}
+
+  [[nodiscard]] double at(double load) const {
+    const auto after =
+        std::ranges::lower_bound(trace_, load, {}, &solver::PeakOfParameter::parameter);
+    if (after == trace_.end()) return trace_.back().amplitude;
+    if (after == trace_.begin() || after->parameter == load) return after->amplitude;
+    const auto before = after - 1;
+    const double share =
+        std::log(load / before->parameter) / std::log(after->parameter / before->parameter);
+    return std::pow(before->amplitude, 1.0 - share) * std::pow(after->amplitude, share);
+  }
+
+ private:
+  const std::vector<solver::PeakOfParameter>& trace_;  // by parameter
+};
+
+/// Where the lowest peak goes, over the best preload, less 1: from where log A falls to where it rises, each side
+/// raised by an effect of its own.
+double shift(const Peaks& peaks, double best, const std::array<double, neighbours.size()>& effect) {
+  const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
+  const auto slope_to = [&](double ratio) {
+    return std::log(peaks.at(ratio * best) / peaks.at(best)) / std::log(ratio);
+  };
+  const double turn = slope_to(neighbours.back()) - slope_to(neighbours.front());
+  const double farthest = std::log(neighbours.back());
+  const double way = (raised(0) - raised(neighbours.size() - 1)) / turn;
+  return std::expm1(turn > 0.0 ? std::clamp(way, -farthest, farthest) : farthest);
+}
+
+/// Of one goal by source.
+std::map<std::string, Effects> by_source(const std::vector<CurveBudget>& budgets,
+                                         const char* goal) {
+  std::map<std::string, Effects> effects;
+  for (std::size_t i = 0; i < budgets.size(); ++i) {
+    for (const ErrorRow& row : budgets[i].rows) {
+      if (row.goal == goal) effects[row.source][i] = row.effect;
+    }
+  }
+  return effects;
+}
+
+/// One that is missing is taken from beside it. @return empty: more are missing.
+std::optional<std::array<double, neighbours.size()>> all_known(const Effects& effects) {
+  const auto is_known = [](const std::optional<double>& one) { return one.has_value(); };
+  if (std::ranges::count_if(effects, is_known) < 2) return std::nullopt;
+  const double centre =
+      effects[middle] ? *effects[middle] : 0.5 * (*effects.front() + *effects.back());
+  return std::array{effects.front().value_or(centre), centre, effects.back().value_or(centre)};
+}
+
+double seconds_of(const std::vector<CurveBudget>& budgets, const std::string& source) {
+  double seconds = 0.0;
+  for (const CurveBudget& budget : budgets) {
+    for (const ErrorRow& row : budget.rows) {
+      if (row.source == source && row.goal == peak_amplitude_goal) seconds += row.seconds;
+    }
+  }
+  return seconds;
+}
+
+CurveBudget combined(const std::vector<CurveBudget>& budgets, const solver::Optimum& optimum) {
+  const Peaks peaks(optimum.trace);
+  const double best = optimum.best.parameter;
+  const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
+  CurveBudget result;
+  std::set<std::string> unknown;
+  const std::map<std::string, Effects> amplitudes = by_source(budgets, peak_amplitude_goal);
+  for (const CurveBudget& budget : budgets) {
+    for (const std::string& source : budget.unknown) {
+      if (!amplitudes.contains(source)) unknown.insert(source);
+    }
+  }
+  for (const auto& [source, effects] : amplitudes) {
+    const auto known = all_known(effects);
+    if (!known) {
+      unknown.insert(source);
+      continue;
+    }
+    const double seconds = seconds_of(budgets, source);
+    const auto add = [&](const char* goal, double effect) {
+      result.rows.push_back({optimum_name, goal, source, effect, true, seconds});
+    };
+    add(best_value_goal, shift(peaks, best, *known));
+    add(best_amplitude_goal, (*known)[middle]);
+    add(best_frequency_goal, frequencies.at(source)[middle].value_or(0.0));
+  }
+  result.unknown = {unknown.begin(), unknown.end()};
+  return result;
+}
+
+}  // namespace
+
+CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
+                           const RicherModels& richer, const solver::Optimum& optimum, int jobs) {
+  if (!optimum.found || !scene.response->optimum->of_preload()) return {};
+  std::vector<CurveBudget> budgets(neighbours.size());
+  const auto goes_on = [](const solver::ResponsePoint&) {
+    return !interrupt_requested() && !cut_short();
+  };
+  in_parallel(neighbours.size(), jobs, [&](std::size_t i) {
+    const CurveRequest request{optimum_name, neighbours[i] * optimum.best.parameter};
+    if (interrupt_requested() || cut_short()) return;
+    const CurveResult curve = trace_curve(model, scene, request, goes_on);
+    budgets[i] = error_budget(model, scene, richer, curve);
+  });
+  if (interrupt_requested() || cut_short()) return {};
+  return combined(budgets, optimum);
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,25 @@
+/// @file
+/// How far a best preload can be trusted: what every choice of the discretisation does to the peaks about it, and so to
+/// where the lowest of them lies.
+#pragma once
+
+#include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/accuracy/richer_models.hpp"
+#include "solver/peak.hpp"
+
+namespace microslip::pipelines {
+
+/// The curves at the best preload p and at 0.84 p and 1.19 p are solved and their errors told (error_budget.hpp). With a
+/// source refined the peaks are A (1 + e); their lowest point moves by
+///
+///   log(p'/p) = (log(1 + e₋) − log(1 + e₊)) / (s₊ − s₋),     s = Δlog A / Δlog p from p to its neighbours,
+///
+/// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most to the neighbours.
+/// Relative effects, goals best_value, best_amplitude and best_frequency.
+/// @param jobs  curves side by side, ≥ 1.
+/// @return no rows: another number than the preload is searched, nothing is found, or time is over.
+[[nodiscard]] CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
+                                         const RicherModels& richer, const solver::Optimum& optimum,
+                                         int jobs);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,39 @@
+#include "pipelines/text/rounded.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace microslip::pipelines {
+namespace {
+
+/// To so many decimals; fewer than none: to tens, hundreds …
+std::string fixed(double value, int decimals) {
+  const double unit = std::pow(10.0, -decimals);
+  return fmt::format("{:.{}f}", std::round(value / unit) * unit, std::max(decimals, 0));
+}
+
+}  // namespace
+
+std::string with_half_width(double value, double bar) {
+  constexpr double rounding = 1e-12;
+  const double half_width = std::abs(value) * bar;
+  if (!(bar > rounding && half_width > 0.0) || !std::isfinite(half_width))
+    return fmt::format("{:.12g}", value);
+  const double decade = std::floor(std::log10(half_width));
+  constexpr double one = 1.95;  // what is a one when rounded
+  const int more = half_width / std::pow(10.0, decade) < one ? 1 : 0;
+  const int decimals = more - static_cast<int>(decade);
+  const int size = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  constexpr int smallest = -5;
+  constexpr int largest = 6;
+  if (size >= smallest && size <= largest) {
+    return fmt::format("{} ± {}", fixed(value, decimals), fixed(half_width, decimals));
+  }
+  const double scale = std::pow(10.0, size);
+  return fmt::format("({} ± {})e{}", fixed(value / scale, decimals + size),
+                     fixed(half_width / scale, decimals + size), size);
+}
+
+}  // namespace microslip::pipelines
