@@ -49,6 +49,9 @@ HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
   excitation_ = unknowns(scene.excitation);
   stiffness_ = scene.natural_frequency.array().square();
   damping_ = 2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (scene.natural_frequency[i] == 0.0) rigid_.push_back(i);
+  }
   stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
 }
 
@@ -127,6 +130,19 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
   }
 }
 
+void HarmonicBalance::hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const {
+  if (rigid_.empty()) return;
+  constexpr double nothing = 1e-7;  // of the scale: squared it is above rounding
+  const double scale = std::max(stuck_stiffness_.norm(), frequency * frequency);
+  const Eigen::MatrixXd columns = jacobian(Eigen::all, rigid_) / scale;
+  const auto pairs = contact::symmetric_pairs(columns.transpose() * columns);
+  for (Eigen::Index i = 0; pairs && i < pairs->values.size(); ++i) {
+    if (pairs->values[i] > nothing * nothing) continue;
+    const Eigen::VectorXd loose = pairs->vectors.col(i);
+    jacobian(rigid_, rigid_) += scale * loose * loose.transpose();
+  }
+}
+
 void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                                     Eigen::MatrixXd& matrix) const {
   const Eigen::Index n = scene_.n_modes();
@@ -149,6 +165,7 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
     result.parameter_derivative = Eigen::VectorXd::Zero(size());
   }
   add_linear_part(x, frequency, result);
+  hold_loose_means(frequency, result.jacobian);
   return result;
 }
 
@@ -179,6 +196,7 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
   result.jacobian = share * contact.jacobian + (1.0 - share) * linear;
   result.parameter_derivative = Eigen::VectorXd::Zero(size());
   add_linear_part(x, frequency, result);
+  hold_loose_means(frequency, result.jacobian);
   result.parameter_derivative = result.contact_force - linear_force;
   return result;
 }
@@ -210,10 +228,10 @@ Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
     }
     x.segment(first, count) = contact::solved(matrix, excitation_.segment(first, count));
   };
-  solve(0, 0, n);
+  // What is not driven rests, at a resonance without damping as well, and where a mean is any.
+  if (!excitation_.head(n).isZero(0.0)) solve(0, 0, n);
   Eigen::Index first = n;
   for (const int k : set_.orders()) {
-    // What is not driven rests, at a resonance without damping as well.
     if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);
     first += 2 * n;
   }

@@ -74,6 +74,9 @@ class HarmonicBalance {
   void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
   void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                      Eigen::MatrixXd& matrix) const;
+  /// Where nothing holds a rigid body at rest, free or with every point that could hold it slipping, its place is any: the
+  /// derivative gets a stiffness there, by which Newton's method leaves the place as it is.
+  void hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const;
   [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x,
                                                      double frequency) const;
 
@@ -84,6 +87,7 @@ class HarmonicBalance {
   Eigen::VectorXd stiffness_;  // ω_n²
   Eigen::VectorXd damping_;    // 2ζ_n ω_n
   Eigen::MatrixXd stuck_stiffness_;
+  std::vector<Eigen::Index> rigid_;  // modes of frequency 0
 };
 
 }  // namespace microslip::solver

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -96,6 +98,50 @@ TEST(ResponseCurveHard, AModeThatNothingMovesChangesNothing) {
     EXPECT_NEAR(with.points[0].amplitude, without.points[0].amplitude,
                 1e-12 * without.points[0].amplitude);
     EXPECT_EQ(with.points[0].q.rows().col(2).norm(), 0.0);
+  }
+}
+
+/// A body that nothing but one point may hold: a rigid-body mode and a bending mode at 50 Hz.
+solver::Scene loose_body(double preload) {
+  solver::Scene scene;
+  scene.natural_frequency = Eigen::Vector2d(0.0, 100.0 * M_PI);
+  scene.damping_ratio = Eigen::Vector2d(0.0, 0.01);
+  scene.output = Eigen::Vector2d::Ones();
+  scene.excitation = contact::Harmonics(1, 2);
+  scene.excitation.rows().row(1) = Eigen::RowVector2d::Ones();
+  scene.contact = std::make_unique<contact::PatchForce>(
+      contact::ContactPatch(Eigen::VectorXd::Ones(1), {{2e4, 0.0, 0.3, preload}}),
+      contact::ModalShapes{Eigen::RowVector2d(1.0, -1.0), Eigen::MatrixXd::Zero(1, 2), {}});
+  return scene;
+}
+
+TEST(ResponseCurveHard, ABodyThatSlipsLooseStaysWhereItIs) {
+  // Row 27. The mean of the rigid-body mode is held while the point sticks, and any while it slips
+  // throughout.
+  for (const auto& [begin, end] : {std::pair{10.0, 70.0}, std::pair{70.0, 10.0}}) {
+    for (const double preload : {1.0, 10.0}) {
+      const auto curve = solver::trace_response(
+          loose_body(preload), frequency_range(2.0 * M_PI * begin, 2.0 * M_PI * end));
+      expect_proven(curve, "loose body");
+      EXPECT_GT(marked(curve, PointMark::peak).size(), 0U);
+      for (const ResponsePoint& point : curve.points) EXPECT_LT(std::abs(point.mean), 1e-12);
+    }
+  }
+}
+
+TEST(ResponseCurveHard, AFreeBodyThatNothingHoldsAnswersByItsInertia) {
+  // Row 27. Nothing holds its mean: the linear response of both modes.
+  solver::Scene scene = loose_body(1.0);
+  scene.contact.reset();
+  const auto curve = solver::trace_response(scene, frequency_range(20.0 * M_PI, 140.0 * M_PI));
+  expect_proven(curve, "free body");
+  for (const ResponsePoint& point : curve.points) {
+    const double w = point.frequency;
+    const double elastic = std::pow(scene.natural_frequency[1], 2);
+    const std::complex<double> exact =
+        -1.0 / (w * w) +
+        1.0 / std::complex<double>(elastic - w * w, 2.0 * 0.01 * std::sqrt(elastic) * w);
+    EXPECT_NEAR(point.amplitude, std::abs(exact), 1e-11 * std::abs(exact));
   }
 }
 
