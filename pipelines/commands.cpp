@@ -383,7 +383,7 @@ int cycle(const Arguments& arguments) {
   }
   if (arguments.plot_folder) require_folder_name(*arguments.plot_folder, "--plot");
   if (!arguments.output.empty()) require_file_name(arguments.output, "-o");
-  const CsvTable table = CsvTable::read(arguments.input);
+  const CsvTable table = CsvTable::read(arguments.input, Tiny::zero);
   const std::string json = cycles_as_json(table, arguments.harmonics);
   if (table.n_rows() == 0) {
     std::cerr << fmt::format(

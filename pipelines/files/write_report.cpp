@@ -102,12 +102,18 @@ std::string structure_text(const JsonEntry& run) {
   return text;
 }
 
+/// Where a largest amplitude is; a peak in runs that do not say.
+std::string place_of(const JsonEntry& largest) {
+  return largest.has("at") ? largest.text("at") : "peak";
+}
+
 std::string curve_row(const JsonEntry& curve) {
   std::string peak_text = "– | –";
   if (curve.has("peak")) {
     const JsonEntry peak = curve.at("peak");
-    peak_text =
-        fmt::format("{:.4f} | {:.5g}", peak.number("frequency_Hz"), peak.number("amplitude_m"));
+    peak_text = fmt::format("{:.4f}{} | {:.5g}", peak.number("frequency_Hz"),
+                            place_of(peak) == "range_end" ? " (end of the range)" : "",
+                            peak.number("amplitude_m"));
   }
   std::string folds;
   for (const JsonEntry& fold : curve.list("folds_Hz")) {
@@ -157,11 +163,6 @@ std::string detached_text(const JsonEntry& curve) {
 /// The best value of a search; the first versions searched the preload alone.
 double value_of(const JsonEntry& optimum) {
   return optimum.number(optimum.has("value") ? "value" : "preload_N");
-}
-
-/// Where a best amplitude is; a peak in runs that do not say.
-std::string place_of(const JsonEntry& optimum) {
-  return optimum.has("at") ? optimum.text("at") : "peak";
 }
 
 bool is_found(const JsonEntry& optimum) { return !optimum.has("found") || optimum.truth("found"); }

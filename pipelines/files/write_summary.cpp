@@ -31,7 +31,9 @@ Json to_json(const std::variant<double, LimitName>& preload) {
 }
 
 Json to_json(const PeakSummary& peak) {
-  return {{"frequency_Hz", in_hertz(peak.frequency)}, {"amplitude_m", peak.amplitude}};
+  return {{"frequency_Hz", in_hertz(peak.frequency)},
+          {"amplitude_m", peak.amplitude},
+          {"at", peak.at_range_end ? "range_end" : "peak"}};
 }
 
 Json to_json(const Machine& machine) {

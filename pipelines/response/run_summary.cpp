@@ -56,7 +56,13 @@ CurveSummary summarise(const CurveResult& result) {
   summary.seconds = result.curve.seconds;
   for (const solver::ResponsePoint& point : result.curve.points) add_point(summary, point);
   const auto highest = std::ranges::max_element(summary.peaks, {}, &PeakSummary::amplitude);
-  if (highest != summary.peaks.end()) summary.peak = *highest;
+  if (highest != summary.peaks.end()) {
+    summary.peak = *highest;
+  } else if (result.curve.complete && !result.curve.points.empty()) {
+    const solver::ResponsePoint& largest =
+        *std::ranges::max_element(result.curve.points, {}, &solver::ResponsePoint::amplitude);
+    summary.peak = {largest.frequency, largest.amplitude, true};
+  }
   for (const NamedMap& map : result.maps) summary.maps.push_back(map.name);
   summary.certificate = result.curve.certificate;
   summary.remedies = result.curve.log;

@@ -37,6 +37,7 @@ struct ModeSummary {
 struct PeakSummary {
   double frequency = 0.0;  ///< ω [rad/s]
   double amplitude = 0.0;  ///< [m]
+  bool at_range_end = false;
 };
 
 /// A ResponseCurve in a few numbers.
@@ -50,7 +51,8 @@ struct CurveSummary {
   bool complete = false;
   std::string diagnosis;
   std::string message;
-  std::optional<PeakSummary> peak;  ///< the highest of `peaks`; none when no peak was in range
+  /// The highest of `peaks`; of a complete curve without peaks its highest end. None: neither.
+  std::optional<PeakSummary> peak;
   std::vector<PeakSummary> peaks;
   std::vector<double> folds;  ///< ω [rad/s], in branch order
   std::size_t points = 0;

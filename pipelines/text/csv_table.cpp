@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -89,12 +90,13 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t limit) {
   return content;
 }
 
-CsvTable CsvTable::read(const std::filesystem::path& file) {
-  return parse(read_text(file, largest_table), file.string());
+CsvTable CsvTable::read(const std::filesystem::path& file, Tiny tiny) {
+  return parse(read_text(file, largest_table), file.string(), tiny);
 }
 
-CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
+CsvTable CsvTable::parse(std::string_view text, const std::string& name, Tiny tiny) {
   CsvTable table;
+  table.tiny_ = tiny;
   table.name_ = name;
   std::size_t line_number = 0;
   std::optional<std::size_t> id_column;
@@ -155,6 +157,7 @@ double CsvTable::number_in(std::string_view cell, std::size_t line, std::size_t 
   } catch (const UnitError& error) {
     throw SceneError(fmt::format("{}:{}: {}: {}", name_, line, columns_[column], error.what()));
   }
+  if (tiny_ == Tiny::zero && std::abs(value) < 1.0 && !is_of_usable_size(value)) return 0.0;
   if (!is_of_usable_size(value)) {
     throw SceneError(fmt::format(
         "{}:{}: {}: \"{}\" is out of range: expected a finite number, 0 or of a size from "

@@ -11,14 +11,17 @@
 
 namespace microslip::pipelines {
 
+/// What a number below 1e-100 in size is.
+enum class Tiny { refused, zero };
+
 class CsvTable {
  public:
   /// @param name  how messages call the table, e.g. the file.
   /// @throws SceneError  "name:line: …": no header, a name twice, a line of over 1 MB, a row of another length, a cell that
   ///         is neither 0 nor of a size from 1e-100 to 1e100 (the column `id` may hold any text).
-  static CsvTable parse(std::string_view text, const std::string& name);
+  static CsvTable parse(std::string_view text, const std::string& name, Tiny tiny = Tiny::refused);
   /// @throws SceneError  the file is missing or over 1 GB; otherwise as parse().
-  static CsvTable read(const std::filesystem::path& file);
+  static CsvTable read(const std::filesystem::path& file, Tiny tiny = Tiny::refused);
 
   /// Rows that come from elsewhere.
   /// @param values  row by row, n × columns, finite.
@@ -54,6 +57,7 @@ class CsvTable {
   std::vector<std::string> columns_;
   std::vector<double> values_;
   std::vector<std::string> ids_;
+  Tiny tiny_ = Tiny::refused;
   std::size_t header_line_ = 0;      // 0: none, the table comes from elsewhere
   std::vector<std::size_t> lines_;   // of each row in the file,
   std::vector<std::string> places_;  // or where each row stands, when it comes from elsewhere

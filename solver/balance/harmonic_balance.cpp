@@ -228,10 +228,11 @@ Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
     }
     x.segment(first, count) = contact::solved(matrix, excitation_.segment(first, count));
   };
-  // What is not driven rests, at a resonance without damping as well, and where a mean is any.
-  if (!excitation_.head(n).isZero(0.0)) solve(0, 0, n);
+  // Where a mean is any it is zero.
+  if (rigid_.empty() || !excitation_.head(n).isZero(0.0)) solve(0, 0, n);
   Eigen::Index first = n;
   for (const int k : set_.orders()) {
+    // What is not driven rests, at a resonance without damping as well.
     if (!excitation_.segment(first, 2 * n).isZero(0.0)) solve(k, first, 2 * n);
     first += 2 * n;
   }

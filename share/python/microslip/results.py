@@ -71,7 +71,8 @@ class Curve(Table):
 
     @property
     def peak(self) -> Optional[dict[str, float]]:
-        """The highest peak: frequency_Hz and amplitude_m. None where there is none."""
+        """The highest peak: frequency_Hz, amplitude_m and `at`, "peak"; of a complete curve without peaks the highest end
+        of the range, `at` "range_end". None where there is neither."""
         return self.summary.get("peak")
 
     @property

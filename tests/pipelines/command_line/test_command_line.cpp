@@ -327,6 +327,21 @@ TEST_F(Program, WritesCyclesToStandardOutputOrAFile) {
   expect("cycle t.csv --harmonics 0", 1, {"--harmonics"});
 }
 
+TEST_F(Program, MotionsTooSmallForAnyUnitAreNone) {
+  const auto table = [](const char* amplitude) {
+    return table_header + std::string("1,1,0.5,1,") + amplitude + ",0,0,0.2,0\n";
+  };
+  write(path("zero.csv"), table("0"));
+  const std::string at_rest = run("cycle zero.csv").out;
+  EXPECT_EQ(Json::parse(at_rest)[0]["regime"], "full_stick");
+  for (const char* tiny : {"1e-101", "-1e-300", "5e-324"}) {
+    write(path("tiny.csv"), table(tiny));
+    EXPECT_EQ(run("cycle tiny.csv").out, at_rest) << tiny;
+  }
+  write(path("huge.csv"), table("1e101"));
+  expect("cycle huge.csv", 1, {"huge.csv:2: u_sin", "1e101"});
+}
+
 TEST_F(Program, WritesNothingWhenARowIsBad) {
   write(path("t.csv"), table_header + "1,1,0.5,1,3,0,0,0.2,0\n1,-1,0.5,1,1,0,0,2,0\n");
   write(path("old.json"), "old");

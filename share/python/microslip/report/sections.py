@@ -156,7 +156,8 @@ def peaks(run, data):
         peak, bar = curve.get("peak") or {}, curve.get("bar") or {}
         amplitude = peak.get("amplitude_m")
         share = amplitude / reference - 1 if reference and amplitude else None
-        rows.append([preload_text(curve), number(peak.get("frequency_Hz"), 6),
+        end = " (end of the range)" if peak.get("at") == "range_end" else ""
+        rows.append([preload_text(curve), number(peak.get("frequency_Hz"), 6) + end,
                      number(amplitude / size if amplitude else None, 4),
                      percent(bar.get("peak_amplitude")), "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−"),
                      ", ".join(number(fold, 6) for fold in curve.get("folds_Hz") or []) or "–",
