@@ -143,10 +143,15 @@ void keep(const Round& round, const Refinement& step, RunRecord& record) {
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
 std::string reached_text(const AccuracySummary& accuracy) {
-  std::string text =
-      fmt::format("asked for {}, reached {}", percent_text(accuracy.asked),
-                  std::isfinite(accuracy.reached) ? percent_text(accuracy.reached)
-                                                  : "what is not known of every curve");
+  if (!std::isfinite(accuracy.reached)) {
+    const std::string text =
+        fmt::format("asked for {}; what is reached is not known", percent_text(accuracy.asked));
+    if (accuracy.not_known.empty()) return text;
+    return fmt::format("{}: errors of {} could not be told", text,
+                       fmt::join(accuracy.not_known, ", "));
+  }
+  std::string text = fmt::format("asked for {}, reached {}", percent_text(accuracy.asked),
+                                 percent_text(accuracy.reached));
   if (!accuracy.not_known.empty()) {
     text += fmt::format(", not counting {}", fmt::join(accuracy.not_known, ", "));
   }

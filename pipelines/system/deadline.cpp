@@ -31,7 +31,9 @@ double seconds_left() { return allowed - seconds_spent(); }
 bool time_is_short() {
   constexpr double share = 0.1;
   constexpr double least = 2.0;
-  return seconds_left() < std::max(share * allowed, least);
+  constexpr double most = 0.5;  // of a budget of few seconds
+  const double writing = std::max(share * allowed, std::min(least, most * allowed));
+  return seconds_left() < writing;
 }
 
 bool cut_short() {

@@ -225,7 +225,7 @@ def asked_accuracy(run):
         return ""
     reached = accuracy.get("reached")
     words = [f"Asked for {percent(accuracy['asked'])} of every peak",
-             f"reached {percent(reached)}" if is_number(reached) else "reached what is not known of every curve",
+             f"reached {percent(reached)}" if is_number(reached) else "what is reached is not known",
              *(f"then with {escape(step)}" for step in accuracy.get("refined") or [])]
     return f"<p>{'; '.join(words)}.</p>"
 
