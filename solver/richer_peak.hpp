@@ -44,7 +44,8 @@ struct PeakOfBoth {
   double other_frequency = 0.0, other_amplitude = 0.0;  ///< solved for in the other model
 };
 
-/// The highest peak of a curve, or end of its range, solved for again in another model with the same harmonics.
+/// The highest peak of a curve, or end of its range, solved for again in another model with the same harmonics. Where what
+/// is found is much lower, or nothing is, points beside the peak are tried too, and the highest counts.
 /// @param scene, range  of the curve.
 /// @return empty: the curve has no such point, or the other model has no peak near by.
 [[nodiscard]] std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene,

@@ -1,5 +1,6 @@
 #include "solver/richer_peak.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <vector>
@@ -11,7 +12,8 @@
 namespace microslip::solver {
 namespace {
 
-constexpr double farthest = 4.0;  // amplitudes or widths along the branch
+constexpr double farthest = 4.0;     // amplitudes or widths along the branch
+constexpr double much_lower = 0.95;  // of the amplitude
 
 /// The highest peak of the curve itself; without one an end of the range. What stopped somewhere has neither.
 std::optional<HighPoint> top_of(const std::vector<HighPoint>& high) {
@@ -82,6 +84,44 @@ Eigen::VectorXd in_modes(const HarmonicBalance& from, const HarmonicBalance& to,
   return to.unknowns(other);
 }
 
+/// From the peak of one model to that of another.
+struct Carrier {
+  const HarmonicBalance& from;
+  const HarmonicBalance& to;
+  const OtherModel& other;
+  ContinuationOptions range;
+
+  [[nodiscard]] std::optional<LocalPeak> carried(const LocalPeak& peak) const {
+    LocalPeak start = peak;
+    start.point.x = in_modes(from, to, peak.point.x, other.embedding);
+    // An end of the range stays where it is.
+    if (start.place == PeakPlace::peak) start.point.parameter *= other.frequency_factor;
+    start.tangent.x = in_modes(from, to, peak.tangent.x, other.embedding);
+    PeakWork work;
+    return level_point(to, start, range, work, farthest);
+  }
+};
+
+/// Points of the curve on either side of its highest, as long as they are nearly as high.
+std::vector<LocalPeak> places_beside(const HarmonicBalance& balance, const ResponseCurve& curve,
+                                     const ResponsePoint& top) {
+  constexpr double nearly = 0.8;
+  constexpr std::ptrdiff_t most = 4;
+  const auto highest = std::ranges::find(curve.points, top.frequency, &ResponsePoint::frequency);
+  std::vector<LocalPeak> places;
+  if (highest == curve.points.end()) return places;
+  for (const std::ptrdiff_t side : {-1, 1}) {
+    for (std::ptrdiff_t i = 1; i <= most; ++i) {
+      const std::ptrdiff_t at = highest - curve.points.begin() + side * i;
+      if (at < 0 || at >= std::ssize(curve.points)) break;
+      const ResponsePoint& point = curve.points[static_cast<std::size_t>(at)];
+      if (point.amplitude < nearly * top.amplitude) break;
+      if (auto place = local_peak(balance, point)) places.push_back(std::move(*place));
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
@@ -118,13 +158,15 @@ std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationO
   const std::optional<Top> top = solved_top(scene, balance, range, curve);
   if (!top) return std::nullopt;
   const HarmonicBalance elsewhere(other.scene, balance.set());
-  LocalPeak start = top->peak;
-  start.point.x = in_modes(balance, elsewhere, top->peak.point.x, other.embedding);
-  // An end of the range stays where it is.
-  if (start.place == PeakPlace::peak) start.point.parameter *= other.frequency_factor;
-  start.tangent.x = in_modes(balance, elsewhere, top->peak.tangent.x, other.embedding);
-  PeakWork work;
-  const auto found = level_point(elsewhere, start, widened(range), work, farthest);
+  const Carrier carrier{balance, elsewhere, other, widened(range)};
+  std::optional<LocalPeak> found = carrier.carried(top->peak);
+  // Much lower is another peak: the highest may be reached from points beside that of the curve.
+  if (!found || found->amplitude < much_lower * top->point.amplitude) {
+    for (const LocalPeak& beside : places_beside(balance, curve, top->point)) {
+      std::optional<LocalPeak> next = carrier.carried(beside);
+      if (next && (!found || next->amplitude > found->amplitude)) found = std::move(next);
+    }
+  }
   if (!found) return std::nullopt;
   return PeakOfBoth{top->point.frequency, top->point.amplitude, found->point.parameter,
                     found->amplitude};
