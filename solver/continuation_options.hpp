@@ -3,7 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
+
+#include "contact/harmonics.hpp"
 
 namespace microslip::solver {
 
@@ -27,6 +30,9 @@ struct ContinuationOptions {
   /// Asked between the steps of choices, searches and followed peaks: true ends them with what there is. A curve itself
   /// is stopped by its observer.
   std::function<bool()> stop{};
+  /// A motion near the solution at frequency_begin, of a poorer model say: Newton's method is tried from it before the
+  /// linear limits, so that of several solutions there the curve begins with that one.
+  std::optional<contact::Harmonics> near_begin{};
   /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
   int search_starts = 0;
 };

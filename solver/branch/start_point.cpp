@@ -92,7 +92,8 @@ NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& gue
                       options);
 }
 
-StartPoint find_start(const HarmonicBalance& balance, double frequency, double tolerance) {
+StartPoint find_start(const HarmonicBalance& balance, double frequency, double tolerance,
+                      const Harmonics* near) {
   StartPoint start;
   NewtonOptions options;
   options.tolerance = tolerance;
@@ -105,6 +106,11 @@ StartPoint find_start(const HarmonicBalance& balance, double frequency, double t
     if (result.converged) start.solution = std::move(result);
     return start.solution.has_value();
   };
+  if (near != nullptr && near->rows().cols() == balance.scene().n_modes() &&
+      accept(solve_at(balance, balance.unknowns(*near), frequency, options),
+             "Newton from a motion near by")) {
+    return start;
+  }
   for (const Guess& guess : list) {
     if (accept(solve_at(balance, guess.x, frequency, options),
                std::string("Newton from the ") + guess.name + " response")) {

@@ -1,5 +1,5 @@
 /// @file
-/// A first solution at one frequency: Newton from the linear limits, then homotopies that exchange a
+/// A first solution at one frequency: Newton from a motion near by, from the linear limits, then homotopies that exchange a
 /// linear limit for the contact.
 #pragma once
 
@@ -18,8 +18,9 @@ struct StartPoint {
 };
 
 /// @param tolerance  of ResponsePoint::residual.
+/// @param near       a motion near the solution, tried first; nullptr: none is known.
 [[nodiscard]] StartPoint find_start(const HarmonicBalance& balance, double frequency,
-                                    double tolerance);
+                                    double tolerance, const Harmonics* near = nullptr);
 
 /// Newton at a fixed frequency from a guess, on the scale of the balance there.
 [[nodiscard]] NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& guess,

@@ -63,6 +63,7 @@ void note_boundary_peak(ResponseCurve& curve) {
 ResponseCurve trace_backwards(const Scene& scene, ContinuationOptions options,
                               const PointObserver& observe) {
   std::swap(options.frequency_begin, options.frequency_end);
+  options.near_begin.reset();
   ResponseCurve curve = CurveTracer(scene, options, observe).run();
   std::reverse(curve.points.begin(), curve.points.end());
   return curve;
@@ -206,7 +207,8 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   if (options.harmonic_tolerance > 0.0) return trace_choosing(scene, here, {});
   const Stopwatch watch;
   const HarmonicSet set = first_harmonics(scene, options);
-  StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance);
+  StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance,
+                                options.near_begin ? &*options.near_begin : nullptr);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;

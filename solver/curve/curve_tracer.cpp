@@ -236,7 +236,8 @@ ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
 }
 
 ResponseCurve CurveTracer::run() {
-  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance);
+  StartPoint start = find_start(*balance_, options_.frequency_begin, options_.residual_tolerance,
+                                options_.near_begin ? &*options_.near_begin : nullptr);
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
   if (!start.solution) {

@@ -182,6 +182,24 @@ TEST(Continuation, AFrequencyInsideAFoldHasThreeSolutions) {
   EXPECT_TRUE(points_at_frequency(scene, curve, 3.0, options).empty());
 }
 
+TEST(Continuation, OfSeveralSolutionsItBeginsWithTheOneItIsNear) {
+  const auto scene = Duffing{}.scene();
+  const auto options = frequency_range(0.5, 2.5);
+  const auto curve = trace_response(scene, options);
+  const auto folds = marked(curve, PointMark::fold);
+  const double inside = 0.5 * (folds[0].frequency + folds[1].frequency);
+  const auto solutions = points_at_frequency(scene, curve, inside, options);
+  ASSERT_EQ(solutions.size(), 3U);
+  for (const ResponsePoint& solution : solutions) {
+    ContinuationOptions there = frequency_range(inside, inside);
+    there.near_begin = solution.q;
+    there.near_begin->rows() *= 1.02;
+    const auto from_there = trace_response(scene, there);
+    ASSERT_EQ(from_there.points.size(), 1U);
+    EXPECT_NEAR(from_there.points.front().amplitude, solution.amplitude, 1e-9);
+  }
+}
+
 TEST(Continuation, AsksForTheResidualItIsTold) {
   // The corrector polishes as long as that pays; what counts is when it calls a point solved. The
   // range has steps long enough that a loose tolerance is met one iteration earlier.
