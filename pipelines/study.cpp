@@ -30,8 +30,10 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/accurate_curves.hpp"
 #include "pipelines/run/curve_family.hpp"
+#include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/run_record.hpp"
+#include "pipelines/run/solved_again.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -164,6 +166,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);
+    put_back_missed_effects(solution, options.jobs, record);
     refine_to_tolerance(solution, options.jobs, record);
     record.tell_effects();
     if (solution.structure) ask(record, scene, solution.structure->mesh, solution.curves);

@@ -1,9 +1,11 @@
 #include "pipelines/accuracy/effect_bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -27,6 +29,34 @@ std::string objection_of(double bound) {
                      100.0 * bound);
 }
 
+/// What a model can be solved with in place of without, settings of the scene alone apart.
+constexpr std::array<std::string_view, 2> switchable{"normal_motion", "second_direction"};
+
+/// |A with / A without − 1| of a row is |A without / A with − 1| of who had left it out.
+double change_without(double by_having) {
+  return std::isinf(by_having) ? by_having : std::abs(1.0 / (1.0 + by_having) - 1.0);
+}
+
+/// The largest of a source that is beyond the tolerance.
+std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::string_view source,
+                                    double tolerance) {
+  std::optional<double> largest;
+  for (const ErrorRow& row : rows) {
+    if (row.source != source || !(std::abs(row.effect) > tolerance)) continue;
+    largest = std::max(change_without(row.effect), largest.value_or(0.0));
+  }
+  return largest;
+}
+
+std::string switched_on_text(double change) {
+  if (std::isinf(change)) {
+    return "switched on after the run: the highest peak with it was not found from that without";
+  }
+  return fmt::format(
+      "switched on after the run: left out it would have changed the peak by {:.2g} %",
+      100.0 * change);
+}
+
 }  // namespace
 
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
@@ -38,6 +68,30 @@ void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
     if (!change) continue;
     effect.bound = change;
     effect.objection = *change > tolerance ? objection_of(*change) : "";
+  }
+}
+
+std::vector<MissedEffect> missed_effects(const std::vector<ErrorRow>& rows, double tolerance,
+                                         const std::vector<EffectRecord>& effects) {
+  std::vector<MissedEffect> missed;
+  for (const std::string_view name : switchable) {
+    const auto effect = std::ranges::find(effects, name, &EffectRecord::name);
+    if (effect == effects.end() || effect->setting != "auto") continue;
+    if (effect->simulated != Simulated::no) continue;
+    if (const auto change = missed_change(rows, name, tolerance)) {
+      missed.push_back({std::string(name), *change});
+    }
+  }
+  return missed;
+}
+
+void tell_switched_on(const std::vector<MissedEffect>& missed, std::vector<EffectRecord>& effects) {
+  for (const MissedEffect& one : missed) {
+    const auto effect = std::ranges::find(effects, one.name, &EffectRecord::name);
+    if (effect == effects.end()) continue;
+    effect->setting = "auto";
+    effect->switched_on = one.change;
+    effect->reason += "; " + switched_on_text(one.change);
   }
 }
 

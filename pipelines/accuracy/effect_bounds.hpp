@@ -2,6 +2,7 @@
 /// What leaving an effect out does to the peaks, told with the effect.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "pipelines/model/effect_record.hpp"
@@ -15,5 +16,22 @@ namespace microslip::pipelines {
 /// @param rows  of error budgets, and of rows_left_out().
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                  std::vector<EffectRecord>& effects);
+
+/// An effect that `auto` had left out, and that matters.
+struct MissedEffect {
+  std::string name;
+  double change = 0.0;  ///< relative, of a highest peak by leaving it out; infinite: as in a row
+};
+
+/// Those that a run can put back, normal motion and friction along r: left to `auto`, left out, and having them changes a
+/// highest peak by more than the tolerance. What a user switches off stays off.
+/// @param rows  as of tell_bounds().
+[[nodiscard]] std::vector<MissedEffect> missed_effects(const std::vector<ErrorRow>& rows,
+                                                       double tolerance,
+                                                       const std::vector<EffectRecord>& effects);
+
+/// Tells of effects that a run has put back that this was so: simulated, the setting the user's `auto`.
+/// @param effects  of the scene with them on.
+void tell_switched_on(const std::vector<MissedEffect>& missed, std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

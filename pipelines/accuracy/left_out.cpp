@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/model/effect_choice.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "solver/richer_peak.hpp"
@@ -29,6 +30,7 @@ std::vector<WithEffect> models_with(const ReducedModel& model, const SceneDescri
   const auto add = [&](const char* name, bool ContactEffects::*effect) {
     WithEffect& other = others.emplace_back(WithEffect{name, model});
     other.model.effects.*effect = true;
+    other.model.coordinates = contact_coordinates(other.model, scene);
   };
   const auto moves = [](const contact::Patch& patch) {
     return !patch.cells.stiffness.col(1).isZero(0.0) && !patch.cells.shapes.v.isZero(0.0);

@@ -302,6 +302,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   constexpr double beside = 0.5;  // of the tolerance
   const Plan plan = plans.cheapest(std::max(wanted * tolerance, least + beside * tolerance));
   Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};
+  result.only_harmonics = true;
   std::vector<std::string> texts;
   for (const auto& [source, move] : plan.moves) {
     if (move->text.empty()) continue;

@@ -14,10 +14,10 @@ namespace microslip::pipelines {
 /// A scene with finer settings.
 struct Refinement {
   SceneDescription scene;
-  std::string text;            ///< what is refined, for the log
-  bool new_mesh = false;       ///< mesh and modes are solved for again
-  bool only_harmonics = true;  ///< curves that are exact enough may stay
-  double seconds = 0.0;        ///< about, of the round
+  std::string text;             ///< what is refined, for the log
+  bool new_mesh = false;        ///< mesh and modes are solved for again
+  bool only_harmonics = false;  ///< curves that are exact enough may stay
+  double seconds = 0.0;         ///< about, of the round
 };
 
 /// What a scene has cost so far.

@@ -290,7 +290,8 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
 }
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
-                        const CurveRequest& request, const solver::PointObserver& observe) {
+                        const CurveRequest& request, const solver::PointObserver& observe,
+                        const solver::ResponseCurve* near) {
   solver::ContinuationOptions options = continuation_options(scene, model);
   CurveResult result;
   result.name = request.name;
@@ -322,6 +323,10 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
     return result;
   }
   options.search_starts = search_starts(scene, model, load);
+  if (near != nullptr && !near->points.empty() &&
+      near->points.front().frequency == options.frequency_begin) {
+    options.near_begin = near->points.front().q;
+  }
   const solver::Scene problem = balanced_scene(model, load, options);
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)

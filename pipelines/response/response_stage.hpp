@@ -48,9 +48,11 @@ void require_response(const SceneDescription& scene);
 void require_held(const ReducedModel& model, const SceneDescription& scene);
 
 /// Traces one curve: a solution at one frequency when the range has no width.
+/// @param near  the curve of a poorer model with the same modes, beside whose beginning this one begins; nullptr: none.
 [[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                                       const CurveRequest& request,
-                                      const solver::PointObserver& observe);
+                                      const solver::PointObserver& observe,
+                                      const solver::ResponseCurve* near = nullptr);
 
 /// Solves the highest peak with more harmonics than were given, where the contact is not proved linear: result.richer.
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,

@@ -2,58 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/refinement.hpp"
-#include "pipelines/effect_table.hpp"
-#include "pipelines/model/effects.hpp"
-#include "pipelines/run/curve_family.hpp"
-#include "pipelines/scene/curve_request.hpp"
-#include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
-#include "pipelines/system/scene_error.hpp"
-#include "pipelines/system/temporary_folder.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
 constexpr int most_rounds = 6;
-
-/// Where the mesher writes a mesh that may not be kept.
-struct Round {
-  Solution solution;
-  std::vector<std::string> warnings;
-  std::unique_ptr<TemporaryFolder> folder = std::make_unique<TemporaryFolder>();
-  [[nodiscard]] std::filesystem::path mesh_file() const { return folder->path() / "mesh.msh"; }
-};
-
-StructurePointer structure_of(const Solution& before, const Refinement& step, const Round& round) {
-  if (!before.structure || !step.new_mesh) return before.structure;
-  return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
-}
-
-/// Those that are exact enough stay, where the others get other harmonics alone.
-std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinement& step) {
-  const double tolerance = before.scene.accuracy.tolerance;
-  std::vector<std::size_t> again;
-  for (std::size_t i = 0; i < before.curves.size(); ++i) {
-    const CurveBudget& budget = before.budgets[i];
-    const bool is_linear = budget.rows.empty() && budget.unknown.empty();
-    const bool stays = step.only_harmonics && before.curves[i].curve.complete &&
-                       (is_linear || largest_bar({budget}) <= tolerance);
-    if (!stays) again.push_back(i);
-  }
-  return again;
-}
 
 SpentSeconds spent_on(const Solution& solution) {
   // Mesh and modes may come from the cache: what they took is told by their size.
@@ -66,78 +29,15 @@ SpentSeconds spent_on(const Solution& solution) {
   return spent;
 }
 
-/// Solves the scene of a step. @return false: the time was over before its end.
-bool solve(const Solution& before, const Refinement& step, int jobs, Progress& progress,
-           Round& round) {
-  Solution& now = round.solution;
-  now.scene = step.scene;
-  now.structure = structure_of(before, step, round);
-  if (cut_short()) return false;
-  now.model = model_of(now.scene, now.structure.get(), round.warnings);
-  const std::vector<std::size_t> again = curves_to_solve(before, step);
-  std::vector<CurveRequest> requests;
-  for (const std::size_t i : again) requests.push_back(curve_requests(now.scene)[i]);
-  std::vector<CurveResult> curves = trace_unkept(now.model, now.scene, requests, jobs, progress);
-  if (cut_short()) return false;
-  std::vector<CurveBudget> budgets =
-      budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
-  now.curves = before.curves;
-  now.budgets = before.budgets;
-  for (std::size_t i = 0; i < again.size(); ++i) {
-    now.curves[again[i]] = std::move(curves[i]);
-    now.budgets[again[i]] = std::move(budgets[i]);
-  }
-  return !cut_short();
-}
-
-bool is_complete(const std::vector<CurveResult>& curves) {
-  return std::ranges::all_of(curves, [](const CurveResult& one) { return one.curve.complete; });
-}
-
-/// Refined, and no worse. @return why it is not; empty: it is.
-std::string objection(const Solution& before, const Solution& now) {
-  if (is_complete(before.curves) && !is_complete(now.curves)) return "a curve is not complete then";
-  if (largest_bar(now.budgets) > largest_bar(before.budgets)) return "the errors are larger then";
-  return {};
-}
-
 /// The round of a step. @return empty: not done, and `obstacle` says why; "" where time was over.
-std::optional<Round> refined(const Solution& before, const Refinement& step, int jobs,
-                             Progress& progress, std::string& obstacle) {
-  try {
-    std::optional<Round> round(std::in_place);
-    if (!solve(before, step, jobs, progress, *round)) return std::nullopt;
-    obstacle = objection(before, round->solution);
-    if (!obstacle.empty()) return std::nullopt;
-    return round;
-  } catch (const InterruptedError&) {
-    throw;
-  } catch (const std::exception& error) {  // what is there stays
-    obstacle = error.what();
+std::optional<SolvedAgain> refined(const Solution& before, const Refinement& step, int jobs,
+                                   Progress& progress, std::string& obstacle) {
+  std::optional<SolvedAgain> round = solved_again(before, step, jobs, progress, obstacle);
+  if (round && largest_bar(round->solution.budgets) > largest_bar(before.budgets)) {
+    obstacle = "the errors are larger then";
     return std::nullopt;
   }
-}
-
-/// In the place of what the record has.
-void keep(const Round& round, const Refinement& step, RunRecord& record) {
-  const Solution& now = round.solution;
-  record.begin_again();
-  if (step.new_mesh) {
-    std::filesystem::copy_file(round.mesh_file(), record.mesh_file(),
-                               std::filesystem::copy_options::overwrite_existing);
-    record.keep_mesh(now.structure->mesh, now.scene.material.density);
-    const StructureModes& modes = now.structure->modes;
-    record.keep_modes(
-        now.structure->mesh, modes,
-        damping_ratios(now.scene.modes, modes.basis.frequency, modes.basis.n_attachment));
-    record.keep_structure(now.structure->mesh, modes.basis);
-  }
-  for (const std::string& warning : round.warnings) record.progress().warning(warning);
-  record.keep_effects(effects_of(now.scene, &now.model));
-  record.keep_model(now.model);
-  for (const CurveResult& curve : now.curves) record.keep_curve(curve, now.model);
-  record.keep_choices(now.scene);
-  keep_budgets(now, record);
+  return round;
 }
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -172,14 +72,6 @@ bool has_budgets(const Solution& solution) {
 
 }  // namespace
 
-void keep_budgets(const Solution& solution, RunRecord& record) {
-  for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
-    record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
-  }
-  const double tolerance = solution.scene.accuracy.tolerance;
-  record.keep_bounds(tolerance > 0.0 ? tolerance : worth_a_warning);
-}
-
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
   AccuracySummary accuracy;
   accuracy.asked = solution.scene.accuracy.tolerance;
@@ -199,13 +91,13 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     record.progress().info(fmt::format("{}; now with {}", reached_text(accuracy), next->text));
     const double begin = seconds_spent();
     std::string obstacle;
-    std::optional<Round> round = refined(solution, *next, jobs, record.progress(), obstacle);
+    std::optional<SolvedAgain> round = refined(solution, *next, jobs, record.progress(), obstacle);
     if (!round) {
       missing = fmt::format("next: {}, more than {:.2g} s", next->text, seconds_spent() - begin);
       if (!obstacle.empty()) missing = fmt::format("{} cannot be kept: {}", next->text, obstacle);
       break;
     }
-    keep(*round, *next, record);
+    keep_solved_again(*round, next->new_mesh, record);
     solution = std::move(round->solution);
     accuracy.refined.push_back(next->text);
     look_at(solution, accuracy);

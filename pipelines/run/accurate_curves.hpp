@@ -13,7 +13,4 @@ namespace microslip::pipelines {
 /// @throws as model_of(), solved_structure().
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record);
 
-/// Keeps curves that are there and what their errors are.
-void keep_budgets(const Solution& solution, RunRecord& record);
-
 }  // namespace microslip::pipelines

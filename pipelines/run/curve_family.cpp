@@ -75,17 +75,19 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
 }
 
 std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDescription& scene,
-                                      const std::vector<CurveRequest>& requests, int jobs,
-                                      Progress& progress) {
+                                      const std::vector<CurveRequest>& requests,
+                                      const std::vector<const solver::ResponseCurve*>& near,
+                                      int jobs, Progress& progress) {
   std::vector<CurveResult> results(requests.size());
   std::atomic<std::size_t> done{0};
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
-    results[i] = trace_curve(model, scene, requests[i], [&](const solver::ResponsePoint& point) {
+    const auto observe = [&](const solver::ResponsePoint& point) {
       progress.point(requests[i].name, point,
                      static_cast<double>(done) / static_cast<double>(requests.size()));
       return goes_on();
-    });
+    };
+    results[i] = trace_curve(model, scene, requests[i], observe, near.empty() ? nullptr : near[i]);
     ++done;
   });
   stop_if_interrupted("curves");

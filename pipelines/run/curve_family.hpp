@@ -19,11 +19,12 @@ namespace microslip::pipelines {
                                                     RunRecord& record);
 
 /// Some of them, of which nothing is kept but the progress.
+/// @param near  curves of a poorer model with the same modes, one per request, near which they begin; or none.
 /// @return one per request, cut short where the time is.
-[[nodiscard]] std::vector<CurveResult> trace_unkept(const ReducedModel& model,
-                                                    const SceneDescription& scene,
-                                                    const std::vector<CurveRequest>& requests,
-                                                    int jobs, Progress& progress);
+[[nodiscard]] std::vector<CurveResult> trace_unkept(
+    const ReducedModel& model, const SceneDescription& scene,
+    const std::vector<CurveRequest>& requests,
+    const std::vector<const solver::ResponseCurve*>& near, int jobs, Progress& progress);
 
 /// Contact maps where the scene asks for them, and the motion of the blade at the peaks.
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,

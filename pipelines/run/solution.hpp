@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/accuracy/effect_bounds.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -21,7 +22,8 @@ struct Solution {
   StructurePointer structure;  ///< nullptr: a kind that gives its modes itself
   ReducedModel model{};
   std::vector<CurveResult> curves{};
-  std::vector<CurveBudget> budgets{};  ///< one per curve; none where they are not asked for
+  std::vector<CurveBudget> budgets{};       ///< one per curve; none where they are not asked for
+  std::vector<MissedEffect> switched_on{};  ///< left out at first; simulated here
 };
 
 }  // namespace microslip::pipelines

@@ -96,8 +96,18 @@ CASES = {
     "faint_across": ("faint_across", [], [ALONG_R]),
     "both_ways": ("both_ways", [], [ALONG_R, NORMAL]),
     "pulled": ("pulled", [], [NORMAL]),
+    # The second mode stands at three times the peak, and only there.
+    "third": ("third", ["modal.frequency=[20, 63]", "modal.damping_ratio=[0.01, 0.0005]"], []),
+    # Along p and along r the point moves with two modes that meet where it slips a little: the orbit turns elliptic.
+    "veering": ("veering", ["modal.frequency=[20, 20.6]", "modal.points[0].phi_u_2=0.1", "modal.points[0].phi_w_1=0.02",
+                            "modal.points[0].phi_w_2=0.35"], [ALONG_R]),
+    # A mode along r below the range, which contact lifts into it.
+    "outside": ("outside", ["modal.frequency=[20, 18.5]", "modal.points[0].phi_u_2=0", "modal.points[0].phi_w_1=0",
+                            "modal.points[0].phi_w_2=0.5"], [ALONG_R]),
+    # Cells that are open at rest.
+    "corner": (f"{SCENES}/chain_2dof_moment.toml", ["response.harmonics=auto", "response.preload=[30]", "response.maps=[]"], []),
 }
-VALUES = {"faint_normal": {"normal": 1e-6}, "faint_across": {"across": 1e-11},
+VALUES = {"third": {"preload": 12}, "veering": {}, "outside": {}, "faint_normal": {"normal": 1e-6}, "faint_across": {"across": 1e-11},
           "both_ways": {"across": 0.3, "normal": 0.2}, "pulled": {"normal": 0.3, "static": -200}}
 
 
@@ -175,6 +185,48 @@ class IndicatorsAreFooled(unittest.TestCase):
         self.assertEqual([curve["detached_branches"] for curve in searched["curves"] if curve["name"] == "scale_1"], [2])
         unsearched = run("gap_off", path, "response.frequency=22", "response.harmonics=1", "effects.coexistence=off")
         self.assertWarned(unsearched, "effects.coexistence: left out")
+
+
+class WhatMattersIsPutBack(unittest.TestCase):
+    """The third harmonic of friction meets a second mode that hardly moves in the linear limits: its normal motion is below the
+    limit of the indicator, changes the peak by more than 2 % all the same, and is simulated after all."""
+
+    HIDDEN = ["modal.frequency=[20, 65.58]", "modal.damping_ratio=[0.01, 1e-6]", "modal.force_sine=[7, 0]", "modal.output=[0.75, 0]",
+              "modal.points[0].phi_u_2=0.007", "modal.points[0].phi_v_2=0.06", "response.harmonics=3", "response.frequency=[21.5, 22.5]"]
+
+    def runs(self, name, *settings):
+        return run(name, scene(name), *self.HIDDEN, *settings)
+
+    def test_what_auto_leaves_out_and_should_not(self):
+        auto, on, off = self.runs("hidden"), self.runs("hidden_on", NORMAL), self.runs("hidden_off", "effects.normal_motion=off")
+        row = effect(auto, "normal_motion")
+        self.assertLess(row["indicator"], row["threshold"])  # before the run nothing was to be seen
+        self.assertIs(row["simulated"], True)
+        self.assertEqual(row["setting"], "auto")
+        self.assertIn("switched on after the run", row["reason"])
+        self.assertIsNotNone(row["switched_on"])
+        self.assertEqual(row["objection"], "")
+        for name in ("separation", "mean_coupling"):
+            self.assertIs(effect(auto, name)["simulated"], True)
+        for curve, amplitude in peaks(on).items():
+            if curve in ("free", "stuck"):
+                continue
+            self.assertLess(abs(peaks(auto)[curve] / amplitude - 1), 1e-6)  # the same equations, solved from another start
+            self.assertGreater(abs(peaks(off)[curve] / amplitude - 1), 0.02)
+            print(f"{curve}: without normal motion {100 * (peaks(off)[curve] / amplitude - 1):+.2f} %")
+        self.assertEqual(len(auto["error_budget"]), len(on["error_budget"]))  # none is left of the curves without
+
+    def test_a_switch_of_the_user_is_obeyed(self):
+        self.assertIsNone(effect(self.runs("hidden_on", NORMAL), "normal_motion")["switched_on"])
+        off = self.runs("hidden_off", "effects.normal_motion=off")
+        row = effect(off, "normal_motion")
+        self.assertIs(row["simulated"], False)
+        self.assertIsNone(row["switched_on"])
+        self.assertTrue([line for line in off["warnings"] if "effects.normal_motion: left out" in line], off["warnings"])
+
+    def test_nothing_is_put_back_where_nothing_is_asked_of_the_errors(self):
+        unasked = self.runs("hidden_unasked", "accuracy.error_budget=off")
+        self.assertIs(effect(unasked, "normal_motion")["simulated"], False)
 
 
 class NothingIsHidden(unittest.TestCase):

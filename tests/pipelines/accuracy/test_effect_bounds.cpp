@@ -1,6 +1,9 @@
 #include "pipelines/accuracy/effect_bounds.hpp"
 
+#include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +49,65 @@ TEST(EffectBounds, WhatIsSimulatedHasNone) {
   tell_bounds({{"a", peak_amplitude_goal, "second_direction", 0.5, true, 0.1}}, tolerance, effects);
   EXPECT_FALSE(effects[0].bound.has_value());
   EXPECT_EQ(effects[0].objection, "");
+}
+
+std::vector<std::string> missed_names(const std::vector<ErrorRow>& rows,
+                                      const std::vector<EffectRecord>& effects) {
+  std::vector<std::string> names;
+  for (const MissedEffect& one : missed_effects(rows, tolerance, effects))
+    names.push_back(one.name);
+  return names;
+}
+
+const std::vector<ErrorRow> both_matter{
+    {"a", peak_amplitude_goal, "normal_motion", 0.25, true, 0.1},
+    {"a", peak_frequency_goal, "second_direction", -0.03, true, 0.1}};
+
+TEST(MissedEffects, ThoseThatAutoLeavesOutAndThatMatterArePutBack) {
+  EXPECT_EQ(missed_names(both_matter, {left_out("normal_motion"), left_out("second_direction")}),
+            (std::vector<std::string>{"normal_motion", "second_direction"}));
+  const std::vector<ErrorRow> little{{"a", peak_amplitude_goal, "normal_motion", 0.019, true, 0.1}};
+  EXPECT_TRUE(missed_names(little, {left_out("normal_motion")}).empty());
+}
+
+TEST(MissedEffects, ASwitchOfTheUserIsObeyed) {
+  std::vector<EffectRecord> effects{left_out("normal_motion"), left_out("second_direction")};
+  effects[0].setting = "off";
+  effects[1].simulated = Simulated::yes;
+  EXPECT_TRUE(missed_names(both_matter, effects).empty());
+}
+
+TEST(MissedEffects, WhatARunCannotPutBackIsNotMissed) {
+  EXPECT_TRUE(missed_names({{"a", peak_amplitude_goal, "harmonics", 0.5, true, 0.1},
+                            {"a", peak_amplitude_goal, "mesh", 0.5, true, 0.1}},
+                           {left_out("higher_harmonics"), left_out("roughness")})
+                  .empty());
+}
+
+// The row is of the peak without: 25 % more with it is a fifth too little without.
+TEST(MissedEffects, AreToldByWhatThePeakWouldLose) {
+  const auto missed = missed_effects(both_matter, tolerance, {left_out("normal_motion")});
+  ASSERT_EQ(missed.size(), 1U);
+  EXPECT_DOUBLE_EQ(missed[0].change, 0.2);
+  std::vector<EffectRecord> effects{left_out("normal_motion")};
+  effects[0].setting = "on";  // as the scene that is solved with it says
+  effects[0].simulated = Simulated::yes;
+  tell_switched_on(missed, effects);
+  EXPECT_EQ(effects[0].setting, "auto");
+  EXPECT_DOUBLE_EQ(effects[0].switched_on.value(), 0.2);
+  EXPECT_NE(effects[0].reason.find("switched on after the run: left out it would have changed the "
+                                   "peak by 20 %"),
+            std::string::npos)
+      << effects[0].reason;
+}
+
+TEST(MissedEffects, APeakThatIsLostWithTheEffectIsBeyondEveryTolerance) {
+  constexpr double lost = std::numeric_limits<double>::infinity();
+  const auto missed =
+      missed_effects({{"a", peak_amplitude_goal, "normal_motion", lost, false, 0.1}}, tolerance,
+                     {left_out("normal_motion")});
+  ASSERT_EQ(missed.size(), 1U);
+  EXPECT_TRUE(std::isinf(missed[0].change));
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+#include "pipelines/run/missed_effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/run/solved_again.hpp"
+#include "pipelines/system/deadline.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+std::vector<MissedEffect> missed_in(const Solution& solution) {
+  std::vector<ErrorRow> rows;
+  for (const CurveBudget& budget : solution.budgets) {
+    rows.insert(rows.end(), budget.rows.begin(), budget.rows.end());
+    rows.insert(rows.end(), budget.left_out.begin(), budget.left_out.end());
+  }
+  std::vector<MissedEffect> missed =
+      missed_effects(rows, tolerance_of_effects(solution.scene), effects_of(solution));
+  std::erase_if(missed, [&](const MissedEffect& one) {  // at most once each
+    return std::ranges::find(solution.switched_on, one.name, &MissedEffect::name) !=
+           solution.switched_on.end();
+  });
+  return missed;
+}
+
+/// As if the user had switched them on; the table of effects tells who did.
+SceneDescription with_effects(SceneDescription scene, const std::vector<MissedEffect>& missed) {
+  for (const MissedEffect& one : missed) {
+    for (auto& [effect, setting] : scene.effects) {
+      if (effect == one.name) setting = "on";
+    }
+    if (one.name == "second_direction") {
+      scene.settings.second_direction = Discretisation::Choice::on;
+    }
+  }
+  return scene;
+}
+
+std::string names_of(const std::vector<MissedEffect>& missed) {
+  std::vector<std::string> names;
+  for (const MissedEffect& one : missed) {
+    names.push_back(std::isinf(one.change) ? one.name + " (the highest peak is lost with it)"
+                                           : fmt::format("{} ({:.2g} % of a highest peak)",
+                                                         one.name, 100.0 * one.change));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+void put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
+  for (std::vector<MissedEffect> missed = missed_in(solution); !missed.empty();
+       missed = missed_in(solution)) {
+    const std::string names = names_of(missed);
+    if (cut_short()) {
+      record.progress().warning("out of time: left out though it matters: " + names);
+      return;
+    }
+    record.progress().info("left out, and it matters: " + names +
+                           "; all curves are solved again with it");
+    Solution before = solution;
+    before.switched_on.insert(before.switched_on.end(), missed.begin(), missed.end());
+    const Refinement step{with_effects(solution.scene, missed), names};
+    std::string obstacle;
+    auto round = solved_again(before, step, jobs, record.progress(), obstacle);
+    if (!round) {
+      record.progress().warning(fmt::format("left out though it matters: {}: {}", names,
+                                            obstacle.empty() ? "out of time" : obstacle));
+      return;
+    }
+    keep_solved_again(*round, false, record);
+    solution = std::move(round->solution);
+  }
+}
+
+}  // namespace microslip::pipelines

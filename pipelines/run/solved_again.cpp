@@ -1,0 +1,135 @@
+#include "pipelines/run/solved_again.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "pipelines/effect_table.hpp"
+#include "pipelines/model/effects.hpp"
+#include "pipelines/run/curve_family.hpp"
+#include "pipelines/scene/curve_request.hpp"
+#include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/system/deadline.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// A linear limit, or within the tolerance.
+bool is_exact(const CurveBudget& budget, double tolerance) {
+  const bool is_linear = budget.rows.empty() && budget.unknown.empty();
+  return is_linear || largest_bar({budget}) <= tolerance;
+}
+
+StructurePointer structure_of(const Solution& before, const Refinement& step,
+                              const SolvedAgain& round) {
+  if (!before.structure || !step.new_mesh) return before.structure;
+  return std::make_shared<const SolvedStructure>(solved_structure(step.scene, round.mesh_file()));
+}
+
+/// Those that are exact enough stay, where the others get other harmonics alone.
+std::vector<std::size_t> curves_to_solve(const Solution& before, const Refinement& step) {
+  const double tolerance = before.scene.accuracy.tolerance;
+  std::vector<std::size_t> again;
+  for (std::size_t i = 0; i < before.curves.size(); ++i) {
+    const bool stays = step.only_harmonics && before.curves[i].curve.complete &&
+                       is_exact(before.budgets[i], tolerance);
+    if (!stays) again.push_back(i);
+  }
+  return again;
+}
+
+/// @return false: the time was over before its end.
+bool solve(const Solution& before, const Refinement& step, int jobs, Progress& progress,
+           SolvedAgain& round) {
+  Solution& now = round.solution;
+  now.scene = step.scene;
+  now.switched_on = before.switched_on;
+  now.structure = structure_of(before, step, round);
+  if (cut_short()) return false;
+  now.model = model_of(now.scene, now.structure.get(), round.warnings);
+  const std::vector<std::size_t> again = curves_to_solve(before, step);
+  const bool same_modes = now.structure == before.structure;
+  const std::vector<CurveRequest> all = curve_requests(now.scene);
+  std::vector<CurveRequest> requests;
+  std::vector<const solver::ResponseCurve*> near;
+  for (const std::size_t i : again) {
+    requests.push_back(all[i]);
+    if (same_modes) near.push_back(&before.curves[i].curve);
+  }
+  std::vector<CurveResult> curves =
+      trace_unkept(now.model, now.scene, requests, near, jobs, progress);
+  if (cut_short()) return false;
+  std::vector<CurveBudget> budgets =
+      budgets_of(now.model, now.scene, now.structure.get(), jobs, curves, progress);
+  now.curves = before.curves;
+  now.budgets = before.budgets;
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    now.curves[again[i]] = std::move(curves[i]);
+    now.budgets[again[i]] = std::move(budgets[i]);
+  }
+  return !cut_short();
+}
+
+bool is_complete(const std::vector<CurveResult>& curves) {
+  return std::ranges::all_of(curves, [](const CurveResult& one) { return one.curve.complete; });
+}
+
+}  // namespace
+
+std::optional<SolvedAgain> solved_again(const Solution& before, const Refinement& step, int jobs,
+                                        Progress& progress, std::string& obstacle) {
+  try {
+    std::optional<SolvedAgain> round(std::in_place);
+    if (!solve(before, step, jobs, progress, *round)) return std::nullopt;
+    if (is_complete(before.curves) && !is_complete(round->solution.curves)) {
+      obstacle = "a curve is not complete then";
+      return std::nullopt;
+    }
+    return round;
+  } catch (const InterruptedError&) {
+    throw;
+  } catch (const std::exception& error) {  // what is there stays
+    obstacle = error.what();
+    return std::nullopt;
+  }
+}
+
+void keep_solved_again(const SolvedAgain& round, bool new_mesh, RunRecord& record) {
+  const Solution& now = round.solution;
+  record.begin_again();
+  if (new_mesh) {
+    std::filesystem::copy_file(round.mesh_file(), record.mesh_file(),
+                               std::filesystem::copy_options::overwrite_existing);
+    record.keep_mesh(now.structure->mesh, now.scene.material.density);
+    const StructureModes& modes = now.structure->modes;
+    record.keep_modes(
+        now.structure->mesh, modes,
+        damping_ratios(now.scene.modes, modes.basis.frequency, modes.basis.n_attachment));
+    record.keep_structure(now.structure->mesh, modes.basis);
+  }
+  for (const std::string& warning : round.warnings) record.progress().warning(warning);
+  record.keep_effects(effects_of(now));
+  record.keep_model(now.model);
+  for (const CurveResult& curve : now.curves) record.keep_curve(curve, now.model);
+  record.keep_choices(now.scene);
+  keep_budgets(now, record);
+}
+
+void keep_budgets(const Solution& solution, RunRecord& record) {
+  for (std::size_t i = 0; i < solution.budgets.size(); ++i) {
+    record.keep_budget(solution.budgets[i], solution.curves[i], solution.model);
+  }
+  record.keep_bounds(tolerance_of_effects(solution.scene));
+}
+
+std::vector<EffectRecord> effects_of(const Solution& solution) {
+  std::vector<EffectRecord> effects = effects_of(solution.scene, &solution.model);
+  tell_switched_on(solution.switched_on, effects);
+  return effects;
+}
+
+double tolerance_of_effects(const SceneDescription& scene) {
+  return scene.accuracy.tolerance > 0.0 ? scene.accuracy.tolerance : worth_a_warning;
+}
+
+}  // namespace microslip::pipelines
