@@ -158,6 +158,16 @@ class IndicatorsAreFooled(unittest.TestCase):
         self.assertGreater(effect(forbidden, "second_direction")["bound"], 0.02)
         self.assertWarned(forbidden, "effects.second_direction: left out")
 
+    def test_a_lower_peak_that_an_effect_moves(self):
+        # The highest peak moves along p alone and hardly changes; the load of the second one varies.
+        path, settings = scene("lower", across=0), ["modal.frequency=[20, 27]", "modal.force_sine=[7, 0.7]", "modal.points[0].phi_u_2=0.1",
+                                                    "modal.points[0].phi_v_2=0.2", "response.harmonics=3", "response.frequency=[19, 36]"]
+        with_it, without = run("lower", path, *settings), run("lower_off", path, *settings, "effects.normal_motion=off")
+        self.assertIs(effect(with_it, "normal_motion")["simulated"], True)
+        self.assertLess(abs(peaks(without)["scale_1"] / peaks(with_it)["scale_1"] - 1), 0.01)
+        self.assertGreater(effect(without, "normal_motion")["bound"], 0.02)
+        self.assertWarned(without, "effects.normal_motion: left out, and having it")
+
     def test_a_multiple_of_the_frequency_meets_a_mode_and_one_harmonic_is_asked_for(self):
         # The second mode stands at three times the resonance, and only there: off the peak nothing is to be seen.
         summary = run("third", scene("third", preload=12), "response.harmonics=1", "modal.frequency=[20, 63]",
