@@ -183,10 +183,12 @@ int check(Arguments& arguments) {
   nlohmann::ordered_json& cost = arguments.findings["forecast"];
   cost = {{"degrees_of_freedom", forecast.degrees_of_freedom},
           {"modes_seconds", forecast.modes_seconds},
-          {"curves_seconds", forecast.curves_seconds},
+          {"curves_seconds", forecast.response.curves},
+          {"errors_seconds", forecast.response.errors},
+          {"best_value_seconds", forecast.response.best_value},
+          {"bracket_seconds", forecast.response.bracket},
           {"memory_GB", forecast.memory_gb}};
-  if (forecast.curves_seconds_along_r)
-    cost["curves_seconds_along_r"] = *forecast.curves_seconds_along_r;
+  if (forecast.response_along_r) cost["curves_seconds_along_r"] = forecast.response_along_r->curves;
   arguments.findings["effects"] = nlohmann::ordered_json::parse(effects_json(result.effects));
   arguments.findings["warnings"] = result.warnings;
   return static_cast<int>(ExitCode::complete);

@@ -1,6 +1,7 @@
 #include "pipelines/model/curve_cost.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "pipelines/scene/curve_request.hpp"
@@ -8,35 +9,110 @@
 namespace microslip::pipelines {
 namespace {
 
-// Curves' worth of work: the search itself and the four of its bracket.
-constexpr double searches_of_an_optimum = 5 * 6.0;
+constexpr double microsecond = 1e-6;
 
-// One point in one iteration [s]: medians of the benchmarks, doubled for the rest of an iteration.
-constexpr double closed_form_cost = 1.4e-6;
-constexpr double event_cost = 1e-5;
-constexpr double planar_cost = 1.5e-4;
-constexpr double chosen_cost =
-    5e-4;  // harmonics = "auto" where the blade slips: some fifteen of them
-constexpr double iterations_per_curve = 350.0;
-constexpr double iterations_per_start = 20.0;
+// Evaluations of the contact.
+constexpr double of_a_curve = 600.0;
+constexpr double of_a_choosing_curve = 1600.0;  // one with few harmonics, the choice, one with all
+constexpr double of_one_frequency = 25.0;
+constexpr double of_a_check = 30.0;  // of the peak, with eight harmonics more than were given
+constexpr double of_a_start = 20.0;
+constexpr double of_error_rows =
+    250.0;  // of a curve: five richer models, one of four times the points
+constexpr double curves_of_a_search = 30.0;  // for a best value, as many evaluations
+constexpr double searches_of_a_bracket = 4.0;
 constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/branch_search.hpp)
 
-double iteration_seconds(const SceneDescription& scene, const PointMethod& method) {
-  const auto* modal = std::get_if<ModalModel>(&scene.model);
-  double n_points = modal != nullptr ? static_cast<double>(modal->points.size()) : 0.0;
-  for (std::size_t i = 0; i < scene.settings.patches.size(); ++i) {
-    n_points += contact_points(scene.settings, i);
+constexpr double points_of_a_curve = 95.0;
+constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
+constexpr double least_points_in_lanes = 48;   // as contact/choice/contact_force.cpp
+constexpr double period_map = 8e-3;            // of a point of a curve in scenes of few states
+constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
+constexpr double factorisation = 6e-11;        // over the cube of the unknowns
+
+// A motion integrated in time, until it is periodic.
+constexpr double periods_from_rest = 250.0;
+constexpr double periods_of_a_step = 100.0;  // to the next frequency
+constexpr double point_period = 0.9e-3;      // one contact point, one period
+
+struct Size {
+  double points = 0.0;
+  double modes = 0.0;
+  int harmonics = 1;
+};
+
+Size size_of(const SceneDescription& scene, const PointMethod& method) {
+  constexpr double attachment_shapes = 4.0;  // of a patch, about
+  Size size;
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    size.points = static_cast<double>(modal->points.size());
+    size.modes = static_cast<double>(modal->frequency_hz.size());
+  } else {
+    size.modes = scene.settings.basis.n_modes + attachment_shapes;
   }
-  const bool simple = !method.several_harmonics && !is_rate_dependent(scene) && !is_rough(scene);
-  const double of_method = method.second_direction ? planar_cost
-                           : simple                ? closed_form_cost
-                                                   : event_cost;
-  return n_points * (method.chosen_harmonics ? std::max(chosen_cost, of_method) : of_method);
+  for (std::size_t i = 0; i < scene.settings.patches.size(); ++i) {
+    size.points += contact_points(scene.settings, i);
+  }
+  const HarmonicSettings& given = scene.settings.harmonics;
+  const int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
+  const bool chosen = method.chosen_harmonics || (method.several_harmonics && n_given == 1);
+  size.harmonics = chosen ? harmonics_of_a_choice : method.several_harmonics ? n_given : 1;
+  return size;
 }
 
+/// Force and Jacobian of one point, with its share of the step: the methods of contact/choice.
+double point_seconds(const SceneDescription& scene, const PointMethod& method, const Size& size) {
+  const bool rough = is_rough(scene);
+  const double more = size.harmonics - 1;  // harmonics
+  const bool lanes = size.points >= least_points_in_lanes;
+  if (!method.second_direction && !rough && !is_rate_dependent(scene)) {
+    if (size.harmonics == 1) return 1.0 * microsecond;
+    return (lanes ? 7.0 + 0.9 * more : 2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
+  }
+  if (lanes) return ((rough ? 40.0 : 30.0) + 1.5 * more) * microsecond;
+  if (!method.second_direction) return 17.0 * (1.0 + 0.7 * more) * microsecond;
+  return (rough ? 250.0 : 140.0) * size.harmonics * microsecond;
+}
+
+double evaluation_seconds(const SceneDescription& scene, const PointMethod& method,
+                          const Size& size) {
+  const double unknowns = size.modes * (2.0 * size.harmonics + 1.0);
+  return size.points * point_seconds(scene, method, size) +
+         factorisation * unknowns * unknowns * unknowns;
+}
+
+/// Of one point of a curve, where the multipliers of its period are looked at.
+double stability_seconds(const PointMethod& method, const Size& size) {
+  const bool in_time = size.harmonics > 1 && !method.second_direction &&
+                       2.0 * size.modes + size.points <= states_of_a_period_map;
+  return in_time ? period_map : 0.0;
+}
+
+bool is_one_frequency(const SceneDescription& scene) {
+  return scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
+}
+
+/// Those that are no linear limit.
 double n_curves(const SceneDescription& scene) {
-  const double searches = scene.response->optimum ? searches_of_an_optimum : 0.0;
-  return static_cast<double>(curve_requests(scene).size()) + searches;
+  return static_cast<double>(std::ranges::count_if(
+      curve_requests(scene),
+      [](const CurveRequest& one) { return !std::holds_alternative<LimitName>(one.preload); }));
+}
+
+/// Of the harmonics of one curve (response_stage.hpp).
+double check_seconds(const SceneDescription& scene, PointMethod method, Size size) {
+  constexpr int more = 8;
+  const HarmonicSettings& given = scene.settings.harmonics;
+  if (given.chosen() || !given.checked || size.points == 0.0) return 0.0;
+  size.harmonics = given.highest + more;
+  method.several_harmonics = true;
+  return of_a_check * evaluation_seconds(scene, method, size);
+}
+
+double seconds_in_time(const SceneDescription& scene, const Size& size) {
+  const double steps = is_one_frequency(scene) ? 0.0 : scene.response->n_time_points - 1;
+  return n_curves(scene) * std::max(size.points, 1.0) * point_period *
+         (periods_from_rest + steps * periods_of_a_step);
 }
 
 }  // namespace
@@ -46,14 +122,38 @@ PointMethod method_of(const SceneDescription& scene, bool second_direction) {
   return {second_direction, harmonics.highest > 1, harmonics.chosen()};
 }
 
-double curves_seconds(const SceneDescription& scene, const PointMethod& method) {
-  return n_curves(scene) * iterations_per_curve * iteration_seconds(scene, method);
+ResponseSeconds response_seconds(const SceneDescription& scene, const PointMethod& method) {
+  const Size size = size_of(scene, method);
+  const double evaluation = evaluation_seconds(scene, method, size);
+  const double stability = stability_seconds(method, size);
+  const bool one = is_one_frequency(scene);
+  ResponseSeconds seconds;
+  if (scene.response->method == ResponseDescription::Method::time) {
+    seconds.curves = seconds_in_time(scene, size);
+  } else {
+    const double evaluations = one                       ? of_one_frequency
+                               : method.chosen_harmonics ? of_a_choosing_curve
+                                                         : of_a_curve;
+    seconds.curves =
+        n_curves(scene) * (evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability +
+                           check_seconds(scene, method, size));
+    const bool told = scene.accuracy.error_budget && !scene.contacts.empty();
+    if (told) seconds.errors = n_curves(scene) * of_error_rows * evaluation;
+  }
+  if (scene.response->optimum) {
+    constexpr double stable_curves = 2.5;  // peaks alone are judged
+    seconds.best_value = curves_of_a_search * of_a_curve * evaluation +
+                         stable_curves * points_of_a_curve * stability;
+    seconds.bracket = searches_of_a_bracket * seconds.best_value;
+  }
+  return seconds;
 }
 
 double search_seconds(const SceneDescription& scene, const PointMethod& method, int n_starts) {
-  const bool one = scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
-  return n_curves(scene) * (one ? 1.0 : frequencies_of_a_search) * n_starts * iterations_per_start *
-         iteration_seconds(scene, method);
+  const double frequencies = is_one_frequency(scene) ? 1.0 : frequencies_of_a_search;
+  const Size size = size_of(scene, method);
+  return n_curves(scene) * frequencies * n_starts * of_a_start *
+         evaluation_seconds(scene, method, size);
 }
 
 }  // namespace microslip::pipelines

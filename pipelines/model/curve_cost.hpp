@@ -1,5 +1,6 @@
 /// @file
-/// What curves are expected to cost, by the method of their contact points.
+/// What curves are expected to cost, by the method of their contact points. Processor seconds of one core; medians of what
+/// scenes took (share/doc/costs.md), right to a factor of two for most.
 #pragma once
 
 #include "pipelines/scene/scene_description.hpp"
@@ -16,8 +17,18 @@ struct PointMethod {
 /// What a scene has. @param second_direction  as decided.
 [[nodiscard]] PointMethod method_of(const SceneDescription& scene, bool second_direction);
 
-/// All curves of a scene on one core [s], those of a search for a best value included.
-[[nodiscard]] double curves_seconds(const SceneDescription& scene, const PointMethod& method);
+/// Stages of a run [s].
+struct ResponseSeconds {
+  double curves = 0.0;  ///< traced, or integrated in time
+  double errors = 0.0;  ///< of the curves, on the modes at hand: coarser meshes are no part of it
+  double best_value = 0.0;  ///< the search for it
+  double bracket = 0.0;     ///< the same with uncertain numbers multiplied
+  [[nodiscard]] double total() const { return curves + errors + best_value + bracket; }
+};
+
+/// @param scene  with [response].
+[[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
+                                               const PointMethod& method);
 
 /// A search for other solutions with every curve [s]. @param n_starts  per frequency.
 [[nodiscard]] double search_seconds(const SceneDescription& scene, const PointMethod& method,

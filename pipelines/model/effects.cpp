@@ -34,7 +34,8 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   } else {
     return std::nullopt;
   }
-  return curves_seconds(facts.scene, with) - curves_seconds(facts.scene, without);
+  return response_seconds(facts.scene, with).total() -
+         response_seconds(facts.scene, without).total();
 }
 
 /// Whether the table warns of leaving an effect out: where the user did, and what would be silent otherwise.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
@@ -38,34 +39,68 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
   const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
-  forecast.curves_seconds = curves_seconds(scene, method_of(scene, is_on));
+  forecast.response = response_seconds(scene, method_of(scene, is_on));
   if (model == nullptr && along_r == automatic) {
-    forecast.curves_seconds_along_r = curves_seconds(scene, method_of(scene, true));
+    forecast.response_along_r = response_seconds(scene, method_of(scene, true));
   }
 }
 
-/// Anchored at 115 000 degrees of freedom: 4 s and 0.7 GB on two cores (factorisation of a sparse
-/// three-dimensional mesh: time as n^1.5, memory as n^1.3).
+/// Of a mesh that is made here, or read, and its modes with the count that none is missed; anchored at 115 000 degrees of
+/// freedom (factorisation of a sparse three-dimensional mesh: time as n^1.5, memory as n^1.3).
+double mesh_and_modes(double degrees_of_freedom, const SceneDescription& scene) {
+  const double mesh = (element_size_of(scene) ? 7e-5 : 1e-5) * degrees_of_freedom;
+  if (given_modes(scene) != nullptr) return mesh;
+  const double modes = 7.2 * std::pow(degrees_of_freedom / 115'000.0, 1.5) *
+                       std::max(1.0, scene.settings.basis.n_modes / 10.0);
+  constexpr double start = 0.5;  // of the mesher, of the libraries
+  return start + mesh + modes;
+}
+
+/// The same of elements twice and four times as large, which tell the error of the mesh.
+double coarser_meshes(double degrees_of_freedom, const SceneDescription& scene) {
+  if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
+  constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
+  return mesh_and_modes(degrees_of_freedom / fewer, scene) +
+         mesh_and_modes(degrees_of_freedom / (fewer * fewer), scene);
+}
+
 Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
-  const double size = forecast.degrees_of_freedom / 115'000.0;
-  forecast.modes_seconds =
-      4.0 * std::pow(size, 1.5) * std::max(1.0, scene.settings.basis.n_modes / 10.0);
-  forecast.memory_gb = 0.2 + 0.7 * std::pow(size, 1.3);
+  forecast.modes_seconds = mesh_and_modes(forecast.degrees_of_freedom, scene);
+  forecast.memory_gb = 0.2 + 0.7 * std::pow(forecast.degrees_of_freedom / 115'000.0, 1.3);
   add_curves(scene, nullptr, forecast);
+  const double more = coarser_meshes(forecast.degrees_of_freedom, scene);
+  if (forecast.response.errors > 0.0) forecast.response.errors += more;
+  if (forecast.response_along_r && forecast.response_along_r->errors > 0.0) {
+    forecast.response_along_r->errors += more;
+  }
   return forecast;
 }
 
-void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
-  fmt::print(out, "forecast: {:.0f} degrees of freedom; modes {:.1f} s, {:.1f} GB",
-             forecast.degrees_of_freedom, forecast.modes_seconds, forecast.memory_gb);
-  if (has_curves) fmt::print(out, "; curves {:.1f} s", forecast.curves_seconds);
-  if (forecast.curves_seconds_along_r) {
-    fmt::print(out, ", {:.0f} s if friction along r is called for",
-               *forecast.curves_seconds_along_r);
+std::string text_of(const ResponseSeconds& seconds) {
+  std::string text = fmt::format("curves {:.2g} s", seconds.curves);
+  if (seconds.errors > 0.0) text += fmt::format(", their errors {:.2g} s", seconds.errors);
+  if (seconds.best_value > 0.0) {
+    text += fmt::format(", best value {:.2g} s and its bracket {:.2g} s", seconds.best_value,
+                        seconds.bracket);
   }
-  out << '\n';
+  return text;
+}
+
+void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
+  std::vector<std::string> parts;
+  if (forecast.degrees_of_freedom > 0.0) {
+    parts.push_back(fmt::format("{:.0f} degrees of freedom; mesh and modes {:.2g} s, {:.1f} GB",
+                                forecast.degrees_of_freedom, forecast.modes_seconds,
+                                forecast.memory_gb));
+  }
+  if (has_curves) parts.push_back(text_of(forecast.response));
+  if (forecast.response_along_r) {
+    parts.push_back("if friction along r is called for " + text_of(*forecast.response_along_r));
+  }
+  if (parts.empty()) return;
+  fmt::print(out, "forecast, on one core: {}\n", fmt::join(parts, "; "));
 }
 
 void describe(const std::vector<EffectRecord>& effects, std::ostream& out) {
@@ -178,6 +213,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
     result.effects = effects_of(scene, &model);
     result.forecast.memory_gb = memory_without_a_mesh;
     add_curves(scene, &model, result.forecast);
+    describe(result.forecast, scene.response.has_value(), out);
   } else {
     check_meshed(scene, picture, result, out);
   }

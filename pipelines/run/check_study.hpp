@@ -8,18 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/model/curve_cost.hpp"
 #include "pipelines/model/effect_record.hpp"
 #include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 
-/// What a study is expected to cost, on two cores.
+/// What a study is expected to cost, in seconds of one core.
 struct Forecast {
   double degrees_of_freedom = 0.0;  ///< 0: the scene gives its modes
-  double modes_seconds = 0.0;
-  double curves_seconds = 0.0;
-  std::optional<double>
-      curves_seconds_along_r;  ///< where it is not known yet whether friction along r is called for
+  double modes_seconds = 0.0;       ///< of mesh and modes
+  ResponseSeconds response;         ///< of the curves, their errors, a best value
+  std::optional<ResponseSeconds>
+      response_along_r;  ///< where it is not known yet whether friction along r is called for
   double memory_gb = 0.0;
 };
 

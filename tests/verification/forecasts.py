@@ -1,0 +1,97 @@
+"""What `check` forecasts against what `run` takes, in processor seconds: sets of effects from one to all.
+
+The model is fitted on one machine, where it is right to a factor of two; another may be twice as fast or slow, so that four is
+asked for. Below half a second, of start and files, nothing is told.
+
+usage: forecasts.py MICROSLIP SOURCE_FOLDER RUN_FOLDER          (MICROSLIP_CAMPAIGNS=whole: every scene, minutes)
+"""
+import json
+import os
+import resource
+import subprocess
+import sys
+import unittest
+
+from program_run import whole_campaigns, without_plots
+
+PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
+SCENES = os.path.join(SOURCE, "share", "scenes")
+LEAST = 0.5
+FACTOR = 4.0
+NO_SEARCH = ["response.optimum=", "response.optimum_range="]
+CUBIC = 'contact.roughness={ law = "cubic", height = "1 um" }'
+
+
+def chain(*settings):
+    return f"{SCENES}/chain_2dof.toml", list(settings)
+
+
+def blade(harmonics, preload, *settings, size=10, search=False):
+    return f"{SCENES}/blade_to_ground.toml", [
+        f'model.element_size="{size} mm"', f"response.harmonics={harmonics}", f"response.preload={preload}", "response.maps=[]",
+        *(['response.optimum_range=["60 N", "1000 N"]'] if search else NO_SEARCH), *settings]
+
+
+BOTH = "effects.second_direction=on"
+FEW = {
+    "area, 9 harmonics": (f"{SCENES}/chain_2dof_moment.toml", ["response.maps=[]"]),
+    "chain, auto": chain("response.harmonics=auto", *NO_SEARCH),
+    "chain, in time": chain("response.method=time", "response.preload=[50]", *NO_SEARCH),
+    "chain, best value": chain(),
+    "blade, 3 harmonics": blade(3, "[100, 500]"),
+    "blade, 3, both directions": blade(3, "[100]", BOTH),
+}
+REST = {
+    "block, rough, both": (f"{SCENES}/block_rough.toml", ["response.maps=[]"]),
+    "blade, 1 harmonic": blade(1, "[100, 500]"),
+    "blade, 9 harmonics": blade(9, "[100, 500]"),
+    "blade, auto": blade("auto", "[100, 500]"),
+    "blade, 1, both directions": blade(1, "[100]", BOTH),
+    "blade, 9, both directions": blade(9, "[100]", BOTH),
+    "blade, 3, rough": blade(3, "[100]", CUBIC),
+    "blade, 1, best value": blade(1, "[100]", search=True),
+    "blade of 6 mm, 1 harmonic": blade(1, "[100, 500]", size=6),
+    "STEP file, 1 harmonic": (f"{SCENES}/step_blade.toml", ["response.preload=[100, 300]", "response.maps=[]"]),
+}
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def asked(command, path, settings, *options):
+    """Standard output."""
+    line = [PROGRAM, command, path, *options] + [word for one in settings for word in ("--set", one)]
+    finished = subprocess.run(line, capture_output=True, text=True, timeout=1500, env=without_plots())
+    if finished.returncode != 0:
+        raise RuntimeError(f"{' '.join(line)} ended with {finished.returncode}: {finished.stderr}")
+    return finished.stdout
+
+
+def forecast(path, settings):
+    told = json.loads(asked("check", path, settings, "--json").splitlines()[-1])["forecast"]
+    return sum(told[stage + "_seconds"] for stage in ("modes", "curves", "errors", "best_value"))
+
+
+def taken(name, path, settings):
+    begin = processor_seconds()
+    asked("run", path, settings, "-q", "-j", "1", "--no-cache", "--without", "plots", "--without", "maps", "--without", "bracket", "-o",
+          os.path.join(FOLDER, name.replace(" ", "_").replace(",", "")))
+    return processor_seconds() - begin
+
+
+class Forecasts(unittest.TestCase):
+    def test_are_what_a_run_takes(self):
+        os.makedirs(FOLDER, exist_ok=True)
+        print(f"{'scene':28}{'forecast':>10}{'taken':>8}  ratio")
+        for name, (path, settings) in {**FEW, **(REST if whole_campaigns() else {})}.items():
+            with self.subTest(name):
+                told, used = forecast(path, settings), taken(name, path, settings)
+                ratio = max(told, LEAST) / max(used, LEAST)
+                print(f"{name:28}{told:8.1f} s{used:6.1f} s  {ratio:.2f}", flush=True)
+                self.assertLess(max(ratio, 1 / ratio), FACTOR)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
