@@ -311,6 +311,32 @@ std::string budget_text(const JsonEntry& run) {
   return text;
 }
 
+/// What having an effect that is left out would change; empty: not told.
+std::string bound_text(const JsonEntry& effect) {
+  if (!effect.has("bound")) return {};
+  if (!effect.at("bound").is_number()) return "; the highest peak is not found with it";
+  return fmt::format("; having it would change the highest peaks by {:.2g} % at most",
+                     100.0 * effect.number("bound"));
+}
+
+/// Which effects were simulated, and why; empty: not told.
+std::string simulated_text(const JsonEntry& run) {
+  if (run.list("effects").empty()) return {};
+  std::string text = "\n## Effects\n\n| effect | simulated | setting | why |\n|---|---|---|---|\n";
+  for (const JsonEntry& effect : run.list("effects")) {
+    const char* simulated = !effect.has("simulated")    ? "not decided"
+                            : effect.truth("simulated") ? "yes"
+                                                        : "no";
+    text += fmt::format("| {} | {} | {} | {}{}", effect.text("name"), simulated,
+                        effect.text("setting"), effect.text("reason"), bound_text(effect));
+    if (effect.has("objection") && !effect.text("objection").empty()) {
+      text += "; **but " + effect.text("objection") + "**";
+    }
+    text += " |\n";
+  }
+  return text;
+}
+
 std::string cost_text(const JsonEntry& run) {
   std::string text = "| stage | seconds | memory [MB] |\n|---|---:|---:|\n";
   for (const JsonEntry& stage : run.list("stages")) {
@@ -351,6 +377,7 @@ std::string report_text(const std::string& summary_json, const std::vector<std::
   text += "\n## Structure\n\n" + structure_text(run);
   if (!run.list("curves").empty()) text += "\n## Response\n\n" + curves_text(run);
   return text.append(budget_text(run))
+      .append(simulated_text(run))
       .append("\n## Plots\n\n")
       .append(plots_text(plots))
       .append("\n## Cost\n\n")

@@ -107,6 +107,33 @@ TEST(WriteReport, ReportTellsPeaksFoldsAndOptimum) {
   EXPECT_NE(report.find("](plots/curves.svg)"), std::string::npos) << report;
 }
 
+TEST(WriteReport, ReportTellsWhichEffectsWereSimulatedAndWhatTheOthersWouldChange) {
+  RunSummary run;
+  run.effects = {{.name = "normal_motion",
+                  .setting = "auto",
+                  .simulated = Simulated::yes,
+                  .reason = "a reason; switched on after the run"},
+                 {.name = "second_direction",
+                  .setting = "off",
+                  .reason = "it is",
+                  .bound = 0.031,
+                  .objection = "it matters"},
+                 {.name = "nonlinearity",
+                  .setting = "auto",
+                  .simulated = Simulated::undecided,
+                  .reason = "later"}};
+  const std::string report = report_text(summary_json(run), {});
+  for (const char* row : {"| normal_motion | yes | auto | a reason; switched on after the run |",
+                          "| second_direction | no | off | it is; having it would change the "
+                          "highest peaks by 3.1 % at "
+                          "most; **but it matters** |",
+                          "| nonlinearity | not decided | auto | later |"}) {
+    EXPECT_NE(report.find(row), std::string::npos) << report;
+  }
+  run.effects.clear();
+  EXPECT_EQ(report_text(summary_json(run), {}).find("## Effects"), std::string::npos);
+}
+
 TEST(WriteReport, DamagedCurveCostsThePlotsNotTheRun) {
   const synthetic::Folder folder("report_damaged");
   write_run(folder.path());
