@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
 
@@ -54,6 +55,26 @@ std::string names_of(const std::vector<MissedEffect>& missed) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// What the highest peaks without the effects are off by, amplitude or frequency.
+double largest_change(const Solution& without, const Solution& with) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < with.curves.size(); ++i) {
+    const solver::ResponsePoint* before = highest_peak(without.curves[i].curve);
+    const solver::ResponsePoint* now = highest_peak(with.curves[i].curve);
+    if (before == nullptr || now == nullptr) continue;
+    largest = std::max({largest, std::abs(before->amplitude / now->amplitude - 1.0),
+                        std::abs(before->frequency / now->frequency - 1.0)});
+  }
+  return largest;
+}
+
+/// A peak that was not found from that without is there now: what leaving the effects out changes is known.
+void tell_change(const Solution& without, Solution& with) {
+  for (MissedEffect& one : with.switched_on) {
+    if (std::isinf(one.change)) one.change = largest_change(without, with);
+  }
+}
+
 }  // namespace
 
 void put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
@@ -76,6 +97,7 @@ void put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
                                             obstacle.empty() ? "out of time" : obstacle));
       return;
     }
+    tell_change(solution, round->solution);
     keep_solved_again(*round, false, record);
     solution = std::move(round->solution);
   }
