@@ -3,6 +3,7 @@ share/doc/python.md and the notebook run as they stand; report.html holds what t
 
 usage: python_package.py PROGRAM SOURCE_FOLDER WORKING_FOLDER
 """
+import base64
 import importlib.util
 import json
 import os
@@ -261,6 +262,18 @@ class Page(Case):
             self.assertIn(asked, text)
         self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
 
+    def test_the_loops_of_points_enclose_what_they_dissipate(self):
+        contact = next(self.run_.maps[name] for name in self.run_.maps
+                       if self.run_.maps[name]["dissipated_energy_J_per_m2"].max() > 0)
+        entry = next(entry for entry in self.data(self.page(self.run_.folder))["maps"] if entry["name"] == contact.name)
+        along_p = entry["cycles"][0]
+        n, m = entry["n"], len(entry["phases"])
+        x, y = (part["unit"] * np.frombuffer(base64.b64decode(part["data"]), "<i2").reshape(n, m)
+                for part in (along_p["x"], along_p["y"]))
+        area = 0.5 * np.sum(y * (np.roll(x, -1, axis=1) - np.roll(x, 1, axis=1)), axis=1)  # µm × MPa: J/m²
+        energy = contact["dissipated_energy_J_per_m2"]
+        np.testing.assert_allclose(area, energy, atol=0.02 * energy.max())  # corners of the loop between phases are cut
+
     def test_a_title_cannot_end_the_page(self):
         run = microslip.run(CHAIN, {**ONE_CURVE, "title": "</script><script>alert(1)</script>"}, folder=fresh("title"))
         text = self.page(run.folder)
@@ -298,6 +311,38 @@ class Page(Case):
         drawn = subprocess.run([*base, "--dump-dom", target], capture_output=True, text=True, timeout=120, check=True).stdout
         paths = re.findall(r'<path d="M[^"]*L', drawn)
         self.assertGreaterEqual(len(paths), len(self.run_.curves))
+        self.assertRegex(drawn, r"Hysteresis of point \d+: [\d.]+ % of the area")
+
+
+class OverMaps(unittest.TestCase):
+    """What lies over the cells of a map: boundaries of the states, arrows of slip."""
+
+    def test_a_zero_line_is_closed_and_where_the_values_vanish(self):
+        from microslip.boundaries import triangles_of, zero_line
+        n = 21
+        x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n)))
+        first = np.array([i * n + j for i in range(n - 1) for j in range(n - 1)])
+        cells = np.column_stack([first, first + 1, first + n + 1, first + n])
+        lines = zero_line(np.column_stack([x, y]), triangles_of(cells), x**2 + y**2 - 0.5321)
+        radius = np.linalg.norm(lines.reshape(-1, 2), axis=1)
+        self.assertLess(np.abs(radius - np.sqrt(0.5321)).max(), 0.5 * (2 / (n - 1)) ** 2)  # of linear interpolation
+        _, times = np.unique(np.round(lines.reshape(-1, 2), 9), axis=0, return_counts=True)
+        self.assertEqual(set(times), {2})
+        self.assertEqual(zero_line(np.column_stack([x, y]), triangles_of(cells), 1 + x**2).shape, (0, 2, 2))
+
+    def test_arrows_point_where_the_slider_moves(self):
+        from microslip.arrows import BOTH_DIRECTIONS, arrows_at
+        theta = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+        size = np.array([[1e-6], [2e-6], [3e-6]])
+        state = np.full((3, 72), BOTH_DIRECTIONS)
+        state[2] = 0  # sticks
+        points = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
+        arrows = arrows_at(points, (size * np.cos(theta), size * np.sin(theta)), state, 9)
+        np.testing.assert_array_equal(arrows[:, :2], points[:2])
+        direction = arrows[:, 2:] / np.linalg.norm(arrows[:, 2:], axis=1)[:, None]
+        np.testing.assert_allclose(direction, [[-np.sin(theta[9]), np.cos(theta[9])]] * 2, atol=1e-12)
+        self.assertAlmostEqual(*np.linalg.norm(arrows[:, 2:], axis=1) * [2, 1])
+        self.assertEqual(len(arrows_at(points, (0 * size * theta, 0 * size * theta), state, 9)), 0)
 
 
 class Examples(Case):

@@ -2,25 +2,14 @@
 
 import numpy as np
 
+from microslip.boundaries import GUARDS, Vertices, triangles_of
 from microslip.files import AGAIN, RunError, data_file, require_shape, shown
-
-# Of the period, at the vertices; their zero lines bound the points that slip, that open, that touch at some time.
-GUARDS = ("slip_guard", "smallest_load", "largest_load")
-
-
-def triangles_of(cells):
-    """Corner numbers of triangles; quadrilaterals are cut in two."""
-    if cells.shape[1] == 3:
-        return cells
-    return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
-
 
 class ContactMap:
     """One maps/NAME.h5: n points with their states at m phases, lengths of the patch in millimetres.
 
-    points (n × 2), state (n × m), weights [m²], energy [J/m² per period], slip [µm per period]; with cells also their
-    corners, the triangles they make, and what is known at corners: vertex_state, starts (per state: angles at which
-    it begins [deg], NaN beyond the last) and guards [Pa].
+    points (n × 2), state (n × m), weights [m²], energy [J/m² per period], slip [µm per period]; with cells also what is known at
+    their corners (vertices). Where points slip in two directions, slider: its positions along the two axes drawn (n × m each) [m].
     """
 
     def __init__(self, path):
@@ -36,16 +25,13 @@ class ContactMap:
             self.slip = 1e6 * file["slip_distance_m"][:]
             self.require_shapes(path, vertices, cells)
             self.cells = vertices[cells] if len(cells) else None
-            self.triangles = triangles_of(cells) if len(cells) else None
-            self.starts, self.guards, self.vertex_state = None, {}, None
+            self.slider = (file["slip_m"][:], file["slip_r_m"][:]) if "slip_r_m" in file else None
+            self.vertices = None
             if len(cells) and "vertex_state_starts_deg" in file:
-                self.read_vertices(file)
+                guards = {name: file[f"vertex_{name}_Pa"][:] for name in GUARDS if f"vertex_{name}_Pa" in file}
+                self.vertices = Vertices(vertices, triangles_of(cells), self.phase, file["vertex_state"][:],
+                                         np.split(file["vertex_state_starts_deg"][:], 5, axis=1), guards)
         self.lay_flat(vertices if self.cells is not None else self.points)
-
-    def read_vertices(self, file):
-        self.starts = np.split(file["vertex_state_starts_deg"][:], 5, axis=1)
-        self.vertex_state = file["vertex_state"][:]
-        self.guards = {name: file[f"vertex_{name}_Pa"][:] for name in GUARDS if f"vertex_{name}_Pa" in file}
 
     def lay_flat(self, corners):
         """A long patch lies on its side."""
@@ -53,8 +39,10 @@ class ContactMap:
         if np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):
             corners, self.points = corners[:, ::-1], self.points[:, ::-1]
             self.cells = None if self.cells is None else self.cells[:, :, ::-1]
+            self.slider = None if self.slider is None else self.slider[::-1]
             self.names = self.names[::-1]
-        self.corners = corners
+        if self.vertices is not None:
+            self.vertices.corners = corners
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
 
     def require_shapes(self, path, vertices, cells):

@@ -3,12 +3,16 @@
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import ListedColormap, to_rgba_array
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from microslip.plots.boundaries import draw_boundaries, draw_guards, guard_handles
+from microslip.arrows import arrows_at
+from microslip.plots.boundaries import draw_boundaries, draw_guards, guard_handles, instant_handle
 from microslip.plots.style import STATE_COLOURS, state_legend, subplots
 
 STATE_RGBA = to_rgba_array(STATE_COLOURS)
+ARROW = Line2D([], [], color="white", markeredgecolor="black", markeredgewidth=0.4, marker=r"$\rightarrow$", markersize=12,
+               linestyle="none", label="direction and speed of slip")
 
 
 def draw_patch(axes, contact, colours=None, values=None, cmap=None):
@@ -38,13 +42,24 @@ def layout_of(contact):
 
 
 def draw_states(axes, contact, angle):
-    """The patch at the phase nearest to an angle [deg]."""
+    """The patch at the phase nearest to an angle [deg]. Entries of the legend for what lies over the cells."""
     phase = contact.phase_near(angle)
     draw_patch(axes, contact, colours=STATE_RGBA[contact.state[:, phase].astype(int)])
-    draw_boundaries(axes, contact, phase)
+    has_lines = contact.vertices is not None and draw_boundaries(axes, contact.vertices, phase)
+    has_arrows = contact.slider is not None and draw_arrows(axes, contact, phase)
     stick, slip, apart = contact.shares(phase)
     axes.set_title(f"{contact.phase[phase]:.0f}°:  stick {100 * stick:.0f} %, slip "
                    f"{100 * slip:.0f} %, open {100 * apart:.0f} %", loc="left", fontsize=8, y=1.0)
+    return ([instant_handle()] if has_lines else []) + ([ARROW] if has_arrows else [])
+
+
+def draw_arrows(axes, contact, phase):
+    """Slip in two directions: where to, and how fast against the fastest of the period. Whether there is any."""
+    arrows = arrows_at(contact.points, contact.slider, contact.state, phase)
+    if len(arrows):
+        axes.quiver(*arrows.T, angles="xy", scale_units="xy", scale=1, color="white", edgecolor="black", linewidth=0.4,
+                    width=0.005, headwidth=3, headlength=3, headaxislength=3, zorder=3)
+    return len(arrows) > 0
 
 
 def draw_sum(figure, axes, contact, values, name):
@@ -53,7 +68,7 @@ def draw_sum(figure, axes, contact, values, name):
     if not values.max() > 0:  # a scale of nothing would invent one
         axes.set_title(f"{name}: 0", loc="left", fontsize=8)
         return set()
-    guards = draw_guards(axes, contact)
+    guards = draw_guards(axes, contact.vertices) if contact.vertices is not None else set()
     drawn.set_clim(0.0, values.max())
     bar = figure.colorbar(drawn, cax=axes.inset_axes([1.03, 0.0, 0.05, 1.0]))
     bar.outline.set_linewidth(0.5)
@@ -64,8 +79,8 @@ def draw_sum(figure, axes, contact, values, name):
 def patch_figure(contact):
     """States at four phases and what the period sums up to, over the plane of the patch."""
     figure, grid = subplots(2, 3, layout_of(contact), sharex=True, sharey=True)
-    for axes, angle in zip(grid[:, :2].flat, (0, 90, 180, 270)):
-        draw_states(axes, contact, angle)
+    over = {handle.get_label(): handle for axes, angle in zip(grid[:, :2].flat, (0, 90, 180, 270))
+            for handle in draw_states(axes, contact, angle)}
     guards = draw_sum(figure, grid[0, 2], contact, contact.energy, "dissipated energy [J/m² per period]")
     guards |= draw_sum(figure, grid[1, 2], contact, contact.slip, "slip distance [µm per period]")
     for axes in grid.flat:
@@ -76,7 +91,7 @@ def patch_figure(contact):
     for axes in grid[:, 0]:
         axes.set_ylabel(contact.names[1])
     figure.get_layout_engine().set(w_pad=0.1)
-    state_legend(figure, np.unique(contact.state), guard_handles(guards))
+    state_legend(figure, np.unique(contact.state), [*over.values(), *guard_handles(guards)])
     return figure
 
 

@@ -5,6 +5,8 @@ import os
 
 import numpy as np
 
+from microslip.arrows import arrows_at
+from microslip.boundaries import GUARDS, Vertices, instant_boundaries, period_boundaries, triangles_of
 from microslip.files import RunError, trace_in
 from microslip.plots.numbers import is_number, length_unit, plain
 from microslip.states import STATES
@@ -38,6 +40,12 @@ def numbers(values, digits=7):
     return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
 
 
+def gap_of(curve):
+    """Width of the gap everywhere [µm]; None where there is none, or not one."""
+    gap = curve.summary.get("gap_m")
+    return 1e6 * gap if gap else None
+
+
 def label_of(curve):
     """What tells a curve from the others of its family."""
     if not is_number(curve.preload):
@@ -46,8 +54,8 @@ def label_of(curve):
         return f"preload × {curve.preload:g}"
     if curve.preload >= 0:
         return f"{plain(curve.preload)} N"
-    gap = curve.summary.get("gap_m")
-    return f"gap {1e6 * gap:.3g} µm" if gap else f"gap ({plain(curve.preload)} N)"
+    gap = gap_of(curve)
+    return f"gap {gap:.3g} µm" if gap else f"gap ({plain(curve.preload)} N)"
 
 
 def ratio_to_free(table, free):
@@ -134,7 +142,7 @@ def trace_entry(run, size, damage):
 def peak_entries(curves, shades, size):
     """The highest peak of every curve."""
     return [{"label": label_of(curve), "colour": shades[curve.name], "frequency": curve.peak["frequency_Hz"],
-             "preload": curve.preload if is_number(curve.preload) else None, "amplitude": curve.peak["amplitude_m"] / size}
+             "preload": curve.preload if is_number(curve.preload) else None, "gap": gap_of(curve), "amplitude": curve.peak["amplitude_m"] / size}
             for curve in curves if curve.peak]
 
 
@@ -161,16 +169,57 @@ def loop_of(contact):
             "phases": numbers(np.append(contact["phase_deg"], 360.0))}
 
 
+def words_of(values):
+    """Two bytes per value in base64, and what a unit of them is."""
+    largest = np.abs(values).max(initial=0.0)
+    unit = largest / 32767.0 if largest > 0 else 1.0
+    return {"unit": float(unit), "data": base64.b64encode(np.round(values / unit).astype("<i2").tobytes()).decode()}
+
+
+def cycles_of(contact, chosen):
+    """Displacement [µm] and friction traction [MPa] of every point over the period, for its hysteresis loops along p and r."""
+    return [{"along": along, "x": words_of(1e6 * contact[f"relative_displacement{part}_m"][:, chosen]),
+             "y": words_of(1e-6 * contact[f"friction_traction{part}_Pa"][:, chosen])}
+            for along, part in (("p", ""), ("r", "_r")) if f"friction_traction{part}_Pa" in contact]
+
+
+def vertices_of(contact, corners, cells):
+    """What is known at the corners of the cells; None where it is not."""
+    if not len(cells) or "vertex_state_starts_deg" not in contact:
+        return None
+    guards = {name: contact[f"vertex_{name}_Pa"] for name in GUARDS if f"vertex_{name}_Pa" in contact}
+    starts = np.split(contact["vertex_state_starts_deg"], 5, axis=1)
+    return Vertices(corners, triangles_of(cells), contact["phase_deg"], contact["vertex_state"], starts, guards)
+
+
+def lines_over(contact, vertices, flat, numbers_chosen):
+    """What lies over the cells: boundaries of the states at each phase and of the period, arrows of slip."""
+    over = {"boundaries": [], "period": {}, "arrows": []}
+    if vertices is not None:
+        over["boundaries"] = [numbers(instant_boundaries(vertices, phase).ravel(), 5) for phase in numbers_chosen]
+        over["period"] = {name: numbers(lines.ravel(), 5) for name, lines in period_boundaries(vertices).items()}
+    if "slip_r_m" in contact:
+        slider = flat((contact["slip_m"], contact["slip_r_m"]))
+        points = 1e3 * np.column_stack(flat(contact["points"].T))
+        over["arrows"] = [numbers(arrows_at(points, slider, contact["state"], phase).ravel(), 5) for phase in numbers_chosen]
+    return over
+
+
 def map_entry(contact):
     """A contact map: states and tractions at up to MOST_PHASES phases, sums over the period."""
     phases = contact["phase_deg"]
     chosen = slice(None, None, -(-len(phases) // MOST_PHASES))
     area = contact["weights"] / contact["weights"].sum()
     cells, corners = contact["cells"], 1e3 * contact["vertices"]
-    names = ["p [mm]", "r [mm]"]
-    if len(cells) and np.ptp(corners[:, 1]) > np.ptp(corners[:, 0]):  # a long patch lies on its side
-        corners, names = corners[:, ::-1], names[::-1]
-    entry = {"name": contact.name, "frequency": float(contact["frequency_Hz"][0]), "phases": numbers(phases[chosen]),
+    names, on_its_side = ["p [mm]", "r [mm]"], len(cells) and np.ptp(corners[:, 1]) > np.ptp(corners[:, 0])
+
+    def flat(pair):
+        """A long patch lies on its side."""
+        return tuple(pair)[::-1] if on_its_side else tuple(pair)
+
+    corners, names = np.column_stack(flat(corners.T)), list(flat(names))
+    entry = {**lines_over(contact, vertices_of(contact, corners, cells), flat, range(len(phases))[chosen]),
+             "cycles": cycles_of(contact, chosen), "name": contact.name, "frequency": float(contact["frequency_Hz"][0]), "phases": numbers(phases[chosen]),
              "states": base64.b64encode(np.ascontiguousarray(contact["state"][:, chosen].T).astype(np.uint8)).decode(),
              "area": numbers(area, 5), "corners": numbers(corners.ravel(), 6), "axes": names,
              "cells": [[int(i) for i in cell] for cell in cells], "n": len(area),
@@ -191,7 +240,7 @@ def read_maps(run, damage):
     for name in run.maps:
         try:
             contact = run.maps[name]
-            size = contact["state"].shape[0] * min(contact["state"].shape[1], MOST_PHASES) * 4
+            size = contact["state"].shape[0] * min(contact["state"].shape[1], MOST_PHASES) * 10
             if size > room:
                 damage.append(f"map {name} is left out of this page, which would grow too large; plots/map_{name}.png "
                               "shows it")

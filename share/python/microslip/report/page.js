@@ -62,10 +62,14 @@ function zoomOnPeak(chart, peak) {
 }
 
 // Peaks of one sign of the preload, with the limits as lines; `what` is amplitude or frequency.
+const opens = () => data.peaks.filter((p) => p.preload !== null && p.preload < 0);
+const gapsKnown = () => opens().every((p) => p.gap !== null);
+
 function peakSeries(what, sign) {
-  const family = data.peaks.filter((p) => p.preload !== null && sign * p.preload > 0);
+  const family = sign > 0 ? data.peaks.filter((p) => p.preload !== null && p.preload > 0) : opens();
+  const place = (p) => (sign < 0 && gapsKnown() ? p.gap : sign * p.preload);
   const at = (p) => [`${p.label}: ${told(p.amplitude)} ${data.unit} at ${told(p.frequency, 7)} Hz`];
-  const points = family.map((p) => ({ label: p.label, colour: p.colour, x: [sign * p.preload], y: [p[what]], kind: [1],
+  const points = family.map((p) => ({ label: p.label, colour: p.colour, x: [place(p)], y: [p[what]], kind: [1],
     mark: ["dot"], tip: () => at(p) }));
   const trace = sign > 0 && data.trace && data.trace.parameter === "preload" ? [traceSeries(what)] : [];
   const range = [...points, ...trace].flatMap((s) => s.x);
@@ -92,7 +96,7 @@ function showPeaks() {
   const place = host("peaks");
   if (!place) return;
   const names = { amplitude: `peak amplitude [${data.unit}]`, frequency: "peak frequency [Hz]" };
-  const sides = [[1, data.scaled ? "preload scale" : "preload [N]"], [-1, "gap: −preload [N]"]];
+  const sides = [[1, data.scaled ? "preload scale" : "preload [N]"], [-1, gapsKnown() ? "gap [µm]" : "gap: −preload [N]"]];
   for (const [sign, x] of sides) for (const what in names) addChart(place, peakSeries(what, sign), x, names[what], what, true);
   if (data.trace && data.trace.parameter !== "preload")
     for (const what in names)
@@ -114,11 +118,28 @@ function shade(scale, share) {
   return `rgb(${scale[i].map((v, k) => Math.round(v + (place - i) * (scale[i + 1][k] - v)))})`;
 }
 
+const words = ({ unit, data: text }) => Array.from(new Int16Array(bytes(text).buffer), (value) => value * unit);
+const GUARDS = { slip_guard: ["boundary: slips at times", []], smallest_load: ["boundary: open at times", [6, 3]],
+  largest_load: ["boundary: open throughout", [1.5, 2.5]] };
+
 class ContactMap {
   constructor(entry) {
     Object.assign(this, entry);
     this.states = bytes(entry.states);
     this.varying = entry.varying.map((v) => ({ ...v, data: bytes(v.data) }));
+    this.cycles = entry.cycles.map((c) => ({ along: c.along, x: words(c.x), y: words(c.y) }));
+    const energy = this.varying.find((v) => v.constant).data;
+    this.point = energy.indexOf(energy.reduce((a, b) => Math.max(a, b), 0));  // where most is dissipated
+  }
+
+  // Loops of one point, along p and r, closed.
+  loopsOf(point, phase) {
+    const m = this.phases.length, order = [...this.phases.keys(), 0];
+    return this.cycles.map(({ along, x, y }, i) => ({ label: `along ${along}`, colour: ["#12355b", "#c1121f"][i],
+      x: order.map((k) => x[point * m + k]), y: order.map((k) => y[point * m + k]), kind: order.map(() => 1),
+      mark: order.map((_, k) => (k === phase ? "dot" : "")),
+      tip: (k) => [`along ${along}, θ = ${told(this.phases[order[k]], 4)}°`, `${told(x[point * m + order[k]])} µm`,
+        `${told(y[point * m + order[k]])} MPa`] }));
   }
 
   colours(what, phase) {
@@ -143,7 +164,7 @@ class ContactMap {
   draw(canvas, what, phase) {
     const ratio = window.devicePixelRatio || 1, width = (canvas.parentNode.clientWidth || 700) * ratio, pen = canvas.getContext("2d");
     canvas.width = width;
-    if (this.cells.length) this.drawPatch(canvas, pen, this.colours(what, phase));
+    if (this.cells.length) { this.drawPatch(canvas, pen, this.colours(what, phase)); this.drawOver(canvas, pen, what, phase, ratio); }
     else this.drawRows(canvas, pen, what, phase, ratio);
   }
 
@@ -152,13 +173,64 @@ class ContactMap {
     const [x0, x1, y0, y1] = [rangeOf(x, false, 0), rangeOf(y, false, 0)].flat();
     const scale = Math.min(canvas.width / (x1 - x0), 0.55 * canvas.width / (y1 - y0));
     canvas.height = scale * (y1 - y0);
+    this.at = (px, py) => [(px - x0) * scale, canvas.height - (py - y0) * scale];
     this.cells.forEach((cell, i) => {
       pen.beginPath();
-      for (const corner of cell) pen.lineTo((x[corner] - x0) * scale, canvas.height - (y[corner] - y0) * scale);
+      for (const corner of cell) pen.lineTo(...this.at(x[corner], y[corner]));
       pen.closePath();
       pen.fillStyle = pen.strokeStyle = colours[i];
       pen.fill(); pen.stroke();
     });
+  }
+
+  // Boundaries, arrows and the chosen point, over the cells.
+  drawOver(canvas, pen, what, phase, ratio) {
+    pen.lineJoin = "round";
+    if (what < 0 && this.boundaries.length) this.strokeSegments(pen, this.boundaries[phase], "#000", 1.6 * ratio, []);
+    if (what >= 0 && this.varying[what].constant)
+      for (const name in this.period) for (const [colour, width] of [["#000", 3], ["#fff", 1.6]])
+        this.strokeSegments(pen, this.period[name], colour, width * ratio, GUARDS[name][1].map((v) => v * ratio));
+    if (what < 0 && this.arrows.length) this.drawArrows(pen, this.arrows[phase], ratio);
+    const [x, y] = this.centre(this.point);
+    for (const [colour, width] of [["#fff", 4], ["#c1121f", 2]]) {
+      pen.beginPath(); pen.strokeStyle = colour; pen.lineWidth = width * ratio;
+      pen.arc(x, y, 5 * ratio, 0, 7); pen.stroke();
+    }
+  }
+
+  centre(i) {
+    const sum = [0, 1].map((k) => this.cells[i].reduce((s, corner) => s + this.corners[2 * corner + k], 0) / this.cells[i].length);
+    return this.at(...sum);
+  }
+
+  strokeSegments(pen, flat, colour, width, dash) {
+    pen.beginPath(); pen.strokeStyle = colour; pen.lineWidth = width; pen.setLineDash(dash);
+    for (let i = 0; i + 3 < flat.length; i += 4) { pen.moveTo(...this.at(flat[i], flat[i + 1])); pen.lineTo(...this.at(flat[i + 2], flat[i + 3])); }
+    pen.stroke(); pen.setLineDash([]);
+  }
+
+  drawArrows(pen, flat, ratio) {
+    for (const [colour, width] of [["#000", 3], ["#fff", 1.5]]) {
+      pen.beginPath(); pen.strokeStyle = colour; pen.lineWidth = width * ratio;
+      for (let i = 0; i + 3 < flat.length; i += 4) {
+        const [x, y] = this.at(flat[i], flat[i + 1]), [u, v] = this.at(flat[i] + flat[i + 2], flat[i + 1] + flat[i + 3]);
+        const size = Math.hypot(u - x, v - y), head = Math.min(4 * ratio, 0.5 * size), [c, s] = [(u - x) / (size || 1), (v - y) / (size || 1)];
+        pen.moveTo(x, y); pen.lineTo(u, v);
+        for (const side of [-1, 1]) { pen.moveTo(u, v); pen.lineTo(u - head * (c - side * s), v - head * (s + side * c)); }
+      }
+      pen.stroke();
+    }
+  }
+
+  // Contact point at a place of the canvas.
+  nearest(canvas, x, y) {
+    if (!this.cells.length) return Math.min(this.n - 1, Math.floor(y / canvas.height * this.n));
+    let best = 0, least = Infinity;
+    for (let i = 0; i < this.n; ++i) {
+      const [cx, cy] = this.centre(i), away = (cx - x) ** 2 + (cy - y) ** 2;
+      if (away < least) { least = away; best = i; }
+    }
+    return best;
   }
 
   // Points without cells: a row each, the period from left to right.
@@ -177,6 +249,8 @@ class ContactMap {
     place.replaceChildren();
     if (what < 0) {
       for (const [name, colour] of data.states) { const entry = part("span", place); part("i", entry).style.background = colour; entry.append(name); }
+      if (this.boundaries.length) this.lineKey(place, "boundary of the states at this phase", [], "#000");
+      if (this.arrows.length) part("span", place, "→ direction and speed of slip");
       return;
     }
     const { label, low, high } = this.varying[what], stops = (low < 0 ? DIVERGING : SEQUENTIAL).map((c) => `rgb(${c})`);
@@ -184,6 +258,13 @@ class ContactMap {
     const bar = part("i", place);
     bar.style.cssText = `width:9em;background:linear-gradient(90deg,${stops})`;
     part("span", place, told(high, 3));
+    if (this.varying[what].constant) for (const name in this.period) this.lineKey(place, ...GUARDS[name]);
+  }
+
+  lineKey(place, label, dash, colour = "#5b6570") {
+    const entry = part("span", place), svg = element("svg", { width: 28, height: 8, class: "dash" }, entry);
+    element("line", { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": 1.8, "stroke-dasharray": dash.join(" ") }, svg);
+    entry.append(label);
   }
 }
 
@@ -197,10 +278,15 @@ function showMaps() {
   const told_ = part("p", place, undefined, "note"), canvas = part("canvas", part("div", place)), axes = part("p", place, undefined, "note");
   const key = part("div", place, undefined, "key");
   const loop = new Chart(host("loop"), { x: "mean displacement along p [µm]", y: "friction force along p [N]", xPad: 0.05 });
+  const own = new Chart(host("point-loop"), { x: "displacement [µm]", y: "friction traction [MPa]", xPad: 0.05 });
+  const title = document.querySelector("[data-title=point-loop]");
   const draw = () => {
     const map = maps[which.selectedIndex], phase = Math.min(+slider.value, map.phases.length - 1), chosen = what.selectedIndex - 1;
     map.draw(canvas, chosen, phase);
     loop.show([loopSeries(map, phase)], {});
+    own.show(map.loopsOf(map.point, phase), {});
+    title.textContent = `Hysteresis of point ${map.point + 1}: ${told(100 * map.area[map.point], 2)} % of the area` +
+      (map.cycles.length > 1 ? ", along p (blue) and r (red)" : "");
     map.key(key, chosen);
     told_.textContent = `θ = ${told(map.phases[phase], 4)}°: ${map.shares(phase)} of the area`;
     axes.textContent = map.cells.length ? `${map.axes[0]} to the right, ${map.axes[1]} upwards; ${sizeOf(map)}`
@@ -216,6 +302,11 @@ function showMaps() {
   };
   which.selectedIndex = liveliest(maps);
   which.onchange = choose; what.onchange = draw; slider.oninput = draw;
+  canvas.onclick = (event) => {
+    const box = canvas.getBoundingClientRect(), map = maps[which.selectedIndex], ratio = canvas.width / box.width;
+    map.point = map.nearest(canvas, (event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio);
+    draw();
+  };
   playWith(play, slider, draw);
   new ResizeObserver(draw).observe(place);
   choose();

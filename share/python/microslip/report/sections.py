@@ -202,6 +202,8 @@ def maps(run, data):
         return ""
     return ('<div class=tools data-tools=maps></div><div class=map data-chart=maps></div>'
             '<p class=note>The slider goes over one period; 0° is where the excitation passes zero upwards.</p>'
+            '<h3 data-title="point-loop"></h3><div class=loop data-chart="point-loop"></div>'
+            '<p class=note>The point with the ring: at first where most energy is dissipated; click on the map for another.</p>'
             '<h3>Hysteresis of the whole patch</h3><div class=loop data-chart=loop></div>'
             '<p class=note>Friction force over the mean relative displacement, both along p, at the phases of the map; the point is '
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')

@@ -1,0 +1,98 @@
+"""Boundaries of the states on a patch: zero lines of functions known at the corners of its cells.
+
+States are known cell by cell; their boundaries are smoother than cells, and follow from when each corner changes its state."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+SLIPPING, SEPARATED = (1, 2, 4), 3
+# Of the period, at the vertices; their zero lines bound the points that slip, that open, that touch at some time.
+GUARDS = ("slip_guard", "smallest_load", "largest_load")
+
+
+@dataclass
+class Vertices:
+    """What is known at the corners of the cells of a patch.
+
+    corners (n × 2), triangles (t × 3, numbers of corners), phase (m, deg), state (n × m); starts: per state the angles at which
+    it begins (n × k, deg, NaN beyond the last); guards: of the period (n, Pa), by name."""
+
+    corners: np.ndarray
+    triangles: np.ndarray
+    phase: np.ndarray
+    state: np.ndarray
+    starts: list
+    guards: dict = field(default_factory=dict)
+
+
+def triangles_of(cells):
+    """Corner numbers of triangles; quadrilaterals are cut in two."""
+    if cells.shape[1] == 3:
+        return cells
+    return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
+
+
+def zero_line(corners, triangles, values):
+    """Where values at the corners vanish, linear in each triangle: ends of segments, k × 2 × 2. A zero counts as above, so that
+    two of the three edges of a triangle are crossed, or none."""
+    at = values[triangles]
+    above = at >= 0
+    crossed = above != np.roll(above, -1, axis=1)  # edge from corner i to corner i + 1
+    here = crossed.any(axis=1) & np.isfinite(at).all(axis=1)
+    at, crossed, nodes = at[here], crossed[here], corners[triangles[here]]
+    if not len(at):
+        return np.zeros((0, 2, 2))
+    following = np.roll(at, -1, axis=1)
+    share = np.divide(at, at - following, out=np.zeros_like(at), where=crossed)[:, :, None]
+    points = (1 - share) * nodes + share * np.roll(nodes, -1, axis=1)
+    return points[crossed].reshape(-1, 2, 2)
+
+
+def nearest_to_zero(values):
+    """Of each row, without the entries that are NaN; NaN where all are."""
+    size = np.where(np.isnan(values), np.inf, np.abs(values))
+    return np.take_along_axis(values, size.argmin(axis=1)[:, None], axis=1)[:, 0]
+
+
+def instant_boundaries(vertices, phase):
+    """Boundaries of the states at one phase (its number), as zero_line() gives them: where a state begins, θ_k − θ,
+    in triangles where it begins at every corner (and its angle does not leap around the period); the guards of
+    the period in triangles where one corner slips, opens or touches now and another never does."""
+    lines, state = [], vertices.state[:, phase]
+    for number, starts in enumerate(vertices.starts):
+        ahead = nearest_to_zero((starts - vertices.phase[phase] + 180.0) % 360.0 - 180.0)
+        at_corners = ahead[vertices.triangles]
+        is_here = (state == number)[vertices.triangles]  # else the line parts two starts of the same state
+        smooth = (np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
+                  & is_here.any(axis=1) & ~is_here.all(axis=1))
+        lines.append(zero_line(vertices.corners, vertices.triangles[smooth], ahead))
+    for name, values in vertices.guards.items():
+        never, now = sides(vertices, name, state)
+        mixed = never[vertices.triangles].any(axis=1) & now[vertices.triangles].any(axis=1)
+        lines.append(zero_line(vertices.corners, vertices.triangles[mixed], values))
+    return np.concatenate(lines) if lines else np.zeros((0, 2, 2))
+
+
+def sides(vertices, guard, state):
+    """Vertices that never do what a guard is about, and those that do it now."""
+    starts = [np.isfinite(of_state).any(axis=1) for of_state in vertices.starts]
+    slips, opens = np.isin(state, SLIPPING), state == SEPARATED
+    if guard == "slip_guard":
+        return ~(slips | opens | starts[1] | starts[2] | starts[4]), slips
+    if guard == "smallest_load":
+        return ~(opens | starts[3]), opens & starts[3]
+    return opens & ~starts[3], ~opens
+
+
+def period_boundaries(vertices):
+    """Boundaries of what occurs within the period, by the name of the guard; those that are there."""
+    lines = {}
+    for name, values in vertices.guards.items():
+        chosen = np.ones(len(vertices.triangles), dtype=bool)
+        if name == "slip_guard" and "largest_load" in vertices.guards:  # what never touches does not slip
+            chosen = (vertices.guards["largest_load"] > 0)[vertices.triangles].all(axis=1)
+        segments = zero_line(vertices.corners, vertices.triangles[chosen], values)
+        if len(segments):
+            lines[name] = segments
+    return lines
