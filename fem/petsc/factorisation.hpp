@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "fem/machine_memory.hpp"
 #include "fem/petsc/handle.hpp"
-#include "fem/petsc/machine_memory.hpp"
 
 namespace microslip::fem {
 

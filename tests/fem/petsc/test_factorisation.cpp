@@ -57,10 +57,5 @@ TEST(Factorisation, ThatDoesNotFitIsRefusedWithItsSize) {
   }
 }
 
-TEST(MachineMemory, IsThatOfAMachine) {
-  EXPECT_GT(available_memory_mb(), 10.0);
-  EXPECT_LT(available_memory_mb(), 1e9);
-}
-
 }  // namespace
 }  // namespace microslip::fem

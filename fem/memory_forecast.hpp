@@ -1,0 +1,41 @@
+/// @file
+/// How much memory a direct factorisation will take, told by the mesh alone before anything is assembled: time to
+/// refuse, or to go the iterative way.
+///
+/// The elements are halved again and again by planes across an axis, where few nodes lie (nested dissection). Nodes that both halves of a
+/// piece have, and nothing outside it, are eliminated together when the halves meet:
+///
+///   s nodes eliminated, b nodes on the border of the piece: 9 [s (s + 1)/2 + s b] numbers of the factor       (1)
+///
+/// A multifrontal method holds beside the factor the stack of borders that wait, 9 b (b + 1)/2 numbers each, and the front at
+/// work, 9 (s + b)² numbers. A slender blade has small borders and a compact block large ones: of 100 000 unknowns each they
+/// differ by a factor of three, which no power of the number of unknowns knows.
+///
+/// Source: George, SIAM J. Numer. Anal. 10 (1973) 345–363; Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325.
+#pragma once
+
+#include "mesh/mesh.hpp"
+
+namespace microslip::fem {
+
+/// Numbers that a direct solution of the whole mesh, held nowhere, keeps.
+struct FactorSize {
+  double factor = 0.0;  ///< nonzeros of the factor
+  double work = 0.0;    ///< largest stack beside it
+};
+
+/// (1) over the dissection. @note n log n: some seconds for a million unknowns.
+[[nodiscard]] FactorSize factor_size(const mesh::Mesh& mesh);
+
+/// What modes and static shapes take [MB], by the SolverKind of fem/modal_analysis.hpp.
+struct MemoryForecast {
+  double matrices = 0.0;  ///< K, M, what is made of them, vectors
+  double solver =
+      0.0;  ///< the factorisation, as MUMPS will ask for it (within 30 %); the levels of multigrid
+  [[nodiscard]] double total() const { return matrices + solver; }
+};
+
+[[nodiscard]] MemoryForecast direct_memory(const mesh::Mesh& mesh);
+[[nodiscard]] MemoryForecast iterative_memory(const mesh::Mesh& mesh);
+
+}  // namespace microslip::fem
