@@ -16,6 +16,7 @@
 #include "fem/material.hpp"
 #include "fem/modal_basis.hpp"
 #include "fem/rotation.hpp"
+#include "fem/solver_kind.hpp"
 #include "mesh/mesh.hpp"
 
 namespace microslip::fem {
@@ -29,21 +30,24 @@ struct ModalOptions {
 /// Where the time went [s].
 struct ModalTimings {
   double assembly = 0.0;
-  double factorisation = 0.0;  ///< numerical, of K (or of K shifted, if K is singular)
-  double ordering = 0.0;       ///< analysis before it
-  double eigensolve = 0.0;     ///< Krylov–Schur and refinement
-  double inertia = 0.0;        ///< the count: ordering and factorisation of its own
+  double factorisation =
+      0.0;  ///< numerical, of K (or of K shifted, if K is singular); or the levels of multigrid
+  double ordering = 0.0;    ///< analysis before it
+  double eigensolve = 0.0;  ///< Krylov–Schur and refinement
+  double inertia = 0.0;     ///< the count: ordering and factorisation of its own
 };
 
-/// Owns K, M and one factorisation; answers modes and static questions about one structure.
+/// Owns K, M and one factorisation, or the levels of multigrid; answers modes and static questions about one structure.
 class Structure {
  public:
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
   /// @throws mesh::MeshError  an unknown name; std::invalid_argument a material out of range.
   Structure(const mesh::Mesh& mesh, const Material& material,
-            const std::vector<std::string>& clamped, Tet10Rule rule = Tet10Rule::accurate);
+            const std::vector<std::string>& clamped, Tet10Rule rule = Tet10Rule::accurate,
+            SolverKind solver = SolverKind::direct);
   /// Takes K and M from elsewhere. @throws mesh::MeshError, std::invalid_argument  see GivenMatrices.
-  Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices);
+  Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices,
+            SolverKind solver = SolverKind::direct);
   ~Structure();
   Structure(Structure&&) noexcept;
   Structure& operator=(Structure&&) noexcept;

@@ -17,7 +17,8 @@ struct ModalBasis {
   Eigen::VectorXd residual;
   Eigen::Index n_rigid_body = 0;
   /// Eigenvalues below a shift just above the last mode, by the inertia of LDLᵀ: equals n_modes (+ a
-  /// cluster that straddles the shift), else an eigen-missed-mode error was thrown.
+  /// cluster that straddles the shift), else an eigen-missed-mode error was thrown. −1: not counted, as of an
+  /// iterative solution.
   Eigen::Index inertia_count = 0;
   Eigen::Index n_attachment = 0;  ///< the last columns are attachment shapes
 

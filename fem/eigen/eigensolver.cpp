@@ -1,6 +1,7 @@
 #include "fem/eigen/eigensolver.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -23,26 +24,40 @@ constexpr Eigen::Index extra_directions = 14;
 constexpr Eigen::Index least_directions = 20;
 constexpr double kept_share = 0.7;
 
-PetscErrorCode apply_factor(PC preconditioner, Vec rhs, Vec solution) {
-  void* factor = nullptr;
-  const PetscErrorCode code = PCShellGetContext(preconditioner, &factor);
-  return code != 0 ? code : MatSolve(static_cast<Mat>(factor), rhs, solution);
+/// A solver, and what it has thrown: an exception must not pass through the library.
+struct GuardedSolver {
+  const LinearSolver& solver;
+  std::exception_ptr failure{};
+};
+
+PetscErrorCode apply_inverse(PC preconditioner, Vec rhs, Vec solution) {
+  void* context = nullptr;
+  const PetscErrorCode code = PCShellGetContext(preconditioner, &context);
+  if (code != 0) return code;
+  auto& guarded = *static_cast<GuardedSolver*>(context);
+  try {
+    guarded.solver.apply(rhs, solution);
+  } catch (...) {
+    guarded.failure = std::current_exception();
+    return PETSC_ERR_LIB;
+  }
+  return 0;
 }
 
-void use_factorisation(EPS eps, const Factorisation& inverse, double shift) {
+void use_inverse(EPS eps, GuardedSolver& inverse, double shift) {
   ST transform = nullptr;
   KSP solver = nullptr;
   PC preconditioner = nullptr;
   check(EPSGetST(eps, &transform));
   check(STSetType(transform, STSINVERT));
-  check(STSetMatMode(transform, ST_MATMODE_SHELL));  // K − shift M is factorised already
+  check(STSetMatMode(transform, ST_MATMODE_SHELL));  // solved with as it is
   check(EPSSetTarget(eps, shift));
   check(STGetKSP(transform, &solver));
   check(KSPSetType(solver, KSPPREONLY));
   check(KSPGetPC(solver, &preconditioner));
   check(PCSetType(preconditioner, PCSHELL));
-  check(PCShellSetContext(preconditioner, inverse.get()));
-  check(PCShellSetApply(preconditioner, apply_factor));
+  check(PCShellSetContext(preconditioner, &inverse));
+  check(PCShellSetApply(preconditioner, apply_inverse));
 }
 
 void set_deflation(EPS eps, Eigen::MatrixXd& columns) {
@@ -93,13 +108,14 @@ EigenPairs collect(EPS eps, Eigen::Index n_local) {
 
 }  // namespace
 
-FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, double shift,
+FoundPairs lowest_pairs(const FeSystem& system, const LinearSolver& inverse, double shift,
                         Eigen::Index n_wanted, const Eigen::MatrixXd& deflation) {
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - deflation.cols();
   const Eigen::Index n = std::min(n_wanted, space);
   const Eigen::Index subspace = std::min(std::max(n + extra_directions, least_directions), space);
   Eigen::MatrixXd known = deflation;
   RitzValues ritz;
+  GuardedSolver guarded{inverse};
   EpsHandle eps;
   check(EPSCreate(PETSC_COMM_WORLD, eps.out()));
   check(EPSSetOperators(eps.get(), system.stiffness.get(), system.mass_matrix.get()));
@@ -107,7 +123,7 @@ FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, do
   check(EPSSetType(eps.get(), EPSKRYLOVSCHUR));
   check(EPSKrylovSchurSetRestart(eps.get(), kept_share));
   check(EPSSetWhichEigenpairs(eps.get(), EPS_TARGET_MAGNITUDE));
-  use_factorisation(eps.get(), inverse, shift);
+  use_inverse(eps.get(), guarded, shift);
   check(EPSSetDimensions(eps.get(), static_cast<PetscInt>(n), static_cast<PetscInt>(subspace),
                          PETSC_DEFAULT));
   check(EPSSetTolerances(eps.get(), tolerance, 300));
@@ -115,7 +131,9 @@ FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, do
   check(EPSSetTrackAll(eps.get(), PETSC_TRUE));  // error estimates beyond the first not converged
   check(EPSMonitorSet(eps.get(), remember_ritz_values, &ritz, nullptr));
   set_deflation(eps.get(), known);
-  check(EPSSolve(eps.get()));
+  const PetscErrorCode solved = EPSSolve(eps.get());
+  if (guarded.failure) std::rethrow_exception(guarded.failure);
+  check(solved);
   FoundPairs found{collect(eps.get(), system.dofs.n_local_dofs()), {}};
   const Eigen::Index n_converged = found.pairs.values.size();
   if (n_converged < n) {
@@ -126,7 +144,7 @@ FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse, do
   return found;
 }
 
-EigenPairs refine(const FeSystem& system, const Factorisation& inverse,
+EigenPairs refine(const FeSystem& system, const LinearSolver& inverse,
                   const Eigen::MatrixXd& vectors) {
   const Mat M = system.mass_matrix.get();
   const Eigen::MatrixXd X = mass_orthonormal(M, inverse.solve(multiply(M, vectors)));

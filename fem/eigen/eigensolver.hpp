@@ -1,5 +1,5 @@
 /// @file
-/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) on a given factorisation.
+/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) with a given solver of K − shift M.
 ///
 /// Source: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601–614; Hernandez, Roman & Vidal, ACM Trans.
 /// Math. Softw. 31 (2005) 351–362.
@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "fem/assembly/fe_system.hpp"
-#include "fem/petsc/factorisation.hpp"
+#include "fem/petsc/linear_solver.hpp"
 
 namespace microslip::fem {
 
@@ -26,19 +26,19 @@ struct FoundPairs {
 
 /// ‖(K − shift M)⁻¹Mφ − θφ‖ ≤ 1e-10 θ, θ = 1/(λ − shift), of every pair.
 ///
-/// @param inverse    factorisation of K − shift M.
+/// @param inverse    solves with K − shift M.
 /// @param shift      [rad²/s²], below every wanted eigenvalue.
 /// @param n_wanted   ≥ 1; more are returned when more converged, fewer when the rest of the space is
 ///                   smaller.
 /// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
 /// @throws EigenError  fewer converged: both numbers and the tolerance.
-[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const Factorisation& inverse,
+[[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const LinearSolver& inverse,
                                       double shift, Eigen::Index n_wanted,
                                       const Eigen::MatrixXd& deflation);
 
 /// One step of subspace iteration and Rayleigh–Ritz over all columns: orders pairs that were found
 /// in several runs, and turns what is left of foreign modes far down.
-[[nodiscard]] EigenPairs refine(const FeSystem& system, const Factorisation& inverse,
+[[nodiscard]] EigenPairs refine(const FeSystem& system, const LinearSolver& inverse,
                                 const Eigen::MatrixXd& vectors);
 
 /// ‖Kφ − λMφ‖ / ‖Kφ‖ of each pair.

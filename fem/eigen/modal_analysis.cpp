@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +18,8 @@
 #include "fem/elements/polynomial_tractions.hpp"
 #include "fem/elements/symmetric_pairs.hpp"
 #include "fem/petsc/columns.hpp"
+#include "fem/petsc/conjugate_gradients.hpp"
+#include "fem/petsc/factorisation.hpp"
 #include "fem/petsc_error.hpp"
 #include "fem/surface_load.hpp"
 
@@ -65,15 +67,17 @@ void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
 struct Structure::Implementation {
   Eigen::MatrixX3d nodes;
   FeSystem system;
-  Eigen::MatrixXd rigid;                // M-orthonormal, rows of this rank
-  double shift = 0.0;                   // of `factor`
-  std::optional<Factorisation> factor;  // of K − shift M
+  Eigen::MatrixXd rigid;                  // M-orthonormal, rows of this rank
+  double shift = 0.0;                     // of `factor`
+  std::unique_ptr<LinearSolver> inverse;  // of K − shift M
   ModalTimings timings;
   Tet10Rule rule = Tet10Rule::accurate;
+  SolverKind kind = SolverKind::direct;
   Eigen::VectorXd displacement{};  // of the body as it rotates, 3 n_nodes [m]; empty: it does not
 
-  void factorise();
-  void factorise_shifted();
+  void prepare();
+  void prepare(Mat matrix);
+  [[nodiscard]] Eigen::MatrixX3d own_nodes() const;
   [[nodiscard]] CountedPairs search(Eigen::Index n_elastic);
   [[nodiscard]] Eigen::MatrixXd solve_elastic(const Eigen::MatrixXd& loads,
                                               const Eigen::MatrixXd& kept) const;
@@ -87,26 +91,41 @@ struct Structure::Implementation {
   void check_residuals(const ModalBasis& basis, double tolerance) const;
 };
 
-void Structure::Implementation::factorise() {
-  if (factor) return;
-  if (rigid.cols() > 0) return factorise_shifted();
-  shift = 0.0;
-  factor.emplace(system.stiffness.get(), FactorKind::positive_definite);
-  timings.ordering = factor->ordering_seconds();
-  timings.factorisation = factor->factor_seconds();
+// With rigid-body modes below zero by a tenth of the first elastic eigenvalue: far enough for an
+// accurate factorisation, near enough to tell the elastic modes apart.
+void Structure::Implementation::prepare() {
+  if (inverse) return;
+  if (rigid.cols() == 0) {
+    shift = 0.0;
+    return prepare(system.stiffness.get());
+  }
+  shift = -0.1 * elastic_scale(nodes, system, rigid.cols());
+  prepare(shifted_stiffness(system, shift).get());
 }
 
-// Below zero by a tenth of the first elastic eigenvalue: far enough for an accurate factorisation,
-// near enough to tell the elastic modes apart.
-void Structure::Implementation::factorise_shifted() {
-  shift = -0.1 * elastic_scale(nodes, system, rigid.cols());
-  factor.emplace(shifted_stiffness(system, shift).get(), FactorKind::positive_definite);
-  timings.ordering = factor->ordering_seconds();
-  timings.factorisation = factor->factor_seconds();
+void Structure::Implementation::prepare(Mat matrix) {
+  if (kind == SolverKind::direct) {
+    inverse = std::make_unique<Factorisation>(matrix, FactorKind::positive_definite);
+  } else {
+    inverse = std::make_unique<ConjugateGradients>(matrix, own_nodes());
+  }
+  timings.ordering = inverse->ordering_seconds();
+  timings.factorisation = inverse->factor_seconds();
+}
+
+Eigen::MatrixX3d Structure::Implementation::own_nodes() const {
+  const DofMap& dofs = system.dofs;
+  Eigen::MatrixX3d own(dofs.last() - dofs.first(), 3);
+  for (Eigen::Index i = dofs.first(); i < dofs.last(); ++i) {
+    own.row(i - dofs.first()) = nodes.row(dofs.mesh_node(i));
+  }
+  return own;
 }
 
 CountedPairs Structure::Implementation::search(Eigen::Index n_elastic) {
-  CountedPairs found = find_elastic_modes(system, *factor, shift, n_elastic, rigid);
+  CountedPairs found =
+      find_elastic_modes(system, *inverse, shift, n_elastic, rigid,
+                         kind == SolverKind::direct ? ModeCount::by_inertia : ModeCount::none);
   timings.eigensolve += found.search_seconds;
   timings.inertia += found.inertia_seconds;
   return found;
@@ -175,7 +194,7 @@ Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& 
     return f - M_known * inner_products(known, f);
   };
   const Eigen::MatrixXd target = load_without_known(loads);
-  Eigen::MatrixXd u = without_known(factor->solve(target));
+  Eigen::MatrixXd u = without_known(inverse->solve(target));
   if (shift == 0.0) return u;
   const double scale = column_norms(loads).maxCoeff();
   double before = std::numeric_limits<double>::infinity();
@@ -184,7 +203,7 @@ Eigen::MatrixXd Structure::Implementation::solve_elastic(const Eigen::MatrixXd& 
     const double size = column_norms(rest).maxCoeff();
     if (size <= tolerance * scale || size > 0.9 * before) break;  // at the floor rounding sets
     before = size;
-    u += without_known(factor->solve(rest));
+    u += without_known(inverse->solve(rest));
   }
   return u;
 }
@@ -241,21 +260,27 @@ void Structure::Implementation::drop_held_rigid_modes() {
 }
 
 Structure::Structure(const mesh::Mesh& mesh, const Material& material,
-                     const std::vector<std::string>& clamped, Tet10Rule rule) {
+                     const std::vector<std::string>& clamped, Tet10Rule rule, SolverKind solver) {
   const auto start = std::chrono::steady_clock::now();
   FeSystem system = assemble(mesh, material, clamped, rule);
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
   self_ = std::make_unique<Implementation>(Implementation{
-      mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}, rule});
+      mesh.nodes(), std::move(system), std::move(rigid), 0.0, nullptr, {}, rule, solver});
   self_->timings.assembly =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices) {
+Structure::Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices, SolverKind solver) {
   FeSystem system = given_system(mesh, matrices);
   Eigen::MatrixXd rigid = rigid_body_modes(mesh, system);
-  self_ = std::make_unique<Implementation>(
-      Implementation{mesh.nodes(), std::move(system), std::move(rigid), 0.0, std::nullopt, {}});
+  self_ = std::make_unique<Implementation>(Implementation{mesh.nodes(),
+                                                          std::move(system),
+                                                          std::move(rigid),
+                                                          0.0,
+                                                          nullptr,
+                                                          {},
+                                                          Tet10Rule::accurate,
+                                                          solver});
   self_->drop_held_rigid_modes();  // springs to ground and single supports are in K alone
 }
 
@@ -274,7 +299,7 @@ Eigen::VectorXd Structure::rotate(const mesh::Mesh& mesh, const Material& materi
   if (self.displacement.size() == 0) {
     self.displacement = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   }
-  self.factor.reset();
+  self.inverse.reset();
   self.displacement =
       rotate_system(self.system, mesh, material, self.rule, rotation, self.displacement);
   return self.displacement;
@@ -296,7 +321,7 @@ ModalBasis Structure::solve_modes(const ModalOptions& options) {
     throw EigenError("mechanism: " + std::to_string(n_rigid) +
                      " zero modes, a free body has six: the mesh has loose parts");
   }
-  self.factorise();
+  self.prepare();
   CountedPairs found = self.search(std::max<Eigen::Index>(options.n_modes - n_rigid, 0));
   if (const Eigen::Index n_zero = count_zero(found.pairs.values); n_zero > 0) {
     throw EigenError(
@@ -317,15 +342,15 @@ Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {
         "rigid-body: " + std::to_string(self.rigid.cols()) +
         " rigid-body modes are free, the stiffness matrix is singular: no static solution");
   }
-  self.factorise();
-  return self.system.dofs.to_mesh(self.factor->solve(self.system.dofs.to_local(forces)));
+  self.prepare();
+  return self.system.dofs.to_mesh(self.inverse->solve(self.system.dofs.to_local(forces)));
 }
 
 ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis,
                                                     const mesh::Surface& surface,
                                                     const Eigen::Matrix3d& frame) {
   Implementation& self = *self_;
-  self.factorise();
+  self.prepare();
   const Eigen::MatrixXd kept = self.elastic_modes(basis);
   const Eigen::MatrixXd loads =
       self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
@@ -350,7 +375,7 @@ AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<Attac
                                 const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
   Implementation& self = *self_;
   check_rows(forces, self.nodes.rows());
-  self.factorise();
+  self.prepare();
   const Eigen::MatrixXd kept = self.elastic_modes(basis);
   const ShapesOfDegree solve = [&](int degree) {
     const Eigen::Index n_before = 3 * n_polynomials(degree - 1);
@@ -388,7 +413,7 @@ void Structure::add_surface_springs(const mesh::Surface& surface,
                                     const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
                                     const Eigen::MatrixX3d& stiffness) {
   add_springs(self_->system, surface, to_points, weights, frame, stiffness);
-  self_->factor.reset();
+  self_->inverse.reset();
   self_->drop_held_rigid_modes();
 }
 

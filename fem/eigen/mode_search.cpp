@@ -8,6 +8,7 @@
 
 #include "fem/elements/number_text.hpp"
 #include "fem/petsc/columns.hpp"
+#include "fem/petsc/factorisation.hpp"
 #include "fem/petsc_error.hpp"
 
 namespace microslip::fem {
@@ -42,7 +43,7 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 // One refinement; what rounding mixed in of the rigid motions, magnified by the inverse there,
 // goes.
 EigenPairs refine_beside(const Eigen::MatrixXd& rigid, const FeSystem& system,
-                         const Factorisation& inverse, const Eigen::MatrixXd& vectors) {
+                         const LinearSolver& inverse, const Eigen::MatrixXd& vectors) {
   EigenPairs pairs = refine(system, inverse, vectors);
   if (rigid.cols() > 0) {
     pairs.vectors -=
@@ -94,8 +95,8 @@ MatHandle shifted_stiffness(const FeSystem& system, double shift) {
   return shifted;
 }
 
-CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse, double shift,
-                                Eigen::Index n, const Eigen::MatrixXd& rigid) {
+CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inverse, double shift,
+                                Eigen::Index n, const Eigen::MatrixXd& rigid, ModeCount counting) {
   constexpr int max_rounds = 5;
   const Eigen::Index space = 3 * system.dofs.n_free_nodes() - rigid.cols();
   Stopwatch watch;
@@ -115,6 +116,7 @@ CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inv
   };
   result.pairs.vectors.resize(rigid.rows(), 0);
   Eigen::VectorXd beyond = search(std::max<Eigen::Index>(n, 1));
+  if (counting == ModeCount::none) return result;
   std::optional<double> gap;
   for (int round = 0; round < max_rounds; ++round) {
     Eigen::Index n_missing = 1;  // none is, but the gap is not seen yet

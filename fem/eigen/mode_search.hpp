@@ -10,6 +10,8 @@
 /// Source: Parlett, The Symmetric Eigenvalue Problem (1998), sections 1.6 and 3.3.
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include "fem/eigen/eigensolver.hpp"
@@ -19,13 +21,16 @@ namespace microslip::fem {
 
 struct CountedPairs {
   EigenPairs pairs;  ///< elastic pairs, at least as many as asked
-  Eigen::Index n_counted =
-      0;  ///< eigenvalues below `count_shift` by inertia, rigid-body modes included
+  /// Eigenvalues below `count_shift` by inertia, rigid-body modes included; −1: not counted.
+  Eigen::Index n_counted = -1;
   Eigen::Index n_below = 0;  ///< of `pairs`, those below `count_shift`
   double count_shift = 0.0;  ///< σ [rad²/s²]
   double search_seconds = 0.0;
   double inertia_seconds = 0.0;
 };
+
+/// Whether modes are counted: that takes a factorisation, which an iterative solution does without.
+enum class ModeCount : std::uint8_t { by_inertia, none };
 
 /// K − shift M, same pattern.
 [[nodiscard]] MatHandle shifted_stiffness(const FeSystem& system, double shift);
@@ -34,8 +39,9 @@ struct CountedPairs {
 /// @param n      elastic modes wanted, ≥ 0.
 /// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end, with
 ///         both numbers.
-[[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const Factorisation& inverse,
+[[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inverse,
                                               double shift, Eigen::Index n,
-                                              const Eigen::MatrixXd& rigid);
+                                              const Eigen::MatrixXd& rigid,
+                                              ModeCount counting = ModeCount::by_inertia);
 
 }  // namespace microslip::fem

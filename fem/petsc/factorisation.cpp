@@ -32,17 +32,19 @@ bool workspace_too_small(PetscInt code) {
                            ", INFOG(1) = " + std::to_string(code) +
                            ", INFOG(2) = " + std::to_string(info(factor, 2));
   if (code == -13 || code == -19 || workspace_too_small(code)) {
-    throw MemoryError("out of memory: " + text + "; about " + std::to_string(info(factor, 17)) +
-                      " MB are needed. Use a coarser mesh or a machine with more memory.");
+    throw MemoryError(
+        "out of memory: " + text + "; about " + std::to_string(info(factor, 17)) +
+        " MB are needed. Use the iterative solver, a coarser mesh or a machine with more memory.");
   }
   throw PetscError(text);
 }
 
 void refuse_beyond(double available_mb, PetscInt needed_mb) {
   if (static_cast<double>(needed_mb) <= available_mb) return;
-  throw MemoryError("out of memory: the factorisation needs about " + std::to_string(needed_mb) +
-                    " MB, " + number_text(std::floor(available_mb)) +
-                    " MB are available. Use a coarser mesh or a machine with more memory.");
+  throw MemoryError(
+      "out of memory: the factorisation needs about " + std::to_string(needed_mb) + " MB, " +
+      number_text(std::floor(available_mb)) +
+      " MB are available. Use the iterative solver, a coarser mesh or a machine with more memory.");
 }
 
 }  // namespace
@@ -83,6 +85,10 @@ Eigen::MatrixXd Factorisation::solve(const Eigen::MatrixXd& rhs) const {
                        solution.data(), X.out()));
   check(MatMatSolve(factor_.get(), B.get(), X.get()));
   return solution;
+}
+
+void Factorisation::apply(Vec rhs, Vec solution) const {
+  check(MatSolve(factor_.get(), rhs, solution));
 }
 
 Inertia Factorisation::inertia() const {

@@ -8,6 +8,7 @@
 
 #include "fem/machine_memory.hpp"
 #include "fem/petsc/handle.hpp"
+#include "fem/petsc/linear_solver.hpp"
 
 namespace microslip::fem {
 
@@ -23,7 +24,7 @@ struct Inertia {
   Eigen::Index zero = 0;
 };
 
-class Factorisation {
+class Factorisation : public LinearSolver {
  public:
   /// Orders and factorises. The matrix may change afterwards without effect.
   /// @param memory_mb  what may be used [MB]; compared with what MUMPS expects to need after ordering.
@@ -31,13 +32,12 @@ class Factorisation {
   Factorisation(Mat matrix, FactorKind kind, double memory_mb = available_memory_mb());
 
   /// Solves A X = B for all columns in one go. @param rhs  rows of this rank × m.
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
-  /// The factored matrix of PETSc, for its own solvers.
-  [[nodiscard]] Mat get() const { return factor_.get(); }
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const override;
+  void apply(Vec rhs, Vec solution) const override;
   /// Of any but a `positive_definite` factorisation.
   [[nodiscard]] Inertia inertia() const;
-  [[nodiscard]] double ordering_seconds() const { return ordering_seconds_; }
-  [[nodiscard]] double factor_seconds() const { return factor_seconds_; }
+  [[nodiscard]] double ordering_seconds() const override { return ordering_seconds_; }
+  [[nodiscard]] double factor_seconds() const override { return factor_seconds_; }
 
  private:
   MatHandle factor_;

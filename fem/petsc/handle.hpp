@@ -47,5 +47,6 @@ class Handle {
 using MatHandle = Handle<Mat, &MatDestroy>;
 using VecHandle = Handle<Vec, &VecDestroy>;
 using EpsHandle = Handle<EPS, &EPSDestroy>;
+using KspHandle = Handle<KSP, &KSPDestroy>;
 
 }  // namespace microslip::fem

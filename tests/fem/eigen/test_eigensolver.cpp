@@ -5,6 +5,7 @@
 #include "fem/eigen/mode_search.hpp"
 #include "fem/eigen/rigid_modes.hpp"
 #include "fem/petsc/columns.hpp"
+#include "fem/petsc/factorisation.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
