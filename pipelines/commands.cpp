@@ -188,6 +188,11 @@ int check(Arguments& arguments) {
           {"best_value_seconds", forecast.response.best_value},
           {"bracket_seconds", forecast.response.bracket},
           {"memory_GB", forecast.memory_gb}};
+  if (forecast.solver_memory) {
+    cost["memory_direct_GB"] = 1e-3 * forecast.solver_memory->direct_mb;
+    cost["memory_iterative_GB"] = 1e-3 * forecast.solver_memory->iterative_mb;
+    cost["memory_available_GB"] = 1e-3 * forecast.solver_memory->available.megabytes;
+  }
   if (forecast.response_along_r) cost["curves_seconds_along_r"] = forecast.response_along_r->curves;
   arguments.findings["effects"] = nlohmann::ordered_json::parse(effects_json(result.effects));
   arguments.findings["warnings"] = result.warnings;

@@ -24,4 +24,11 @@ std::variant<double, LimitName> preload_of(const CurveRequest& request, const Re
   return -gap->width * total;
 }
 
+std::optional<double> gap_of(const std::variant<double, LimitName>& preload,
+                             const ReducedModel& model) {
+  const double* load = std::get_if<double>(&preload);
+  if (load == nullptr || !(*load < 0.0) || !in_newtons(model)) return std::nullopt;
+  return -*load / total_normal_stiffness(model);
+}
+
 }  // namespace microslip::pipelines

@@ -2,6 +2,7 @@
 /// The preload of a curve under a model.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "pipelines/model/reduced_model.hpp"
@@ -16,5 +17,9 @@ namespace microslip::pipelines {
 /// @throws RefusedError  a gap where the normal stiffness is zero.
 [[nodiscard]] std::variant<double, LimitName> preload_of(const CurveRequest& request,
                                                          const ReducedModel& model);
+
+/// Width of the uniform gap that a preload below 0 is [m]; none where it presses, or where loads are scales.
+[[nodiscard]] std::optional<double> gap_of(const std::variant<double, LimitName>& preload,
+                                           const ReducedModel& model);
 
 }  // namespace microslip::pipelines

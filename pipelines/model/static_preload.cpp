@@ -12,6 +12,7 @@
 #include "mesh/surface.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/model/solver_memory.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -221,7 +222,9 @@ contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription&
   if (fem::n_ranks() > 1) {
     throw RefusedError("contact.preload = \"static\" is solved on one rank: start without mpirun");
   }
-  fem::Structure structure(mesh, scene.material, scene.clamped);
+  const fem::SolverKind solver = scene.settings.basis.solver;
+  require_memory(mesh, solver);
+  fem::Structure structure(mesh, scene.material, scene.clamped, fem::Tet10Rule::accurate, solver);
   Eigen::VectorXd rotated;
   if (scene.rotation && scene.rotation->speed > 0.0) {
     rotated = structure.rotate(mesh, scene.material, *scene.rotation);

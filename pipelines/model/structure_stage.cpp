@@ -21,6 +21,7 @@
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/on_all_ranks.hpp"
 #include "pipelines/model/preload_shape.hpp"
+#include "pipelines/model/solver_memory.hpp"
 #include "pipelines/model/static_preload.hpp"
 #include "pipelines/model/structure_members.hpp"
 #include "pipelines/system/machine.hpp"
@@ -115,6 +116,7 @@ std::string arithmetic() {
 }
 
 StructureModes solve_on_all_ranks(const StructureTask& task) {
+  require_memory(task.mesh, task.basis.solver);
   StructureModes modes;
   on_all_ranks(
       modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });

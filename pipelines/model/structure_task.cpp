@@ -47,8 +47,8 @@ auto members(Is<GivenMatrices> auto& value) {
 
 namespace pipelines {
 auto members(Is<BasisSettings> auto& value) {
-  auto& [n_modes, residual, attachment_degree] = value;
-  return std::tie(n_modes, residual, attachment_degree);
+  auto& [n_modes, residual, attachment_degree, solver] = value;
+  return std::tie(n_modes, residual, attachment_degree, solver);
 }
 auto members(Is<TaskFace> auto& value) {
   auto& [surface, frame, local_stiffness] = value;
@@ -164,8 +164,10 @@ StructureTask structure_task(std::string_view bytes) {
 }
 
 StructureModes solve(const StructureTask& task) {
-  fem::Structure structure = task.matrices ? fem::Structure(task.mesh, *task.matrices)
-                                           : fem::Structure(task.mesh, task.material, task.clamped);
+  const fem::SolverKind solver = task.basis.solver;
+  fem::Structure structure = task.matrices ? fem::Structure(task.mesh, *task.matrices, solver)
+                                           : fem::Structure(task.mesh, task.material, task.clamped,
+                                                            fem::Tet10Rule::accurate, solver);
   StructureModes result;
   result.n_dofs = structure.n_dofs();
   result.mass = structure.mass();

@@ -296,7 +296,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   CurveResult result;
   result.name = request.name;
   result.preload = preload_of(request, model);
-  if (const auto* gap = std::get_if<UniformGap>(&request.preload)) result.gap = gap->width;
+  result.gap = gap_of(result.preload, model);
   if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
     options.residual_tolerance =
         solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled

@@ -42,7 +42,7 @@ struct CurveResult {
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
   std::vector<PatchShares> patch_shares{};  ///< where there are several patches, else empty
-  std::optional<double> gap{};              ///< the preload was given as this length [m]
+  std::optional<double> gap{};              ///< width of the uniform gap that the preload is [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
   std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
   std::optional<double> bar{};  ///< of the peak's amplitude, relative half width; none: not told

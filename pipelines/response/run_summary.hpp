@@ -44,7 +44,7 @@ struct PeakSummary {
 struct CurveSummary {
   std::string name;
   std::variant<double, LimitName> preload;  ///< total [N], or a limit
-  std::optional<double> gap;                ///< the preload was given as this length [m]
+  std::optional<double> gap;                ///< width of the uniform gap that the preload is [m]
   std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
   /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
   std::optional<double> preload_carried, preload_integral;

@@ -32,6 +32,7 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
+constexpr double memory_before_modes = 0.15;    // with the libraries of finite elements
 
 /// @param model  where effects are decided, else nullptr.
 void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
@@ -46,7 +47,7 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
 }
 
 /// Of a mesh that is made here, or read, and its modes with the count that none is missed; anchored at 115 000 degrees of
-/// freedom (factorisation of a sparse three-dimensional mesh: time as n^1.5, memory as n^1.3).
+/// freedom (factorisation of a sparse three-dimensional mesh: time as n^1.5).
 double mesh_and_modes(double degrees_of_freedom, const SceneDescription& scene) {
   const double mesh = (element_size_of(scene) ? 7e-5 : 1e-5) * degrees_of_freedom;
   if (given_modes(scene) != nullptr) return mesh;
@@ -68,7 +69,8 @@ Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
   forecast.modes_seconds = mesh_and_modes(forecast.degrees_of_freedom, scene);
-  forecast.memory_gb = 0.2 + 0.7 * std::pow(forecast.degrees_of_freedom / 115'000.0, 1.3);
+  forecast.solver_memory = solver_memory(mesh, scene.settings.basis.solver);
+  forecast.memory_gb = memory_before_modes + 1e-3 * forecast.solver_memory->needed_mb();
   add_curves(scene, nullptr, forecast);
   const double more = coarser_meshes(forecast.degrees_of_freedom, scene);
   if (forecast.response.errors > 0.0) forecast.response.errors += more;
@@ -94,6 +96,10 @@ void describe(const Forecast& forecast, bool has_curves, std::ostream& out) {
     parts.push_back(fmt::format("{:.0f} degrees of freedom; mesh and modes {:.2g} s, {:.1f} GB",
                                 forecast.degrees_of_freedom, forecast.modes_seconds,
                                 forecast.memory_gb));
+    if (forecast.solver_memory) {
+      parts.back() += fmt::format(" of {:.1f} GB available",
+                                  1e-3 * forecast.solver_memory->available.megabytes);
+    }
   }
   if (has_curves) parts.push_back(text_of(forecast.response));
   if (forecast.response_along_r) {
@@ -192,6 +198,11 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
   }
   result.forecast = forecast_of(mesh, scene);
   describe(result.forecast, scene.response.has_value(), out);
+  if (given_modes(scene) == nullptr) {
+    if (std::string text = memory_warning(*result.forecast.solver_memory); !text.empty()) {
+      result.warnings.push_back(std::move(text));
+    }
+  }
   result.effects = effects_of(scene, nullptr);
 }
 

@@ -10,6 +10,7 @@
 
 #include "pipelines/model/curve_cost.hpp"
 #include "pipelines/model/effect_record.hpp"
+#include "pipelines/model/solver_memory.hpp"
 #include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
@@ -22,6 +23,7 @@ struct Forecast {
   std::optional<ResponseSeconds>
       response_along_r;  ///< where it is not known yet whether friction along r is called for
   double memory_gb = 0.0;
+  std::optional<SolverMemory> solver_memory;  ///< where modes are solved for
 };
 
 /// What `check` found, for scripts.

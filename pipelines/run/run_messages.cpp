@@ -40,7 +40,10 @@ std::vector<std::string> modes_text(const StructureModes& modes) {
         fmt::format("mode {:2d}: {:12.4f} Hz", i + 1, to_hz * modes.basis.frequency[i]));
     if (solved) lines.back() += fmt::format("   residual {:.1e}", modes.basis.residual[i]);
   }
-  if (solved) {
+  if (solved && modes.basis.inertia_count < 0) {
+    lines.emplace_back(
+        "modes.solver = \"iterative\": modes are not counted, that none is missed is not proved");
+  } else if (solved) {
     lines.push_back(fmt::format("inertia count: {} eigenvalues up to mode {}, none missed",
                                 modes.basis.inertia_count, modes.basis.n_free()));
   }

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "fem/solver_kind.hpp"
+
 namespace microslip::pipelines {
 
 /// What stands for the modes left out (theory 14, 14.1).
@@ -19,6 +21,7 @@ struct BasisSettings {
   int n_modes = 10;
   ResidualKind residual = ResidualKind::attachment;
   std::optional<int> attachment_degree{};  ///< of the tractions; without value: chosen
+  fem::SolverKind solver = fem::SolverKind::direct;
   [[nodiscard]] bool operator==(const BasisSettings&) const = default;
 };
 

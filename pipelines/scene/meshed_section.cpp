@@ -261,6 +261,9 @@ BasisSettings read_basis(const SectionReader& s) {
            fmt::format("goes with residual = \"attachment\", not with \"{}\"", residual),
            s.node("attachment_degree"));
   }
+  constexpr std::array<std::string_view, 2> solvers{"direct", "iterative"};
+  basis.solver = s.word("solver", solvers) == "iterative" ? fem::SolverKind::iterative
+                                                          : fem::SolverKind::direct;
   return basis;
 }
 

@@ -188,6 +188,13 @@ SectionReader read_structure(Reading& reading, const std::string& kind, SceneDes
   SectionReader modes = reading.section("modes", "modes");
   scene.settings.basis = read_basis(modes);
   scene.modes = read_modes(modes, scene.settings.basis.n_modes);
+  const bool rotates = scene.rotation && scene.rotation->speed > 0.0;
+  if (rotates && scene.settings.basis.solver == fem::SolverKind::iterative) {
+    modes.fail(
+        "solver",
+        "the equilibrium of [static] speed is found by factorisations: \"direct\" goes with it",
+        modes.node("solver"));
+  }
   return modes;
 }
 

@@ -254,6 +254,9 @@ constexpr std::array mode_keys{
             "of the tractions whose static shapes are added: 0, 1, 2 …, or \"auto\": the lowest "
             "that leaves no "
             "traction of the next degree more than 30 % of its residual flexibility short"},
+    KeySpec{"solver", text, "", "\"direct\"", 0, 0, false,
+            "direct | iterative (conjugate gradients with multigrid, where memory does not hold a "
+            "factorisation: slower, and that no mode is missed is not proved)"},
 };
 
 constexpr std::array given_mode_keys{

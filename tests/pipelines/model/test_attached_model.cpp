@@ -186,6 +186,11 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
     for (const contact::PointParameters& point : force.points(0)) {
       EXPECT_NEAR(-point.preload / point.normal_stiffness, 3e-6, 1e-18);
     }
+    EXPECT_NEAR(gap_of(preload_of(requests[0], model), model).value(), 3e-6, 1e-17);
+    EXPECT_NEAR(gap_of(preload_of(requests[1], model), model).value(),
+                150.0 / total_normal_stiffness(model), 1e-17);
+    EXPECT_FALSE(gap_of(150.0, model).has_value());
+    EXPECT_FALSE(gap_of(LimitName::free, model).has_value());
   }
 }
 

@@ -1,0 +1,35 @@
+/// @file
+/// Whether memory holds the solution for modes, told before it starts: a system without memory ends programs without
+/// a word.
+#pragma once
+
+#include <string>
+
+#include "fem/machine_memory.hpp"
+#include "fem/solver_kind.hpp"
+#include "mesh/mesh.hpp"
+
+namespace microslip::pipelines {
+
+struct SolverMemory {
+  fem::SolverKind solver = fem::SolverKind::direct;
+  double direct_mb = 0.0;     ///< forecast, within 30 %; beside the program, which is there already
+  double iterative_mb = 0.0;  ///< the same
+  fem::AvailableMemory available;
+
+  [[nodiscard]] double needed_mb() const {
+    return solver == fem::SolverKind::direct ? direct_mb : iterative_mb;
+  }
+};
+
+/// @note Memory of all machines where there are several ranks, as if each had what this one has.
+[[nodiscard]] SolverMemory solver_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
+
+/// What does not fit and what would; "" where the forecast is below what is available.
+[[nodiscard]] std::string memory_warning(const SolverMemory& memory);
+
+/// @throws fem::MemoryError  the forecast, less a third that it may be wrong by, is more than is available. In between the
+///         factorisation asks once more, when MUMPS knows what it needs.
+void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
+
+}  // namespace microslip::pipelines
