@@ -70,4 +70,8 @@ struct GeneralPairs {
 [[nodiscard]] std::optional<Eigen::VectorXcd> general_eigenvalues(const Eigen::MatrixXd& A);
 [[nodiscard]] std::optional<GeneralPairs> general_pairs(const Eigen::MatrixXd& A);
 
+/// e^A by scaling and squaring of Padé's approximant (Higham, SIAM J. Matrix Anal. Appl. 26 (2005) 1179–1193).
+/// @param A  finite.
+[[nodiscard]] Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);
+
 }  // namespace microslip::contact

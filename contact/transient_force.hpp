@@ -80,6 +80,9 @@ class TransientForce {
   /// G of the states as they are, also beyond their ends [N/√kg, n_modes].
   [[nodiscard]] virtual Eigen::VectorXd held_force(const ModalMotion& motion,
                                                    const TransientMemory& memory) const = 0;
+  /// Whether held_force() is linear in the motion and in the sliders of stuck points and does not jump where a
+  /// state ends: then a period is linearised by following its states once (solver/stability/period_variation.hpp).
+  [[nodiscard]] virtual bool is_held_linear() const { return false; }
   /// How many internal variables held states have in all.
   [[nodiscard]] virtual Eigen::Index n_internal() const { return 0; }
   /// d/dt of the internal variables while the states are held, n_internal(); 0 where a state has none.

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "contact/numerics/lapack.hpp"
 
@@ -176,5 +177,7 @@ std::optional<GeneralPairs> general_pairs(const Eigen::MatrixXd& A) {
   if (solver.info() != Eigen::Success) return std::nullopt;
   return GeneralPairs{solver.eigenvalues(), solver.eigenvectors()};
 }
+
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& A) { return A.exp(); }
 
 }  // namespace microslip::contact

@@ -36,6 +36,7 @@ class PatchTransient final : public TransientForce {
   double commit(const ModalMotion& motion, TransientMemory& memory) const override;
   [[nodiscard]] Eigen::VectorXd held_force(const ModalMotion& motion,
                                            const TransientMemory& memory) const override;
+  [[nodiscard]] bool is_held_linear() const override { return true; }
   [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> guards(
       const ModalMotion& motion, const TransientMemory& memory,
       const GuardScale& scale) const override;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "contact/dense.hpp"
+#include "solver/stability/period_variation.hpp"
 #include "solver/time/time_stepper.hpp"
 
 namespace microslip::solver {
@@ -29,20 +32,53 @@ TimeOptions period_options() {
   return options;
 }
 
-/// Which points leave stick within a period, and how far sliders get.
+/// Which points leave stick within a period, how far sliders get, and which states are held how long.
 class SliderWatch final : public TimeObserver {
  public:
   explicit SliderWatch(std::size_t n_points) : moves(n_points, false) {}
-  void take(const TimeSegment& /*segment*/, double /*end*/, const TransientMemory& memory,
+  void take(const TimeSegment& segment, double end, const TransientMemory& memory,
             double /*slip_work*/) override {
     for (std::size_t i = 0; i < moves.size(); ++i) {
       moves[i] = moves[i] || memory.state[i] != ContactState::stick;
     }
     if (memory.slider.size() > 0) reach = std::max(reach, memory.slider.cwiseAbs().maxCoeff());
+    const bool goes_on = !parts.empty() && parts.back().memory.state == memory.state &&
+                         parts.back().memory.slider == memory.slider;
+    if (!goes_on) parts.push_back({0.0, memory, {}});
+    parts.back().duration += end * segment.length();
+    parts.back().end = segment.at(end);
+  }
+
+  /// Points on a line whose slider stays where it is but for a share of its reach count as stuck throughout.
+  void forget_moves_below(double share) {
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      const auto [least, most] = resting_places(i);
+      if (!moves[i] || !(most - least <= share * reach)) continue;
+      moves[i] = false;
+      for (HeldPart& part : parts) part.memory.state[i] = ContactState::stick;
+    }
   }
 
   std::vector<bool> moves;
   double reach = 0.0;  ///< largest |s| [m]
+  std::vector<HeldPart> parts;
+
+ private:
+  /// Least and largest slider of a point while it is stuck; infinitely far apart where it separates or never sticks.
+  [[nodiscard]] std::pair<double, double> resting_places(std::size_t point) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double least = infinity;
+    double most = -infinity;
+    for (const HeldPart& part : parts) {
+      const ContactState state = part.memory.state[point];
+      if (state == ContactState::separated) return {-infinity, infinity};
+      if (state != ContactState::stick) continue;
+      least = std::min(least, part.memory.slider[static_cast<Eigen::Index>(point)]);
+      most = std::max(most, part.memory.slider[static_cast<Eigen::Index>(point)]);
+    }
+    if (least > most) return {-infinity, infinity};
+    return {least, most};
+  }
 };
 
 /// The part of a TimeState that perturbations are made of, in numbers of order one.
@@ -67,6 +103,26 @@ class Coordinates {
 
   [[nodiscard]] Eigen::Index size() const {
     return 2 * n_modes_ + static_cast<Eigen::Index>(sliders_.size() + directions_.size());
+  }
+
+  /// What moved() does by 1 in every column.
+  [[nodiscard]] Variation units(Eigen::Index n_points) const {
+    Variation units{Eigen::MatrixXd::Zero(n_modes_, size()),
+                    Eigen::MatrixXd::Zero(n_modes_, size()),
+                    Eigen::MatrixXd::Zero(n_points, size())};
+    units.q.leftCols(n_modes_).diagonal().setConstant(size_.displacement);
+    units.velocity.middleCols(n_modes_, n_modes_).diagonal().setConstant(size_.velocity);
+    Eigen::Index column = 2 * n_modes_;
+    for (const Eigen::Index k : sliders_) units.slider(k, column++) = reach_;
+    return units;
+  }
+
+  /// The changes as rows in numbers of order one.
+  [[nodiscard]] Eigen::MatrixXd rows(const Variation& change) const {
+    Eigen::MatrixXd rows(size(), change.q.cols());
+    rows << change.q / size_.displacement, change.velocity / size_.velocity,
+        change.slider(sliders_, Eigen::all) / reach_;
+    return rows;
   }
 
   [[nodiscard]] TimeState moved(TimeState from, Eigen::Index column, double by) const {
@@ -115,9 +171,9 @@ TimeState after_period(const TimeSystem& system, TimeState state) {
   return state;
 }
 
-/// ∂P/∂x; empty where a perturbed period ends in other states.
-std::optional<Eigen::MatrixXd> monodromy(const TimeSystem& system, const TimeState& at,
-                                         const Coordinates& coordinates) {
+/// ∂P/∂x by differences; empty where a perturbed period ends in other states.
+std::optional<Eigen::MatrixXd> differenced(const TimeSystem& system, const TimeState& at,
+                                           const Coordinates& coordinates) {
   const Eigen::Index n = coordinates.size();
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index column = 0; column < n; ++column) {
@@ -130,6 +186,14 @@ std::optional<Eigen::MatrixXd> monodromy(const TimeSystem& system, const TimeSta
   return matrix;
 }
 
+/// ∂P/∂x of the period watched.
+std::optional<Eigen::MatrixXd> varied(const TimeSystem& system, const Coordinates& coordinates,
+                                      const std::vector<HeldPart>& parts,
+                                      const TransientMemory& end) {
+  const Eigen::Index n_points = system.contact() != nullptr ? system.contact()->n_points() : 0;
+  return coordinates.rows(varied_period(system, parts, end, coordinates.units(n_points)));
+}
+
 /// Begins a period after q, so that sliders are where the motion itself leaves them.
 FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q,
                                     Eigen::Index most) {
@@ -140,12 +204,19 @@ FloquetMultipliers multipliers_near(const TimeSystem& system, const Harmonics& q
   SliderWatch watch(at.memory.state.size());
   TimeState end = at;
   stepper->advance_period(end, &watch);
-  const Coordinates coordinates(at, watch, stepper->levels().last);
+  const contact::GuardScale& size = stepper->levels().last;
+  const Coordinates coordinates(at, watch, size);
   if (coordinates.size() > most) return result;
   const auto missed = coordinates.between(at, end);
   if (!missed) return result;
   result.distance = missed->norm();
-  const auto matrix = monodromy(system, at, coordinates);
+  const bool is_linear = system.contact() == nullptr || system.contact()->is_held_linear();
+  // Sliders shake down to where the motion leaves them: what one still moves by then may be the
+  // error of the series.
+  if (is_linear) watch.forget_moves_below(result.distance);
+  const auto matrix = is_linear
+                          ? varied(system, Coordinates(at, watch, size), watch.parts, end.memory)
+                          : differenced(system, at, coordinates);
   if (!matrix || !matrix->allFinite()) return result;
   if (const auto values = contact::general_eigenvalues(*matrix)) result.multipliers = *values;
   return result;

@@ -3,7 +3,8 @@
 ///
 ///   x ↦ P(x), x = (q, q̇, sliders that move within the period, directions of slip),   M = ∂P/∂x
 ///
-/// by central differences of event-located integration. Unlike the Jacobian of the balance, which answers
+/// by event-located integration: where held forces are linear of one period and its variations
+/// (period_variation.hpp), else by central differences of it. Unlike the Jacobian of the balance, which answers
 /// perturbations of the period of the motion alone, P sees every perturbation with its own history of
 /// the sliders: its pairs of multipliers are those of the motion. A point that never slips nor separates
 /// keeps its slider, a multiplier of 1 that tells nothing, and is left out.
@@ -32,7 +33,7 @@ struct FloquetMultipliers {
 /// @param scene      with `transient`, or linear.
 /// @param frequency  ω [rad/s].
 /// @param q          harmonics of a solution.
-/// @param most       rows of M at most, each of which costs two periods; beyond, nothing is integrated.
+/// @param most       rows of M at most, each of which costs two periods where M is differenced; beyond, M is not made.
 [[nodiscard]] FloquetMultipliers floquet_multipliers(const Scene& scene, double frequency,
                                                      const Harmonics& q, Eigen::Index most);
 

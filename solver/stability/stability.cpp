@@ -29,9 +29,9 @@ constexpr double reach_of_width = 6.0;
 constexpr double nearby = 1e-6;
 // Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
 constexpr double real_tolerance = 1e-6;
-// Of a monodromy matrix: each costs two periods of 0.1 to 1 ms, some 10 ms in all. Of points that
-// slide in a plane, or whose coefficient or load follows another law, ten times that: nine tenths
-// of a curve.
+// Of a monodromy matrix, where every point is judged: three periods of 0.1 to 1 ms. Of points that
+// slide in a plane, or whose coefficient or load follows another law, two periods for each column,
+// ten times as long each: nine tenths of a curve.
 constexpr Eigen::Index most_multipliers = 16;
 // The same where few points are judged: sliders at rest in the period are no states of the matrix,
 // points cost time in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).

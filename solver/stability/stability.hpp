@@ -54,7 +54,7 @@ struct StabilityReport {
 
 /// What a verdict may cost.
 enum class PeriodMapEffort {
-  every_point,  ///< modes, two states each, and points of friction along a line together at most 16: some 10 ms
+  every_point,  ///< modes, two states each, and points of friction along a line together at most 16: some 2 ms
   few_points,  ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
 };
 

@@ -55,6 +55,23 @@ TEST_P(DenseOfSize, PairsAreOfTheMatrix) {
   EXPECT_LT(std::abs(values->sum() - A.trace()), 1e-9 * A.norm());
 }
 
+TEST(Dense, ExponentialOfARotationTurnsIt) {
+  // Of a generator of any size: squarings lose digits by its norm.
+  for (const double angle : {1e-9, 0.3, 40.0, 3e4}) {
+    Eigen::Matrix2d generator;
+    generator << 0.0, angle, -angle, 0.0;
+    Eigen::Matrix2d turned;
+    turned << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+    EXPECT_LT((exponential(generator) - turned).norm(), 1e-15 * (10.0 + angle)) << angle;
+  }
+}
+
+TEST(Dense, ExponentialsOfOneMatrixMultiply) {
+  const Eigen::MatrixXd A = random_matrix(12, 7);
+  const Eigen::MatrixXd product = exponential(0.7 * A) * exponential(0.3 * A);
+  EXPECT_LT((exponential(A) - product).norm(), 1e-13 * product.norm());
+}
+
 TEST(Dense, WhatIsNotFiniteHasNoEigenvalues) {
   Eigen::MatrixXd A = random_matrix(100, 4);
   A(3, 7) = std::numeric_limits<double>::quiet_NaN();

@@ -1,7 +1,9 @@
 #include "solver/stability/floquet.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -57,6 +59,102 @@ double measured_factor(const TimeSystem& system, const TimeState& from, int n_pe
   }
   const double last = std::log((b.motion.q - a.motion.q).norm());
   return std::exp((last - first) / (n_periods - warm_up));
+}
+
+/// The same force, of which nothing is said to be linear: the period map is differenced.
+class Differenced final : public contact::TransientForce {
+ public:
+  explicit Differenced(std::unique_ptr<contact::TransientForce> force) : force_(std::move(force)) {}
+  [[nodiscard]] Eigen::Index n_modes() const override { return force_->n_modes(); }
+  [[nodiscard]] Eigen::Index n_points() const override { return force_->n_points(); }
+  [[nodiscard]] contact::TransientMemory virgin_memory() const override {
+    return force_->virgin_memory();
+  }
+  [[nodiscard]] Eigen::VectorXd trial_force(const contact::ModalMotion& motion,
+                                            const contact::TransientMemory& memory) const override {
+    return force_->trial_force(motion, memory);
+  }
+  double commit(const contact::ModalMotion& motion,
+                contact::TransientMemory& memory) const override {
+    return force_->commit(motion, memory);
+  }
+  [[nodiscard]] Eigen::VectorXd held_force(const contact::ModalMotion& motion,
+                                           const contact::TransientMemory& memory) const override {
+    return force_->held_force(motion, memory);
+  }
+  [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> guards(
+      const contact::ModalMotion& motion, const contact::TransientMemory& memory,
+      const contact::GuardScale& scale) const override {
+    return force_->guards(motion, memory, scale);
+  }
+  [[nodiscard]] Guards guards_of(Eigen::Index point, const contact::ModalMotion& motion,
+                                 const contact::TransientMemory& memory,
+                                 const contact::GuardScale& scale) const override {
+    return force_->guards_of(point, motion, memory, scale);
+  }
+  void switch_state(Eigen::Index point, const contact::ModalMotion& motion,
+                    contact::TransientMemory& memory) const override {
+    force_->switch_state(point, motion, memory);
+  }
+  [[nodiscard]] double slip_power(const contact::ModalMotion& motion,
+                                  const contact::TransientMemory& memory) const override {
+    return force_->slip_power(motion, memory);
+  }
+  [[nodiscard]] contact::StateShares shares(const contact::TransientMemory& memory) const override {
+    return force_->shares(memory);
+  }
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return force_->stuck_stiffness();
+  }
+
+ private:
+  std::unique_ptr<contact::TransientForce> force_;
+};
+
+/// Largest distance of a multiplier of one list to the nearest of the other.
+double farthest(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+  double distance = 0.0;
+  for (const std::complex<double>& value : a) {
+    distance = std::max(distance, (b.array() - value).abs().minCoeff());
+  }
+  return distance;
+}
+
+TEST(Floquet, VariationsOfAPeriodAgreeWithItsDifferences) {
+  // From gaps through impacts to points that all but stick. Differences of 1e-4 of the motion err
+  // by 1e-6, and know nothing where a perturbed period ends in other states.
+  int n_compared = 0;
+  double worst = 0.0;
+  for (const double preload : {-2.0, 0.0, 3.0, 15.0, 25.0, 50.0, 100.0, 200.0}) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::add_transient(scene);
+    tests::use_event_cycles(scene);
+    Scene other = tests::three_dof_scene(preload);
+    tests::add_transient(other);
+    other.transient = std::make_unique<Differenced>(std::move(other.transient));
+    ContinuationOptions options;
+    options.n_harmonics = 7;
+    for (const double hz : {18.5, 20.5, 22.0, 25.0, 27.8, 33.0}) {
+      const ResponseCurve curve = solve_at_frequency(scene, two_pi * hz, options);
+      ASSERT_TRUE(curve.complete) << preload << " N, " << hz << " Hz";
+      const contact::Harmonics& q = curve.points.at(0).q;
+      const auto varied = floquet_multipliers(scene, two_pi * hz, q, most);
+      const auto differenced = floquet_multipliers(other, two_pi * hz, q, most);
+      // A slider that moves by less than 1e-4 does not move in one of two perturbed periods: no
+      // derivative.
+      const bool is_told =
+          differenced.known() && differenced.multipliers.size() == varied.multipliers.size();
+      if (!is_told) continue;
+      ++n_compared;
+      EXPECT_EQ(varied.distance, differenced.distance);
+      const double apart = std::max(farthest(varied.multipliers, differenced.multipliers),
+                                    farthest(differenced.multipliers, varied.multipliers));
+      worst = std::max(worst, apart);
+      EXPECT_LT(apart, 1e-5) << preload << " N, " << hz << " Hz";
+    }
+  }
+  std::printf("%d period maps, multipliers within %.1e\n", n_compared, worst);
+  EXPECT_GE(n_compared, 40);
 }
 
 TEST(Floquet, FreeModesDecayWithTheirDamping) {
