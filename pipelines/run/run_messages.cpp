@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,51 @@ namespace microslip::pipelines {
 namespace {
 
 constexpr double to_hz = 0.5 / std::numbers::pi;
+
+/// Of frequencies [rad/s].
+struct Stretch {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Sorted, those that touch in one.
+std::vector<Stretch> joined(std::vector<Stretch> stretches) {
+  std::ranges::sort(stretches, {}, &Stretch::low);
+  std::vector<Stretch> result;
+  for (const Stretch& next : stretches) {
+    if (!result.empty() && next.low <= result.back().high) {
+      result.back().high = std::max(result.back().high, next.high);
+    } else {
+      result.push_back(next);
+    }
+  }
+  return result;
+}
+
+/// What of `stretches` no other covers, both joined; what is shorter than a step is left out.
+std::vector<Stretch> without(const std::vector<Stretch>& stretches,
+                             const std::vector<Stretch>& others) {
+  constexpr double least = 1e-6;  // of the frequency: ends of neighbouring steps
+  std::vector<Stretch> left;
+  const auto keep = [&](double low, double high) {
+    if (high - low > least * high) left.push_back({low, high});
+  };
+  for (const Stretch& stretch : stretches) {
+    double low = stretch.low;
+    for (const Stretch& other : others) {
+      if (other.high < low || other.low > stretch.high) continue;
+      keep(low, other.low);
+      low = std::max(low, other.high);
+    }
+    keep(low, stretch.high);
+  }
+  return left;
+}
+
+/// A fold is neutral: it belongs to what is beside it.
+bool is_unstable(const solver::ResponsePoint& point) {
+  return point.stability == solver::Stability::unstable || point.mark == solver::PointMark::fold;
+}
 
 }  // namespace
 
@@ -78,6 +125,34 @@ std::vector<std::string> detached_text(const CurveResult& result) {
         highest->stability == solver::Stability::unstable ? ", unstable there" : ""));
   }
   return lines;
+}
+
+std::string restless_text(const CurveResult& result) {
+  std::vector<Stretch> settled;
+  std::vector<Stretch> unstable;
+  const auto add = [&](std::span<const solver::ResponsePoint> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& a = points[i];
+      const auto& b = points[i + 1 < points.size() ? i + 1 : i];
+      const bool both = is_unstable(a) && is_unstable(b);
+      const auto [low, high] = std::minmax(a.frequency, b.frequency);
+      (both ? unstable : settled).push_back({low, high});
+    }
+  };
+  add(result.curve.points);
+  for (const solver::DetachedBranch& branch : result.curve.detached) add(branch.points);
+  const std::vector<Stretch> restless =
+      without(joined(std::move(unstable)), joined(std::move(settled)));
+  if (restless.empty()) return {};
+  std::string where;
+  for (const Stretch& stretch : restless) {
+    where += where.empty() ? "from " : ", and from ";
+    where += fmt::format("{:.6g} to {:.6g}", to_hz * stretch.low, to_hz * stretch.high);
+  }
+  return fmt::format(
+      "curve {}: {} Hz no solution found is stable: the motion there does not repeat with the "
+      "force, or is one that was not found; response.method = \"time\" shows it",
+      result.name, where);
 }
 
 std::string left_out_text(const CurveResult& result) {

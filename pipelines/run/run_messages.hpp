@@ -23,6 +23,10 @@ namespace microslip::pipelines {
 /// A line for each branch or solution that was found beside the curve.
 [[nodiscard]] std::vector<std::string> detached_text(const CurveResult& result);
 
+/// Where every solution found is unstable, detached ones included: the motion there has another period than the force, or
+/// none. Empty: nowhere.
+[[nodiscard]] std::string restless_text(const CurveResult& result);
+
 /// What the harmonics given leave out at the highest peak, if that is 2 % or more. Empty: less, or not known.
 [[nodiscard]] std::string left_out_text(const CurveResult& result);
 
