@@ -75,6 +75,9 @@ SlepcSession::SlepcSession() {
   // Ranks that wait for each other leave the core to those that work, where others use the machine
   // as well.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  // A process that nobody's mpirun started starts no others: without this, Open MPI looks for ssh
+  // in PATH and ends where there is none.
+  setenv("OMPI_MCA_plm", "isolated", 0);
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
