@@ -21,7 +21,8 @@ struct StepUnit {
 };
 
 /// @return  the units of length in the file, each once; empty: it says none.
-/// @throws MeshError  the file cannot be read, is no STEP file, or ends before its end mark.
+/// @throws MeshError  the file cannot be read, is no STEP file, ends before its end mark, or has statements that refer to
+///                    none or are not as the standard has them.
 [[nodiscard]] std::vector<StepUnit> step_length_units(const std::filesystem::path& file);
 
 struct StepFace {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "mesh/import/step_statements.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/step_geometry.hpp"
 
@@ -144,6 +145,7 @@ std::optional<StepUnit> unit_of(const Statements& statements, int number, int de
 std::vector<StepUnit> step_length_units(const fs::path& file) {
   const std::string text = text_of(file);
   require_whole(text, file);
+  require_sound_statements(text, file);
   const Statements statements(text);
   std::vector<StepUnit> units;
   for (const auto& [number, statement] : statements.all()) {

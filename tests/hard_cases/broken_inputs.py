@@ -447,6 +447,27 @@ def other_codes(source):
     yield made("npz", "modes.npz", "a bomb", bomb())
 
 
+def steps(source):
+    """Statements of a STEP file; OpenCASCADE searches for minutes for what is not there."""
+    with open(os.path.join(source, "share", "scenes", "blade.step"), encoding="utf-8") as file:
+        sound = file.read()
+
+    def case(name, old, new, **more):
+        return Case("STEP", name, {"b.step": sound.replace(old, new, 1)}, ["faces", "b.step"], **{"says": "b.step", **more})
+
+    face = re.search(r"#(\d+) ?= ?ADVANCED_FACE", sound)
+    yield case("a statement is lost", face[0], "#999999 = ADVANCED_FACE", says=f"#{face[1]}")
+    yield case("a statement twice", face[0], "#1 = ADVANCED_FACE", says="twice")
+    yield case("no number", "CARTESIAN_POINT('',(", "CARTESIAN_POINT('',(NaN,", says="NaN")
+    yield case("a number beyond a double", "CARTESIAN_POINT('',(", "CARTESIAN_POINT('',(1e999,", says="1e999")
+    yield case("a parenthesis open", "CARTESIAN_POINT('',(", "CARTESIAN_POINT('',((", says="parenthesis")
+    yield case("100 000 parentheses", "CARTESIAN_POINT('',(", 100000 * "(", says="deep")
+    yield case("a string without end", "CARTESIAN_POINT(''", "CARTESIAN_POINT('")
+    yield case("a comment without end", "DATA;", "DATA; /*", says="not closed")
+    yield case("cut off", sound[len(sound) // 2:], "", says="cut off")
+    yield case("a foreign begin", "ISO-10303-21;", "solid", says="not a STEP file")
+
+
 def bomb():
     """An archive of some kilobytes that unfolds to 4 GB."""
     import zipfile
@@ -589,7 +610,7 @@ def main(program, source, work, n, seed, whole):
     campaign = Campaign(program, work)
     sound = sound_meshes(program, work)
     listed = [*encodings(), *no_files(), *structures(), *values(), *tables(), *meshes(sound), *mesh_scenes(sound),
-              *other_codes(source)]
+              *other_codes(source), *steps(source)]
     if not whole:
         listed = listed[::10]
     cases = [*listed, *random_cases(sound, source, n, seed)]
