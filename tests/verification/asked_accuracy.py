@@ -137,7 +137,7 @@ class AskedAccuracy(unittest.TestCase):
                 ("block_rough", 4, ("response.harmonics=auto", "response.preload=[10, 40]")),
                 ("chain_2dof", 3, ("response.harmonics=auto", "response.optimum=preload",
                                    'response.optimum_range=["10 N", "100 N"]')),
-                ("chain_3dof_normal", 1, ('response.frequency=["24 Hz", "24 Hz"]', "response.preload=[10, 50]",
+                ("chain_3dof_normal", 0.02, ('response.frequency=["24 Hz", "24 Hz"]', "response.preload=[10, 50]",
                                           "accuracy.tolerance=0.01"))):
             folder = os.path.join(WORK, "short")
             settings = [word for setting in settings for word in ("--set", setting)]
