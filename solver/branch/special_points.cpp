@@ -13,13 +13,6 @@ namespace {
 
 // A bracket that Newton's method does not make shorter than this tells the place to eight digits.
 constexpr double rounding_share = 1e-8;
-// Of the slopes at the ends of a bracket, where forces are exact: what is left of the way to the
-// place is this share of it, what is left of a value its square.
-constexpr double level_share = 1e-11;
-// In a bracket so much shorter than the first, a slope that passes zero smoothly has fallen below
-// this share of the first.
-constexpr double jump_width = 1e-3;
-constexpr double jump_height = 0.05;
 constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
@@ -269,25 +262,20 @@ class Segment {
   }
 
   /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois) with a bisection
-  /// after every two steps, so that a jump is found as well; bisection alone once it is known to be one.
+  /// after every two steps, so that a jump is found as well.
   [[nodiscard]] SpecialPoint locate(Node low, Node high) const {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;
     double high_weight = high.value.slope;
-    const double steepest = std::max(std::abs(low_weight), std::abs(high_weight));
-    const double width = high.at.share - low.at.share;
     const double enough =
-        (walker_.is_sampled() ? 0.1 * walker_.resolution() : level_share) * steepest;
+        0.1 * walker_.resolution() * std::max(std::abs(low_weight), std::abs(high_weight));
     std::optional<SpecialPoint> best;
     const int last_cubic = walker_.is_sampled() ? n_cubics : 0;
     for (int i = 0; i < max_cuts && high.at.share - low.at.share > walker_.resolution(); ++i) {
       const double cut = low_weight / (low_weight - high_weight);
       const double cubic = i < last_cubic ? CubicSlope(low, high).zero() : 0.0;
       const bool by_cubic = cubic > 0.0 && cubic < 1.0;
-      const double least = std::min(std::abs(low.value.slope), std::abs(high.value.slope));
-      const bool jumps =
-          high.at.share - low.at.share < jump_width * width && least > jump_height * steepest;
-      const double line = jumps || i % 3 == 2 ? 0.5 : cut;
+      const double line = i % 3 == 2 ? 0.5 : cut;
       std::optional<Node> point = inside(low, high, by_cubic ? cubic : line);
       if (!point) return unsolved(low, high);
       const double slope = point->value.slope;
