@@ -257,7 +257,7 @@ class Places:
         self.refused("a table that is a loop of links", ["check", "scene.toml", "--set", "modal.points=a"], (1,), ["a"])
         self.refused("a mesh that is a loop of links", ["check", "mesh.toml", "--set", "model.file=loop.toml"], (1,), ["loop.toml"])
         os.symlink("nowhere", os.path.join(self.work, "dangling.toml"))
-        self.refused("no folder for temporary files", ["run", "scene.toml", "--no-cache", "-o", "r"], (4,), ["TMPDIR"],
+        self.refused("no folder for temporary files", ["run", "scene.toml", "-q", "--no-cache", "-o", "r"], (4,), ["TMPDIR"],
                      environment={**without_plots(), "TMPDIR": os.path.join(self.work, "scene.toml", "below")})
         self.refused("a link to nothing", ["check", "dangling.toml"], (1,), ["dangling.toml"])
         os.makedirs(os.path.join(self.work, "real"))
