@@ -27,12 +27,13 @@ void require(const Range& range) {
 }  // namespace
 
 void check_geometry(const BladeGeometry& g, const ElementSizes& sizes) {
-  constexpr double largest = 10.0;  // m
-  constexpr double finest = 0.01;   // of the elements elsewhere
+  constexpr double largest = 10.0;     // m
+  constexpr double finest = 0.01;      // of the elements elsewhere
+  constexpr double same = 1.0 + 1e-9;  // likewise
   for (const Range& range : std::array<Range, 17>{{
            {"element_size", sizes.element_size, 0.0, largest},
            {"edge_size", sizes.edge_size.value_or(sizes.element_size), finest * sizes.element_size,
-            largest},
+            same * sizes.element_size},
            {"root_width", g.root_width, 0.0, largest},
            {"root_height", g.root_height, 0.0, largest},
            {"root_length", g.root_length, 0.0, largest},

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <unordered_set>
@@ -85,7 +86,7 @@ class StatementReader {
   }
 
   void skip_to_end() {
-    while (at_ < text_.size() && now() != ';') {
+    while (skip_blanks(), at_ < text_.size() && now() != ';') {
       now() == '\'' ? skip_past("'") : next();
     }
     if (at_ < text_.size()) ++at_;
@@ -168,7 +169,10 @@ class StatementReader {
     if (digits.front() == '+') digits.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool is_whole = end == digits.data() + digits.size() && error == std::errc();
+    const bool is_small_or_large = error == std::errc::result_out_of_range;
+    if (is_small_or_large) value = std::strtod(std::string(digits).c_str(), nullptr);
+    const bool is_whole =
+        end == digits.data() + digits.size() && (error == std::errc() || is_small_or_large);
     if (!is_whole || !std::isfinite(value)) fail("has " + shown + ", which is no number");
   }
 

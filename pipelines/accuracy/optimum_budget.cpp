@@ -41,14 +41,34 @@ class Peaks {
   const std::vector<solver::PeakOfParameter>& trace_;  // by parameter
 };
 
+using Values = std::array<double, neighbours.size()>;
+
+/// The search has followed the peaks of these curves, and no other is lowest or highest on the way: not one of a
+/// branch that a sweep does not meet.
+bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
+  constexpr double same = 0.01;   // at the best preload itself
+  constexpr double nearly = 0.1;  // between values that were solved for
+  const Peaks followed(optimum.trace);
+  const double best = optimum.best.parameter;
+  for (const solver::PeakOfParameter& peak : optimum.trace) {
+    const double ratio = peak.parameter / best;
+    if (peak.detached && ratio > neighbours.front() && ratio < neighbours.back()) return false;
+  }
+  for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+    const double other = followed.at(neighbours[i] * best);
+    if (!(std::abs(amplitudes[i] / other - 1.0) < (i == middle ? same : nearly))) return false;
+  }
+  return true;
+}
+
 /// Where the lowest peak goes, over the best preload, less 1: from where log A falls to where it rises, each side
 /// raised by an effect of its own.
-double shift(const Peaks& peaks, double best, const std::array<double, neighbours.size()>& effect) {
+double shift(const Values& amplitudes, const Values& effect) {
   const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
-  const auto slope_to = [&](double ratio) {
-    return std::log(peaks.at(ratio * best) / peaks.at(best)) / std::log(ratio);
+  const auto slope_to = [&](std::size_t i) {
+    return std::log(amplitudes[i] / amplitudes[middle]) / std::log(neighbours[i]);
   };
-  const double turn = slope_to(neighbours.back()) - slope_to(neighbours.front());
+  const double turn = slope_to(neighbours.size() - 1) - slope_to(0);
   const double farthest = std::log(neighbours.back());
   const double way = (raised(0) - raised(neighbours.size() - 1)) / turn;
   return std::expm1(turn > 0.0 ? std::clamp(way, -farthest, farthest) : farthest);
@@ -67,7 +87,7 @@ std::map<std::string, Effects> by_source(const std::vector<CurveBudget>& budgets
 }
 
 /// One that is missing is taken from beside it. @return empty: more are missing.
-std::optional<std::array<double, neighbours.size()>> all_known(const Effects& effects) {
+std::optional<Values> all_known(const Effects& effects) {
   const auto is_known = [](const std::optional<double>& one) { return one.has_value(); };
   if (std::ranges::count_if(effects, is_known) < 2) return std::nullopt;
   const double centre =
@@ -85,9 +105,7 @@ double seconds_of(const std::vector<CurveBudget>& budgets, const std::string& so
   return seconds;
 }
 
-CurveBudget combined(const std::vector<CurveBudget>& budgets, const solver::Optimum& optimum) {
-  const Peaks peaks(optimum.trace);
-  const double best = optimum.best.parameter;
+CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& amplitudes_given) {
   const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
   CurveBudget result;
   std::set<std::string> unknown;
@@ -107,7 +125,7 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const solver::Opti
     const auto add = [&](const char* goal, double effect) {
       result.rows.push_back({optimum_name, goal, source, effect, true, seconds});
     };
-    add(best_value_goal, shift(peaks, best, *known));
+    add(best_value_goal, shift(amplitudes_given, *known));
     add(best_amplitude_goal, (*known)[middle]);
     add(best_frequency_goal, frequencies.at(source)[middle].value_or(0.0));
   }
@@ -121,6 +139,7 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
                            const RicherModels& richer, const solver::Optimum& optimum, int jobs) {
   if (!optimum.found || !scene.response->optimum->of_preload()) return {};
   std::vector<CurveBudget> budgets(neighbours.size());
+  Values amplitudes{};
   const auto goes_on = [](const solver::ResponsePoint&) {
     return !interrupt_requested() && !cut_short();
   };
@@ -129,9 +148,12 @@ CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& sc
     if (interrupt_requested() || cut_short()) return;
     const CurveResult curve = trace_curve(model, scene, request, goes_on);
     budgets[i] = error_budget(model, scene, richer, curve);
+    const solver::ResponsePoint* peak = highest_peak(curve.curve);
+    if (peak != nullptr) amplitudes[i] = peak->amplitude;
   });
   if (interrupt_requested() || cut_short()) return {};
-  return combined(budgets, optimum);
+  if (!are_those_followed(amplitudes, optimum)) return {};
+  return combined(budgets, amplitudes);
 }
 
 }  // namespace microslip::pipelines

@@ -17,7 +17,8 @@ namespace microslip::pipelines {
 /// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most to the neighbours.
 /// Relative effects, goals best_value, best_amplitude and best_frequency.
 /// @param jobs  curves side by side, ≥ 1.
-/// @return no rows: another number than the preload is searched, nothing is found, or time is over.
+/// @return no rows: another number than the preload is searched, nothing is found, branches that no sweep meets count
+///         about there, or time is over.
 [[nodiscard]] CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
                                          const RicherModels& richer, const solver::Optimum& optimum,
                                          int jobs);

@@ -61,8 +61,8 @@ double largest_of(const std::vector<Errors>& all, const std::string& source) {
   return largest;
 }
 
-/// Chosen harmonics answer for a share of the tolerance.
-/// @param hurried  the time may run out: a step on the way is worth its price.
+/// Chosen harmonics answer for a share of the tolerance. With a budget of time, which may run out, a step on the way is
+/// worth its price.
 Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double error) {
   const HarmonicSettings& given = scene.settings.harmonics;
   constexpr double anything = 1.0;
@@ -175,36 +175,57 @@ Moves moves_of(const std::string& source, const SceneDescription& scene, double 
 /// One move of every source, and what comes of it.
 struct Plan {
   std::map<std::string, const Move*> moves{};
-  double bar = none;      ///< the largest
   double seconds = none;  ///< of the round
 };
 
-/// Every combination of moves, with its bar and its price.
+double bar_of(const Errors& errors) {
+  double bar = 0.0;
+  for (const auto& [source, error] : errors) bar += error;
+  return bar;
+}
+
+double bar_after(const Errors& errors, const Plan& plan) {
+  double bar = 0.0;
+  for (const auto& [source, error] : errors) {
+    const Move& move = *plan.moves.at(source);
+    bar += std::min(error * move.factor, move.most);
+  }
+  return bar;
+}
+
+/// Every combination of moves; the cheapest that is enough.
 class Plans {
  public:
   Plans(const std::vector<Errors>& errors, const std::map<std::string, Moves>& moves,
-        const SpentSeconds& spent)
+        const SpentSeconds& spent, double tolerance)
       : errors_(errors), spent_(spent) {
     for (const auto& [source, own] : moves) sources_.emplace_back(source, &own);
+    // Where what cannot be refined is above the tolerance, what can be is brought below it.
+    constexpr double beside = 0.5;  // of the tolerance
+    for (const Errors& one : errors) {
+      bounds_.push_back(std::max(wanted * tolerance, least_of(one, moves) + beside * tolerance));
+    }
     extend({}, 0);
   }
 
-  /// The cheapest with at most that bar. @return  without moves: there is none.
-  [[nodiscard]] Plan cheapest(double bar) const {
-    Plan best;
-    for (const Plan& plan : plans_) {
-      if (plan.bar <= bar && plan.seconds < best.seconds) best = plan;
-    }
-    return best;
-  }
-
-  [[nodiscard]] double least_bar() const { return std::ranges::min(plans_, {}, &Plan::bar).bar; }
+  [[nodiscard]] const Plan& cheapest() const { return cheapest_; }
 
  private:
+  static double least_of(const Errors& errors, const std::map<std::string, Moves>& moves) {
+    double bar = 0.0;
+    for (const auto& [source, error] : errors) {
+      double least = none;
+      for (const Move& move : moves.at(source)) {
+        least = std::min({least, error * move.factor, move.most});
+      }
+      bar += least;
+    }
+    return bar;
+  }
+
   void extend(Plan plan, std::size_t i) {
     if (i == sources_.size()) {
-      judge(plan);
-      plans_.push_back(std::move(plan));
+      judge(std::move(plan));
       return;
     }
     for (const Move& move : *sources_[i].second) {
@@ -213,7 +234,7 @@ class Plans {
     }
   }
 
-  void judge(Plan& plan) const {
+  void judge(Plan plan) {
     double structure = 0.0;
     double curves = 1.0;
     for (const auto& [source, move] : plan.moves) {
@@ -221,22 +242,27 @@ class Plans {
       curves *= move->curves;
     }
     plan.seconds = structure * spent_.structure + curves * spent_.curves;
-    plan.bar = 0.0;
-    for (const Errors& errors : errors_) {
-      double bar = 0.0;
-      for (const auto& [source, error] : errors) {
-        const Move& move = *plan.moves.at(source);
-        bar += std::min(error * move.factor, move.most);
-      }
-      plan.bar = std::max(plan.bar, bar);
+    if (!(plan.seconds < cheapest_.seconds)) return;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      if (bar_after(errors_[i], plan) > bounds_[i]) return;
     }
+    cheapest_ = std::move(plan);
   }
 
   const std::vector<Errors>& errors_;
   SpentSeconds spent_;
   std::vector<std::pair<std::string, const Moves*>> sources_;
-  std::vector<Plan> plans_;
+  std::vector<double> bounds_;
+  Plan cheapest_;
 };
+
+/// Some bar that is above the tolerance becomes smaller by what is worth a round.
+bool gains(const Plan& plan, const std::vector<Errors>& errors, double tolerance) {
+  return std::ranges::any_of(errors, [&](const Errors& one) {
+    const double before = bar_of(one);
+    return before > tolerance && bar_after(one, plan) < worth_a_round * before;
+  });
+}
 
 /// Every source that a bar has, and what can be done with it; to leave it is the first of its moves.
 std::map<std::string, Moves> all_moves(const SceneDescription& scene,
@@ -296,11 +322,8 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
   const std::vector<Errors> errors = errors_of(budgets);
   const std::map<std::string, Moves> moves = all_moves(scene, errors, tolerance);
   left = stuck_sources(moves, errors, tolerance);
-  const Plans plans(errors, moves, spent);
-  // Where what cannot be refined is above the tolerance, what can be is brought below it.
-  const double least = plans.least_bar();
-  constexpr double beside = 0.5;  // of the tolerance
-  const Plan plan = plans.cheapest(std::max(wanted * tolerance, least + beside * tolerance));
+  const Plans plans(errors, moves, spent, tolerance);
+  const Plan& plan = plans.cheapest();
   Refinement result{.scene = scene, .text = {}, .seconds = plan.seconds};
   result.only_harmonics = true;
   std::vector<std::string> texts;
@@ -311,7 +334,7 @@ std::optional<Refinement> refinement(const SceneDescription& scene,
     if (move->structure > 0.0) result.new_mesh = true;
     if (source != "harmonics") result.only_harmonics = false;
   }
-  if (texts.empty() || plan.bar > worth_a_round * largest_bar(budgets)) return std::nullopt;
+  if (texts.empty() || !gains(plan, errors, tolerance)) return std::nullopt;
   result.text = fmt::format("{}", fmt::join(texts, ", "));
   return result;
 }

@@ -1,8 +1,24 @@
 #include "pipelines/model/preload_of.hpp"
 
+#include <cmath>
+
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
+namespace {
+
+/// A gap is as wide as its preload over the stiffness: whether that is the same everywhere.
+bool is_one_gap(const ReducedModel& model) {
+  constexpr double same = 1e-6;
+  const double width = 1.0 / total_normal_stiffness(model);  // at unit load
+  for (const contact::Patch& patch : model.patches) {
+    const Eigen::ArrayXd own = patch.cells.preload.array() / patch.cells.stiffness.col(1).array();
+    if (!((own - width).abs() <= same * std::abs(width)).all()) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 double total_normal_stiffness(const ReducedModel& model) {
   double total = 0.0;
@@ -28,6 +44,7 @@ std::optional<double> gap_of(const std::variant<double, LimitName>& preload,
                              const ReducedModel& model) {
   const double* load = std::get_if<double>(&preload);
   if (load == nullptr || !(*load < 0.0) || !in_newtons(model)) return std::nullopt;
+  if (!is_one_gap(model)) return std::nullopt;
   return -*load / total_normal_stiffness(model);
 }
 

@@ -76,6 +76,12 @@ def errors(peak, row):
             peak["frequency_Hz"] / float(row["peak_Hz"]) - 1.0)
 
 
+def solved_peak(curve):
+    """None where the largest value lies at an end of the range."""
+    peak = curve.get("peak")
+    return None if peak and peak.get("at") == "range_end" else peak
+
+
 def read_run(folder):
     """(force, {preload: peak}, harmonics, directions) of a run folder."""
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
@@ -86,7 +92,7 @@ def read_run(folder):
     along_y = bool(found) and float(found.group(1).split(",")[1]) != 0.0
     harmonics = re.search(r"^harmonics = (\d+)", scene, re.M)
     second = re.search(r'^second_direction = "(\w+)"', scene, re.M)
-    peaks = {float(c["preload_N"]): c.get("peak") for c in summary["curves"]
+    peaks = {float(c["preload_N"]): solved_peak(c) for c in summary["curves"]
              if isinstance(c["preload_N"], (int, float))}
     return ("y" if along_y else "x", peaks, int(harmonics.group(1)) if harmonics else None,
             "pr" if second and second.group(1) == "on" else "p")

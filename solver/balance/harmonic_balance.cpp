@@ -132,14 +132,16 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
 
 void HarmonicBalance::hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const {
   if (rigid_.empty()) return;
-  constexpr double nothing = 1e-7;  // of the scale: squared it is above rounding
-  const double scale = std::max(stuck_stiffness_.norm(), frequency * frequency);
-  const Eigen::MatrixXd columns = jacobian(Eigen::all, rigid_) / scale;
+  // Of the stiffness of these modes when everything sticks: squared it is above rounding, and a
+  // body that is held softly is held.
+  constexpr double nothing = 1e-7;
+  const double stuck = stuck_stiffness_(Eigen::all, rigid_).norm();
+  const Eigen::MatrixXd columns = jacobian(Eigen::all, rigid_) / (stuck > 0.0 ? stuck : 1.0);
   const auto pairs = contact::symmetric_pairs(columns.transpose() * columns);
   for (Eigen::Index i = 0; pairs && i < pairs->values.size(); ++i) {
     if (pairs->values[i] > nothing * nothing) continue;
     const Eigen::VectorXd loose = pairs->vectors.col(i);
-    jacobian(rigid_, rigid_) += scale * loose * loose.transpose();
+    jacobian(rigid_, rigid_) += std::max(stuck, frequency * frequency) * loose * loose.transpose();
   }
 }
 

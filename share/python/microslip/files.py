@@ -36,6 +36,10 @@ def read_summary(path):
     for i, curve in enumerate(summary["curves"]):
         if not isinstance(curve, dict) or not {"name", "points", "complete"} <= curve.keys():
             raise RunError(f"{shown(path)}: curves[{i}] lacks its name, points or complete: {AGAIN}")
+        peak = curve.get("peak")
+        curve["largest"] = peak
+        if peak and peak.get("at") == "range_end":  # a peak is one that was solved for
+            curve["peak"] = None
     optimum = summary.get("optimum")
     if optimum:
         summary["optimum"] = {"found": True, "parameter": "preload",

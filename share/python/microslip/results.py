@@ -71,9 +71,13 @@ class Curve(Table):
 
     @property
     def peak(self) -> Optional[dict[str, float]]:
-        """The highest peak: frequency_Hz, amplitude_m and `at`, "peak"; of a complete curve without peaks the highest end
-        of the range, `at` "range_end". None where there is neither."""
+        """The highest peak: frequency_Hz and amplitude_m. None where there is none."""
         return self.summary.get("peak")
+
+    @property
+    def largest(self) -> Optional[dict[str, Any]]:
+        """The highest peak, `at` "peak"; of a complete curve without one its highest point, `at` "range_end"."""
+        return self.summary.get("largest")
 
     @property
     def peaks(self) -> Table:

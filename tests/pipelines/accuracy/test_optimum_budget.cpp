@@ -39,15 +39,23 @@ double told(const CurveBudget& budget, const char* goal) {
 TEST(OptimumBudget, TellsHowFarMoreHarmonicsMoveTheBestPreload) {
   const Found truth = search("9");
   ASSERT_TRUE(truth.optimum.found);
-  for (const char* harmonics : {"1", "3"}) {
-    const Found few = search(harmonics);
-    ASSERT_TRUE(few.optimum.found);
-    ASSERT_TRUE(few.budget.has_bar());
-    const double moved = std::abs(truth.optimum.best.parameter / few.optimum.best.parameter - 1.0);
-    EXPECT_GT(told(few.budget, best_value_goal), moved) << harmonics;
-    EXPECT_LT(told(few.budget, best_value_goal), 2.5 * moved) << harmonics;
+  const Found few = search("1");
+  ASSERT_TRUE(few.optimum.found);
+  ASSERT_TRUE(few.budget.has_bar());
+  const double moved = std::abs(truth.optimum.best.parameter / few.optimum.best.parameter - 1.0);
+  EXPECT_GT(moved, 0.1);
+  EXPECT_GT(told(few.budget, best_value_goal), moved);
+  EXPECT_LT(told(few.budget, best_value_goal), 2.5 * moved);
+}
+
+TEST(OptimumBudget, HasNoRowsWhereADetachedPeakBegins) {
+  // The best preload of several harmonics is where an isola is born: curves beside it do not tell
+  // of that.
+  for (const char* harmonics : {"3", "auto"}) {
+    const Found found = search(harmonics);
+    ASSERT_TRUE(found.optimum.found);
+    EXPECT_TRUE(found.budget.rows.empty()) << harmonics;
   }
-  EXPECT_LT(told(truth.budget, best_value_goal), 1e-3);
 }
 
 TEST(OptimumBudget, HasNoRowsWhereNothingIsFound) {

@@ -66,6 +66,22 @@ TEST(Refinement, TakesTheCheapestWayThatIsEnough) {
   EXPECT_FALSE(step->new_mesh) << "errors of different curves do not add up";
 }
 
+TEST(Refinement, ACurveThatCannotBeRefinedDoesNotStopTheOthers) {
+  std::string left;
+  const auto step = refinement(blade(), {budget({{"basis", 0.3}}), budget({{"harmonics", 0.1}})},
+                               tolerance, spent, left);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_TRUE(step->only_harmonics);
+  EXPECT_EQ(left, "basis");
+  const auto both =
+      refinement(blade(), {budget({{"basis", 0.3}, {"harmonics", 0.05}})}, tolerance, spent, left);
+  ASSERT_TRUE(both.has_value());
+  EXPECT_FALSE(
+      refinement(blade(), {budget({{"basis", 0.3}, {"harmonics", 0.015}})}, tolerance, spent, left)
+          .has_value())
+      << "not worth a round";
+}
+
 TEST(Refinement, RefinesAtSharpEdgesBeforeEverywhere) {
   std::string left;
   const auto step = refinement(blade(), {budget({{"mesh", 0.03}})}, tolerance, spent, left);

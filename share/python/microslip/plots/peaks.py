@@ -15,7 +15,7 @@ def peaks_of(run):
     family, limits = [], {}
     for curve, _ in run.curves:
         peak = curve.get("peak")
-        if peak is None or peak.get("at") == "range_end":
+        if peak is None:
             continue
         if is_number(load_of(curve)):
             family.append((load_of(curve), peak["frequency_Hz"], peak["amplitude_m"]))

@@ -153,7 +153,7 @@ def peaks(run, data):
     reference, size = free_peak(run), LENGTH[data["unit"]]
     rows = []
     for curve in run.summary["curves"]:
-        peak, bar = curve.get("peak") or {}, curve.get("bar") or {}
+        peak, bar = curve.get("largest") or {}, curve.get("bar") or {}
         amplitude = peak.get("amplitude_m")
         share = amplitude / reference - 1 if reference and amplitude else None
         end = " (end of the range)" if peak.get("at") == "range_end" else ""
