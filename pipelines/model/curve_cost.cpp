@@ -26,7 +26,7 @@ constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/br
 constexpr double points_of_a_curve = 95.0;
 constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
 constexpr double least_points_in_lanes = 48;   // as contact/choice/contact_force.cpp
-constexpr double period_map = 8e-3;            // of a point of a curve in scenes of few states
+constexpr double period_map = 2e-3;            // of a point of a curve in scenes of few states
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
 
@@ -141,7 +141,8 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const PointMetho
     if (told) seconds.errors = n_curves(scene) * of_error_rows * evaluation;
   }
   if (scene.response->optimum) {
-    constexpr double stable_curves = 2.5;  // peaks alone are judged
+    constexpr double stable_curves =
+        10.0;  // about: peaks alone are judged, and the curves of its error
     seconds.best_value = curves_of_a_search * of_a_curve * evaluation +
                          stable_curves * points_of_a_curve * stability;
     seconds.bracket = searches_of_a_bracket * seconds.best_value;
