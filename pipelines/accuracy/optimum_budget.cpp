@@ -43,16 +43,17 @@ class Peaks {
 
 using Values = std::array<double, neighbours.size()>;
 
-/// The search has followed the peaks of these curves, and no other is lowest or highest on the way: not one of a
-/// branch that a sweep does not meet.
+/// The search has followed the peaks of these curves, and the best preload is not where a branch begins or ends that a
+/// sweep does not meet.
 bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
   constexpr double same = 0.01;   // at the best preload itself
   constexpr double nearly = 0.1;  // between values that were solved for
   const Peaks followed(optimum.trace);
   const double best = optimum.best.parameter;
-  for (const solver::PeakOfParameter& peak : optimum.trace) {
-    const double ratio = peak.parameter / best;
-    if (peak.detached && ratio > neighbours.front() && ratio < neighbours.back()) return false;
+  for (std::size_t i = 0; i < optimum.trace.size(); ++i) {
+    if (optimum.trace[i].parameter != best) continue;
+    if (i > 0 && optimum.trace[i - 1].detached) return false;
+    if (i + 1 < optimum.trace.size() && optimum.trace[i + 1].detached) return false;
   }
   for (std::size_t i = 0; i < amplitudes.size(); ++i) {
     const double other = followed.at(neighbours[i] * best);
