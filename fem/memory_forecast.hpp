@@ -7,25 +7,19 @@
 ///
 ///   s nodes eliminated, b nodes on the border of the piece: 9 [s (s + 1)/2 + s b] numbers of the factor       (1)
 ///
-/// A multifrontal method holds beside the factor the stack of borders that wait, 9 b (b + 1)/2 numbers each, and the front at
-/// work, 9 (s + b)² numbers. A slender blade has small borders and a compact block large ones: of 100 000 unknowns each they
-/// differ by a factor of three, which no power of the number of unknowns knows.
+/// A slender blade has small borders and a compact block large ones: of 100 000 unknowns each they differ by a factor of three,
+/// which no power of the number of unknowns knows.
 ///
-/// Source: George, SIAM J. Numer. Anal. 10 (1973) 345–363; Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325.
+/// Source: George, SIAM J. Numer. Anal. 10 (1973) 345–363.
 #pragma once
 
 #include "mesh/mesh.hpp"
 
 namespace microslip::fem {
 
-/// Numbers that a direct solution of the whole mesh, held nowhere, keeps.
-struct FactorSize {
-  double factor = 0.0;  ///< nonzeros of the factor
-  double work = 0.0;    ///< largest stack beside it
-};
-
-/// (1) over the dissection. @note n log n: some seconds for a million unknowns.
-[[nodiscard]] FactorSize factor_size(const mesh::Mesh& mesh);
+/// Numbers in the factor of the whole mesh, held nowhere: (1) over the dissection.
+/// @note n log n: some seconds for a million unknowns.
+[[nodiscard]] double factor_size(const mesh::Mesh& mesh);
 
 /// What modes and static shapes take [MB], by the SolverKind of fem/modal_analysis.hpp.
 struct MemoryForecast {

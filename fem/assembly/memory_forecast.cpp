@@ -14,18 +14,13 @@
 namespace microslip::fem {
 namespace {
 
-/// Elements around a node, as far as a piece of the mesh has them. A piece knows its border so.
+/// A node and the elements around it, as far as a piece of the mesh has them.
 struct BorderNode {
   Eigen::Index node;
   int n_elements;
 };
 
-struct Piece {
-  std::vector<BorderNode> border;  // ascending
-  double largest_stack = 0.0;      // while it is worked on
-};
-
-double numbers_of_border(double b) { return 4.5 * b * (b + 1.0); }
+using Border = std::vector<BorderNode>;  // ascending
 
 class Dissection {
  public:
@@ -43,29 +38,22 @@ class Dissection {
     }
   }
 
-  FactorSize size() {
+  double size() {
     std::vector<Eigen::Index> all(elements_.size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
-    const Piece whole = dissect(all);
-    return {factor_, whole.largest_stack};
+    dissect(all);
+    return factor_;
   }
 
  private:
   // Few enough that how they are ordered does not matter to the sum.
   static constexpr std::size_t leaf = 4;
 
-  Piece dissect(std::span<Eigen::Index> elements) {
-    if (elements.size() <= leaf) return piece_of_elements(elements);
+  Border dissect(std::span<Eigen::Index> elements) {
+    if (elements.size() <= leaf) return border_of_elements(elements);
     const std::size_t middle = divide(elements, best_cut(elements));
-    const Piece first = dissect(elements.first(middle));
-    const Piece second = dissect(elements.subspan(middle));
-    Piece both = eliminate(joined(first.border, second.border));
-    const double waiting = numbers_of_border(static_cast<double>(first.border.size()));
-    both.largest_stack =
-        std::max({first.largest_stack, waiting + second.largest_stack,
-                  waiting + numbers_of_border(static_cast<double>(second.border.size())) +
-                      both.largest_stack});
-    return both;
+    const Border first = dissect(elements.first(middle));
+    return eliminate(joined(first, dissect(elements.subspan(middle))));
   }
 
   struct Cut {
@@ -137,7 +125,7 @@ class Dissection {
     return axis;
   }
 
-  Piece piece_of_elements(std::span<const Eigen::Index> elements) {
+  Border border_of_elements(std::span<const Eigen::Index> elements) {
     std::vector<Eigen::Index> nodes;
     for (const Eigen::Index e : elements) {
       const auto& [block, row] = elements_[static_cast<std::size_t>(e)];
@@ -145,7 +133,7 @@ class Dissection {
       nodes.insert(nodes.end(), own.begin(), own.end());
     }
     std::sort(nodes.begin(), nodes.end());
-    std::vector<BorderNode> counted;
+    Border counted;
     for (const Eigen::Index node : nodes) {
       if (counted.empty() || counted.back().node != node) counted.push_back({node, 0});
       ++counted.back().n_elements;
@@ -153,9 +141,8 @@ class Dissection {
     return eliminate(std::move(counted));
   }
 
-  static std::vector<BorderNode> joined(const std::vector<BorderNode>& a,
-                                        const std::vector<BorderNode>& b) {
-    std::vector<BorderNode> both;
+  static Border joined(const Border& a, const Border& b) {
+    Border both;
     both.reserve(a.size() + b.size());
     std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
                [](const BorderNode& x, const BorderNode& y) { return x.node < y.node; });
@@ -172,7 +159,7 @@ class Dissection {
   }
 
   /// Equation (1): nodes with all their elements in the piece go.
-  Piece eliminate(std::vector<BorderNode> nodes) {
+  Border eliminate(Border nodes) {
     const auto n_before = static_cast<double>(nodes.size());
     std::erase_if(nodes, [&](const BorderNode& at) {
       return at.n_elements == around_[static_cast<std::size_t>(at.node)];
@@ -180,7 +167,7 @@ class Dissection {
     const auto b = static_cast<double>(nodes.size());
     const double s = n_before - b;
     factor_ += 9.0 * (0.5 * s * (s + 1.0) + s * b);
-    return {std::move(nodes), 9.0 * n_before * n_before};
+    return nodes;
   }
 
   Eigen::MatrixX3d centres_;
@@ -213,13 +200,12 @@ double matrices_mb(const mesh::Mesh& mesh, double per_block) {
 
 }  // namespace
 
-FactorSize factor_size(const mesh::Mesh& mesh) { return Dissection(mesh).size(); }
+double factor_size(const mesh::Mesh& mesh) { return Dissection(mesh).size(); }
 
 MemoryForecast direct_memory(const mesh::Mesh& mesh) {
-  const FactorSize size = factor_size(mesh);
   constexpr double asked = 1.4;        // by MUMPS for a nonzero: its stack, its reserve of 30 %
   constexpr double per_block = 520.0;  // K, M, K − σM, and the lists MUMPS is given of two of them
-  return {matrices_mb(mesh, per_block), megabytes * 8.0 * asked * size.factor};
+  return {matrices_mb(mesh, per_block), megabytes * 8.0 * asked * factor_size(mesh)};
 }
 
 MemoryForecast iterative_memory(const mesh::Mesh& mesh) {

@@ -10,6 +10,7 @@
 #include "pipelines/model/contact_coordinates.hpp"
 #include "pipelines/model/effect_choice.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/system/deadline.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -76,7 +77,10 @@ Changes changes_with(const solver::Scene& own, const solver::Scene& with,
   Changes changes;
   bool is_highest = true;
   for (const solver::ResponseCurve& peak : single_peaks(curve)) {
-    const auto both = solver::peak_elsewhere(own, options, peak, {.scene = with});
+    // Beside the highest the whole curve is looked at: it may be another place that is highest with
+    // the effect.
+    const auto both =
+        solver::peak_elsewhere(own, options, is_highest ? curve : peak, {.scene = with});
     if (both) {
       changes.amplitude =
           larger(changes.amplitude, (both->other_amplitude - both->amplitude) / highest);
@@ -105,6 +109,7 @@ std::vector<ErrorRow> rows_left_out(const ReducedModel& model, const SceneDescri
   const solver::Scene own = solver_scene(model, *load);
   std::vector<ErrorRow> rows;
   for (const WithEffect& other : models_with(model, scene)) {
+    if (cut_short()) break;
     const auto begin = std::chrono::steady_clock::now();
     const solver::Scene with = solver_scene(other.model, *load);
     const Changes changes = changes_with(own, with, options, result.curve, peak->amplitude);

@@ -84,7 +84,8 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     const auto next =
         refinement(solution.scene, solution.budgets, accuracy.asked, spent_on(solution), left);
     missing = next ? fmt::format("next: {}, some {:.2g} s or more", next->text, next->seconds)
-                   : fmt::format("this program cannot refine what is left: {}", left);
+                   : fmt::format("this program cannot refine what is left{}{}",
+                                 left.empty() ? "" : ": ", left);
     // A mesh that is begun cannot be stopped.
     const bool too_long = next && next->new_mesh && next->seconds > seconds_left();
     if (!next || cut_short() || (too_long && leave_out())) break;

@@ -15,10 +15,10 @@
 
 namespace microslip::pipelines {
 
-/// Where the mesher writes a mesh that may not be kept.
 struct SolvedAgain {
   Solution solution;
   std::vector<std::string> warnings;
+  /// Where the mesher writes a mesh that may not be kept.
   std::unique_ptr<TemporaryFolder> folder = std::make_unique<TemporaryFolder>();
   [[nodiscard]] std::filesystem::path mesh_file() const { return folder->path() / "mesh.msh"; }
 };

@@ -109,7 +109,7 @@ std::array<Place, 2> below(const std::vector<PeakOfParameter>& trace, const Peak
 std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best) {
   const auto [left, right] = below(trace, best, as_good * best.amplitude);
   std::ostringstream text;
-  text.precision(6);
+  text.precision(4);
   text << "as good to 1 % from " << left->parameter << " to " << std::prev(right)->parameter;
   for (auto one = trace.begin(); one != trace.end(); ++one) {
     const bool elsewhere = one < left || one >= right;

@@ -1,5 +1,7 @@
 """Numbers and units as people write them."""
 
+import math
+
 LENGTHS = (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9))
 PRESSURES = (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0))
 
@@ -32,3 +34,13 @@ def plain(value):
         power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
         text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
     return text.replace("-", "−")
+
+
+def with_half_width(value, bar, digits=5):
+    """A value and its half width, bar × |value|, to the digits that the bar allows; without a bar to `digits`."""
+    half_width = abs(value) * (bar or 0.0)
+    if not (half_width > 0.0 and 1e-12 < bar < math.inf):
+        return plain(float(f"{value:.{digits}g}"))
+    decade = math.floor(math.log10(half_width))
+    decimals = (1 if half_width / 10**decade < 1.95 else 0) - decade  # two digits of the half width where it begins with a one
+    return " ± ".join(f"{round(number, decimals):.{max(decimals, 0)}f}" for number in (value, half_width)).replace("-", "−")

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from microslip.files import trace_in
-from microslip.plots.numbers import is_number
+from microslip.plots.numbers import is_number, with_half_width
 from microslip.plots.run_folder import load_of
 from microslip.plots.style import ACCENT, FREE, STUCK, figure_title, light_grid, log_scale, subplots
 
@@ -66,8 +66,12 @@ def mark_optimum(column, run, optimum, what, unit=""):
     value, amplitude = optimum["value"], optimum["amplitude_m"] / run.size
     star(column[0], value, amplitude)
     star(column[1], value, optimum["frequency_Hz"])
-    column[0].set_title(f"best {what}{value:.4g}{unit}: {amplitude:.4g} {run.unit} at "
-                        f"{optimum['frequency_Hz']:.4g} Hz", loc="right", color=ACCENT, fontsize=8)
+    bar = optimum.get("bar") or {}
+    value_text, amplitude_text, frequency_text = (
+        with_half_width(number, bar.get(goal)) for number, goal in
+        ((value, "best_value"), (amplitude, "best_amplitude"), (optimum["frequency_Hz"], "best_frequency")))
+    column[0].set_title(f"best {what}{value_text}{unit}: {amplitude_text} {run.unit} at {frequency_text} Hz",
+                        loc="right", color=ACCENT, fontsize=8)
 
 
 def finish(figure, run, column):

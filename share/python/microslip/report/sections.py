@@ -3,7 +3,7 @@
 from html import escape
 
 from microslip.files import RunError
-from microslip.plots.numbers import LENGTHS, is_number, plain
+from microslip.plots.numbers import LENGTHS, is_number, plain, with_half_width
 
 UNITS = {"youngs_modulus": "Pa", "density": "kg/m³", "element_size": "m", "length": "m", "area": "m²", "amplitude": "N",
          "phase": "°", "normal_stiffness": "N/m³", "tangential_stiffness": "N/m³", "tangential_stiffness_r": "N/m³",
@@ -32,6 +32,11 @@ def table(head, rows, right=()):
 
 def number(value, digits=5):
     return plain(float(f"{value:.{digits}g}")) if is_number(value) else "–"
+
+
+def told_with(bar, goal, value, digits=5):
+    """A value with its half width, where the bar of its goal is known."""
+    return with_half_width(value, bar.get(goal), digits) if is_number(value) else "–"
 
 
 def percent(value, digits=2):
@@ -157,8 +162,8 @@ def peaks(run, data):
         amplitude = peak.get("amplitude_m")
         share = amplitude / reference - 1 if reference and amplitude else None
         end = " (end of the range)" if peak.get("at") == "range_end" else ""
-        rows.append([preload_text(curve), number(peak.get("frequency_Hz"), 6) + end,
-                     number(amplitude / size if amplitude else None, 4),
+        rows.append([preload_text(curve), told_with(bar, "peak_frequency", peak.get("frequency_Hz"), 6) + end,
+                     told_with(bar, "peak_amplitude", amplitude / size if amplitude else None, 4),
                      percent(bar.get("peak_amplitude")), "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−"),
                      ", ".join(number(fold, 6) for fold in curve.get("folds_Hz") or []) or "–",
                      unjudged(data, curve["name"]), state_of(curve)])
@@ -173,9 +178,11 @@ def optimum(run, data):
         return ""
     if not best.get("found"):
         return f"<p class=best>Best {escape(best['parameter'])} not found: {escape(best.get('message') or '')}.</p>"
-    unit = " N" if best["parameter"] == "preload" else " (SI)"
-    return (f"<p class=best>Best {escape(best['parameter'])}: <b>{number(best['value'])}{unit}</b>, peak "
-            f"{number(best['amplitude_m'] / LENGTH[data['unit']])} {data['unit']} at {number(best['frequency_Hz'], 6)} Hz.</p>")
+    unit, bar = " N" if best["parameter"] == "preload" else " (SI)", best.get("bar") or {}
+    amplitude = best["amplitude_m"] / LENGTH[data["unit"]]
+    return (f"<p class=best>Best {escape(best['parameter'])}: <b>{told_with(bar, 'best_value', best['value'])}{unit}</b>, "
+            f"peak {told_with(bar, 'best_amplitude', amplitude)} {data['unit']} at "
+            f"{told_with(bar, 'best_frequency', best['frequency_Hz'], 6)} Hz.</p>")
 
 
 def response(run, data):
