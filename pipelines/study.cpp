@@ -1,5 +1,7 @@
 #include "pipelines/study.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -36,6 +38,7 @@
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/result_cache.hpp"
@@ -140,10 +143,20 @@ void find_optimum(const Solution& solution, const RunOptions& options, RunRecord
   const SceneDescription& scene = solution.scene;
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
-  const solver::Optimum best = search.best();
+  solver::Optimum best;
+  std::optional<OptimumBracket> bracket;
+  // The search itself keeps little more than one core busy. Where time may run out it comes first;
+  // another number than the preload may need other modes, which one thread alone may ask for.
+  const bool beside = options.bracket && options.jobs > 1 && !std::isfinite(seconds_left()) &&
+                      scene.response->optimum->of_preload();
+  in_parallel(beside ? 2 : 1, 2, [&](std::size_t task) {
+    if (task == 0) best = search.best();
+    if (task == 1) bracket = search.bracket(options.jobs - 1);
+  });
   record.keep_optimum(solution.model, *scene.response->optimum, best,
                       budget_of(solution, best, options.jobs));
-  if (options.bracket && !cut_short()) record.keep_bracket(search.bracket());
+  if (!bracket && options.bracket && !cut_short()) bracket = search.bracket(options.jobs);
+  if (bracket) record.keep_bracket(std::move(*bracket));
 }
 
 }  // namespace

@@ -222,12 +222,12 @@ std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracke
   return list;
 }
 
-OptimumBracket OptimumSearch::bracket() {
+OptimumBracket OptimumSearch::bracket(int jobs) {
   OptimumBracket bracket;
   const std::vector<Change> list = changes(bracket);
   std::vector<std::optional<solver::Optimum>> found(list.size());
   std::vector<std::string> refused(list.size());
-  in_parallel(list.size(), jobs_, [&](std::size_t i) {
+  in_parallel(list.size(), std::min(jobs, jobs_), [&](std::size_t i) {
     try {
       found[i] = search(list[i].factors, 1);
     } catch (const RefusedError& error) {

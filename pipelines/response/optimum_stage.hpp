@@ -36,7 +36,9 @@ class OptimumSearch {
   /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
   /// moves the best preload: the range is widened by as much, and the entry says so. Of more than three harmonics with
   /// three, and once with both as they are, which is what the others are to be compared with.
-  [[nodiscard]] OptimumBracket bracket();
+  /// @param jobs  searches side by side; of another number than the preload one, whatever is asked for. Of the preload it
+  ///              may run beside best().
+  [[nodiscard]] OptimumBracket bracket(int jobs);
 
  private:
   struct Factors {

@@ -42,8 +42,7 @@ class Corrector {
       at = evaluated(system_.whole, std::move(best.point));
     }
     if (at.residual <= tolerance_) return finished(std::move(at));
-    NewtonResult result =
-        solve_newton(system_.whole, std::move(at), constraint_, scaling_, options_);
+    NewtonResult result = solve_newton(system_, std::move(at), constraint_, scaling_, options_);
     result.iterations += iterations_;
     result.evaluations += evaluations_;
     return result;

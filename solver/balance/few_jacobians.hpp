@@ -15,12 +15,6 @@
 
 namespace microslip::solver {
 
-/// A system with its residual alone, which may leave the derivatives empty.
-struct EconomicSystem {
-  ParametricSystem whole;
-  ParametricSystem residual;
-};
-
 /// @return as solve_newton(), not polished. Residual and force are those of the point; its derivatives those of the
 ///         point the last Jacobian was made at, if the residual there was below 3e-4 of its scale.
 [[nodiscard]] NewtonResult solve_with_few_jacobians(const EconomicSystem& system,

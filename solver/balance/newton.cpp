@@ -17,8 +17,10 @@ constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 class Iteration {
  public:
-  Iteration(const ParametricSystem& system, const BranchVector& constraint, const Scaling& scaling)
-      : system_(system), constraint_(constraint), scaling_(scaling) {}
+  /// @param shortened  what steps of the line search are judged by; of `system`, or with its residual alone.
+  Iteration(const ParametricSystem& system, const ParametricSystem& shortened,
+            const BranchVector& constraint, const Scaling& scaling)
+      : system_(system), shortened_(shortened), constraint_(constraint), scaling_(scaling) {}
 
   NewtonResult run(NewtonResult start, const NewtonOptions& options) {
     now_ = std::move(start);
@@ -49,11 +51,19 @@ class Iteration {
     return {y.head(n) * scaling_.x, y[n] * scaling_.parameter};
   }
 
-  [[nodiscard]] NewtonResult stepped(const BranchVector& step, double length) {
+  [[nodiscard]] NewtonResult stepped(const ParametricSystem& system, const BranchVector& step,
+                                     double length) {
     ++now_.evaluations;
     return evaluated_at(
-        system_, {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter},
+        system, {now_.point.x + length * step.x, now_.point.parameter + length * step.parameter},
         scaling_);
+  }
+
+  /// A point with its derivatives, where it has been met by its residual alone.
+  [[nodiscard]] NewtonResult whole(NewtonResult at) {
+    if (at.evaluation.jacobian.size() > 0) return at;
+    ++now_.evaluations;
+    return evaluated_at(system_, std::move(at.point), scaling_);
   }
 
   /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step
@@ -66,16 +76,16 @@ class Iteration {
     NewtonResult fallback;
     fallback.residual = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= max_halvings; ++i, length *= 0.5) {
-      NewtonResult next = stepped(direction, length);
+      NewtonResult next = stepped(i == 0 ? system_ : shortened_, direction, length);
       if (next.residual < (1.0 - 0.1 * length) * now_.residual) {
-        move_to(std::move(next));
+        move_to(whole(std::move(next)));
         return true;
       }
       if (next.residual < fallback.residual) fallback = std::move(next);
     }
     const bool may_rise = iteration % 3 != 2 && fallback.residual < 4.0 * now_.residual;
-    if (!may_rise) return fallback.residual < now_.residual && (move_to(std::move(fallback)), true);
-    move_to(std::move(fallback));
+    if (!may_rise && !(fallback.residual < now_.residual)) return false;
+    move_to(whole(std::move(fallback)));
     return true;
   }
 
@@ -86,7 +96,7 @@ class Iteration {
       if (!direction.x.allFinite() || !std::isfinite(direction.parameter)) return;
       const double before = now_.residual;
       for (const double length : {1.0, 0.5, 0.1}) {
-        NewtonResult next = stepped(direction, length);
+        NewtonResult next = stepped(system_, direction, length);
         if (next.residual < now_.residual) {
           keep(std::move(next));
           break;
@@ -103,6 +113,7 @@ class Iteration {
   }
 
   const ParametricSystem& system_;
+  const ParametricSystem& shortened_;
   const BranchVector& constraint_;
   const Scaling& scaling_;
   NewtonResult now_;
@@ -139,7 +150,15 @@ NewtonResult solve_newton(const ParametricSystem& system, NewtonResult start,
                           const BranchVector& constraint, const Scaling& scaling,
                           const NewtonOptions& options) {
   start.iterations = start.evaluations = 0;
-  return Iteration(system, constraint, scaling).run(std::move(start), options);
+  return Iteration(system, system, constraint, scaling).run(std::move(start), options);
+}
+
+NewtonResult solve_newton(const EconomicSystem& system, NewtonResult start,
+                          const BranchVector& constraint, const Scaling& scaling,
+                          const NewtonOptions& options) {
+  start.iterations = start.evaluations = 0;
+  return Iteration(system.whole, system.residual, constraint, scaling)
+      .run(std::move(start), options);
 }
 
 NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,

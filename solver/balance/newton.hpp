@@ -17,6 +17,12 @@ namespace microslip::solver {
 using ParametricSystem =
     std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
 
+/// A system with its residual alone, which may leave the derivatives empty and costs several times less.
+struct EconomicSystem {
+  ParametricSystem whole;
+  ParametricSystem residual;
+};
+
 /// Sizes that make unknowns, parameter and residual numbers of order one. All > 0.
 struct Scaling {
   double x = 1.0;
@@ -64,6 +70,11 @@ struct NewtonResult {
 
 /// The same from a point that is evaluated already; `evaluations` counts those that follow.
 [[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, NewtonResult start,
+                                        const BranchVector& constraint, const Scaling& scaling,
+                                        const NewtonOptions& options);
+
+/// The same, where the line search shortens its steps by residuals alone.
+[[nodiscard]] NewtonResult solve_newton(const EconomicSystem& system, NewtonResult start,
                                         const BranchVector& constraint, const Scaling& scaling,
                                         const NewtonOptions& options);
 

@@ -17,6 +17,9 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
 constexpr int n_cubics = 4;
+// Where forces jump, as sampled ones may by 1e-5 of their scale, nothing solves the equations:
+// places of one step.
+constexpr int most_failed = 12;
 constexpr double steep = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
@@ -127,9 +130,13 @@ class Segment {
     return {amplitude.half_peak_to_peak, gradient.dot(tangent.x), gradient.norm()};
   }
 
-  [[nodiscard]] std::optional<Node> between(const Node& a, const Node& b, double share) const {
+  [[nodiscard]] std::optional<Node> between(const Node& a, const Node& b, double share) {
+    if (n_failed_ >= most_failed) return std::nullopt;
     auto point = walker_.between(a.at, b.at, share);
-    if (!point) return std::nullopt;
+    if (!point) {
+      ++n_failed_;
+      return std::nullopt;
+    }
     return node(std::move(*point));
   }
 
@@ -217,7 +224,7 @@ class Segment {
 
   /// A place where the slope has the other sign, near a share where it may: its extremum by parabolas
   /// through three places, as long as it may still pass zero.
-  [[nodiscard]] std::optional<Node> beyond_zero(const Node& a, const Node& b, double share) const {
+  [[nodiscard]] std::optional<Node> beyond_zero(const Node& a, const Node& b, double share) {
     const double sign = a.value.slope > 0.0 ? 1.0 : -1.0;
     const double hopeless =
         hopeless_slope * std::min(std::abs(a.value.slope), std::abs(b.value.slope));
@@ -253,7 +260,7 @@ class Segment {
   }
 
   /// At a share of the bracket, or where Newton's method fails there, elsewhere in it.
-  [[nodiscard]] std::optional<Node> inside(const Node& low, const Node& high, double share) const {
+  [[nodiscard]] std::optional<Node> inside(const Node& low, const Node& high, double share) {
     for (const double other : {share, 0.5, 0.25, 0.75, 0.05, 0.95}) {
       const double at = low.at.share + other * (high.at.share - low.at.share);
       if (auto point = between(low, high, at)) return point;
@@ -263,7 +270,7 @@ class Segment {
 
   /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois) with a bisection
   /// after every two steps, so that a jump is found as well.
-  [[nodiscard]] SpecialPoint locate(Node low, Node high) const {
+  [[nodiscard]] SpecialPoint locate(Node low, Node high) {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;
     double high_weight = high.value.slope;
@@ -306,6 +313,7 @@ class Segment {
   PointMark kind_;
   int most_splits_;
   double slight_turn_;
+  int n_failed_ = 0;
   std::vector<SpecialPoint> found_;
 };
 
