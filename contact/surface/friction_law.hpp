@@ -26,7 +26,8 @@ class FrictionLaw {
   /// @param coefficient  μ₀ ≥ 0, finite.
   /// @throws std::invalid_argument  out of range; names the quantity and the value. So the others.
   [[nodiscard]] static FrictionLaw constant(double coefficient);
-  /// (1): λ = 0 keeps μ₀; λ → ∞ gives μ∞ at every speed above 0. μ∞ may exceed μ₀.
+  /// (1): λ = 0 keeps μ₀; λ → ∞ gives μ∞ at every speed above 0. μ∞ may exceed μ₀,
+  /// but a point with μ₀ = 0 is one that never rubs.
   /// @param at_rest   μ₀ ≥ 0.   @param at_speed  μ∞ ≥ 0.   @param decay  λ ≥ 0 [s/m].
   [[nodiscard]] static FrictionLaw exponential(double at_rest, double at_speed, double decay);
   /// (2): p = 0 keeps μ₀.

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipelines/scene/law_table.hpp"
 
 namespace microslip::pipelines {
@@ -21,8 +23,14 @@ FrictionDescription of_speed(const FrictionLaw& law) {
 }
 
 FrictionDescription exponential(const LawTable& t) {
-  return of_speed(FrictionLaw::exponential(t.number("static", "1"), t.number("kinetic", "1"),
-                                           t.number("rate", "s/m")));
+  const double at_rest = t.number("static", "1");
+  const double at_speed = t.number("kinetic", "1");
+  if (at_rest == 0.0 && at_speed > 0.0) {
+    t.fail("static", fmt::format("0 with kinetic = {:g}: such a contact could never stick; "
+                                 "expected a static coefficient above 0",
+                                 at_speed));
+  }
+  return of_speed(FrictionLaw::exponential(at_rest, at_speed, t.number("rate", "s/m")));
 }
 
 FrictionDescription hyperbolic(const LawTable& t) {

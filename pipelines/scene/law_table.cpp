@@ -45,13 +45,17 @@ double LawTable::number(std::string_view name, const char* unit) const {
     try {
       value = to_si(*given.value<std::string>(), unit);
     } catch (const UnitError& error) {
-      section_.fail(key_, fmt::format("{}: {}", name, error.what()), &given);
+      fail(name, error.what());
     }
   }
   if (!(std::isfinite(value) && value >= 0.0)) {
-    section_.fail(key_, fmt::format("{}: expected a number, at least 0 [{}]", name, unit), &given);
+    fail(name, fmt::format("expected a number, at least 0 [{}]", unit));
   }
   return value;
+}
+
+void LawTable::fail(std::string_view name, const std::string& message) const {
+  section_.fail(key_, fmt::format("{}: {}", name, message), &node(name));
 }
 
 }  // namespace microslip::pipelines

@@ -34,6 +34,8 @@ class LawTable {
   [[nodiscard]] std::string place() const { return section_.place(key_); }
   /// The number of a key, ≥ 0. @param unit  that it may be given in.
   [[nodiscard]] double number(std::string_view name, const char* unit) const;
+  /// @throws SceneError  about the value of a key.
+  [[noreturn]] void fail(std::string_view name, const std::string& message) const;
 
  private:
   [[nodiscard]] std::size_t index_of(const std::vector<std::string_view>& names) const;

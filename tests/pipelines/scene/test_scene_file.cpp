@@ -418,6 +418,9 @@ TEST(BadScene, NumbersAreCheckedForRangeAndSense) {
   refused("contact.slip_direction=[0, 1]", {"three numbers"});
   refused("contact.slip_direction=[0, nan, 1]", {"finite"});
   refused("contact.friction_coefficient=-0.1", {"at least 0"});
+  refused(
+      "contact.friction_coefficient={ law = \"exponential\", static = 0, kinetic = 0.4, rate = 1 }",
+      {"static", "0.4", "above 0"});
   refused("contact.normal_stiffness=rgid", {"rigid"});
   refused("contact.fit=-1", {"degree"});
   refused("contact.surface=5", {"text in quotes"});
