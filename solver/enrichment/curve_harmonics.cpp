@@ -108,6 +108,11 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
     bool is_first = true;
     bool is_lost = false;
     for (const Place& place : places_of(scene, range, of_now, *now)) {
+      // Next to an internal resonance a peak is several, close together.
+      const auto distance = of_now == chosen.set
+                                ? distance_to(chosen.known, place.peak, range.harmonic_tolerance)
+                                : std::nullopt;
+      if (distance && *distance <= range.harmonic_tolerance) continue;
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
       chosen.set = chosen.set.united(found.set.orders());
       chosen.left_out = std::max(chosen.left_out, found.left_out);
@@ -118,7 +123,10 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       is_lost = is_lost || !found.peak;
     }
     count(chosen, choice.work());
-    if (!is_lost || traces == most_traces || is_stopped(range)) return chosen;
+    if (!is_lost || traces == most_traces || is_stopped(range)) {
+      if (now == &traced && of_now == chosen.set) chosen.traced = std::move(traced);
+      return chosen;
+    }
     const std::optional<HarmonicSet> stone = stepping_stone(set, of_now, chosen.set);
     if (stone) chosen.set = set;
     const HarmonicSet next = stone.value_or(chosen.set);
@@ -153,17 +161,23 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
                                 const CurveOfSet& first, const CurveOfSet& trace) {
   HarmonicSet set = least_harmonics(scene);
   ResponseCurve curve = first(set);
-  CurveHarmonics work{set, 0.0, true, curve.iterations, curve.contact_evaluations, {}, {}};
+  CurveHarmonics work{
+      .set = set, .iterations = curve.iterations, .contact_evaluations = curve.contact_evaluations};
+  bool is_given = false;  // traced by `trace`
   const auto add = [&](const CurveHarmonics& done) {
     work.iterations += done.iterations;
     work.contact_evaluations += done.contact_evaluations;
     work.settled = done.settled;
   };
   for (int traces = 0; traces < most_traces; ++traces) {
-    const CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
+    CurveHarmonics chosen = choose_harmonics(scene, range, set, curve, first);
     add(chosen);
     const bool is_new = chosen.set != set && !is_stopped(range);
-    if (is_new) {
+    if (is_new && chosen.traced && chosen.traced->complete && !is_given) {
+      set = chosen.set;
+      curve = std::move(*chosen.traced);
+    } else if (is_new) {
+      is_given = true;
       ResponseCurve richer = trace(chosen.set);
       work.iterations += richer.iterations;
       work.contact_evaluations += richer.contact_evaluations;

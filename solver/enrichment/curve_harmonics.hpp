@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/continuation.hpp"
@@ -21,8 +22,9 @@ struct CurveHarmonics {
   bool settled = true;    ///< false: a high point may need harmonics beyond those
   long iterations = 0;
   long contact_evaluations = 0;
-  SettledPeak highest{};             ///< that of the curve's highest place; amplitude 0: lost
-  std::vector<SettledPeak> known{};  ///< high points solved for with more than the set has
+  SettledPeak highest{};                  ///< that of the curve's highest place; amplitude 0: lost
+  std::vector<SettledPeak> known{};       ///< high points solved for with more than the set has
+  std::optional<ResponseCurve> traced{};  ///< with the set, where the choice has needed it
 };
 
 /// @param range  with `harmonic_tolerance` > 0.
@@ -43,7 +45,7 @@ struct CurveHarmonics {
 
 /// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
 /// its own peaks ask for more. Stopped, it is the last one that is complete.
-/// @param first  traces the curve that the choice begins with; it is the result where its set is enough.
+/// @param first  traces the curves that the choice needs; the last is the result where its set is enough.
 /// @param trace  traces the curve that is given.
 [[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
                                               const CurveOfSet& first, const CurveOfSet& trace);
