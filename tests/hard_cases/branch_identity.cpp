@@ -25,7 +25,7 @@
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip {
+namespace microslip::branch_identity {
 namespace {
 
 using solver::PointMark;
@@ -185,4 +185,4 @@ TEST(NoStableMotion, IntegrationInTimeLeavesTheSolutionAndFindsNoPeriod) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::branch_identity

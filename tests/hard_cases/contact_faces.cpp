@@ -13,7 +13,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::contact_faces {
 namespace {
 
 template <typename Error, typename Action>
@@ -79,4 +79,4 @@ TEST(ContactFacesHard, SlipAlongTheNormalIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::contact_faces

@@ -15,7 +15,7 @@
 #include "contact/force/patch_force.hpp"
 #include "contact/patch/modal_contact_field.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::contact_patch {
 namespace {
 
 double megabytes_used() {
@@ -124,4 +124,4 @@ TEST(ContactPatchHard, AShapeWithASteepEdgeIsToldToBeFittedPoorly) {  // row 20
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::contact_patch

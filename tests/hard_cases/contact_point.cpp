@@ -15,7 +15,7 @@
 #include "support/cycle_cases.hpp"
 #include "support/cycle_reference.hpp"
 
-namespace microslip::test {
+namespace microslip::test::contact_point {
 namespace {
 
 using contact::ContactState;
@@ -311,4 +311,4 @@ TEST(ContactPointHard, AmplitudeIsOnlyAScale) {
 }
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::contact_point

@@ -24,7 +24,7 @@
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip {
+namespace microslip::metamorphic {
 namespace {
 
 using solver::PointMark;
@@ -395,4 +395,4 @@ TEST(Metamorphic, WithoutDampingFrictionDoesAllTheWork) {  // M16
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::metamorphic

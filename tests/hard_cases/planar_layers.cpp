@@ -15,7 +15,7 @@
 #include "support/motion_cases.hpp"
 #include "support/planar_events.hpp"
 
-namespace microslip::test {
+namespace microslip::test::planar_layers {
 namespace {
 
 using contact::ContactState;
@@ -199,4 +199,4 @@ TEST(PlanarLayers, LowGaussianHeightsAlongALineAreThoseOfOneDirection) {
 }
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::planar_layers

@@ -16,7 +16,7 @@
 #include "support/motion_cases.hpp"
 #include "support/planar_cases.hpp"
 
-namespace microslip::test {
+namespace microslip::test::planar_point {
 namespace {
 
 using contact::CycleRegime;
@@ -400,4 +400,4 @@ TEST(PlanarPointHard, FrictionThatUnderflowsWithTheRateIsNone) {
 }
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::planar_point

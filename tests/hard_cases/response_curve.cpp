@@ -14,7 +14,7 @@
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip {
+namespace microslip::response_curve {
 namespace {
 
 using solver::PointMark;
@@ -318,4 +318,4 @@ TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::response_curve

@@ -16,7 +16,7 @@
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip {
+namespace microslip::response_curve_folds {
 namespace {
 
 using solver::PointMark;
@@ -189,4 +189,4 @@ TEST(MeanMotion, ThatHalfOpensTheContactIsCoupledToTheVibration) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::response_curve_folds

@@ -13,7 +13,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::time_integration {
 namespace {
 
 solver::TimePoint settled(const tests::SinglePoint& single, double omega,
@@ -181,4 +181,4 @@ TEST(StiffContact, HardStop) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::time_integration

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "fem/slepc_session.hpp"
+#include "tests/support/run_tests.hpp"
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   const microslip::fem::SlepcSession session;
-  return RUN_ALL_TESTS();
+  return microslip::test::run_tests(argc, argv);
 }

@@ -26,7 +26,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::block_time {
 namespace {
 
 constexpr double named_tolerance = 2e-3;
@@ -146,4 +146,4 @@ TEST(BlockInTime, TheReturnMapFindsTheSameToFirstOrder) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::block_time

@@ -27,7 +27,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip {
+namespace microslip::calculix {
 namespace {
 
 constexpr int n_modes = 10;
@@ -112,4 +112,4 @@ TEST(CalculiX, FindsTheSameTenFrequencies) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::calculix

@@ -27,7 +27,7 @@
 #include "fem/modal_analysis.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip {
+namespace microslip::cantilever {
 namespace {
 
 using mesh::ElementType;
@@ -204,4 +204,4 @@ TEST(Cantilever, BendsLikeTimoshenkosBeamFromAbove) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::cantilever

@@ -25,7 +25,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::harmonics_chosen {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -176,4 +176,4 @@ TEST(HarmonicsChosen, RandomScenesKeepThePromise) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::harmonics_chosen

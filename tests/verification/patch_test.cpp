@@ -15,7 +15,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip {
+namespace microslip::patch_test {
 namespace {
 
 using mesh::ElementType;
@@ -86,4 +86,4 @@ INSTANTIATE_TEST_SUITE_P(Types, PatchTest, testing::ValuesIn(mesh::all_element_t
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::patch_test

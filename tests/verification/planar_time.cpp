@@ -41,7 +41,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip {
+namespace microslip::planar_time {
 namespace {
 
 using contact::FrictionLaw;
@@ -362,4 +362,4 @@ TEST(PlanarTime, StuckRoughContactIsASpring) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::planar_time

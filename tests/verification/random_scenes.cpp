@@ -21,7 +21,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::random_scenes {
 namespace {
 
 constexpr double certificate = 1e-10;  // every written point of every curve
@@ -273,4 +273,4 @@ TEST(LinearLimits, AreReachedExactly) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::random_scenes

@@ -14,7 +14,7 @@
 #include "fem/surface_load.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip {
+namespace microslip::residual_flexibility {
 namespace {
 
 const fem::Material titanium{1.14e11, 0.32, 4430.0};
@@ -64,4 +64,4 @@ TEST(ResidualFlexibility, CompletesTheModesToTheStaticSolutionForAnyNumberOfThem
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::residual_flexibility

@@ -31,7 +31,7 @@
 #include "tests/support/dense_system.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip {
+namespace microslip::rigid_body_modes {
 namespace {
 
 using mesh::ElementType;
@@ -173,4 +173,4 @@ count = 8
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::rigid_body_modes

@@ -24,7 +24,7 @@
 #include "fem/petsc_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip {
+namespace microslip::rotating_beam {
 namespace {
 
 constexpr double length = 0.2;
@@ -163,4 +163,4 @@ TEST(RotatingBeam, ThatNothingHoldsIsRefused) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::rotating_beam

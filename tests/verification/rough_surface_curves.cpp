@@ -21,7 +21,7 @@
 #include "contact/line/surface_line_events.hpp"
 #include "contact/surface/rough_surface.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::rough_surface_curves {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -203,4 +203,4 @@ TEST(FigureThree, RoughLoopStaysInItsCone) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::rough_surface_curves

@@ -22,7 +22,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::stability_against_time {
 namespace {
 
 using solver::Harmonics;
@@ -171,4 +171,4 @@ TEST(StabilityAgainstTime, EveryFrequencyOfACurveWithoutFoldsIsJudgedAsTimeInteg
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::stability_against_time

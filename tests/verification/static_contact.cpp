@@ -22,7 +22,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/calculix.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::static_contact {
 namespace {
 
 constexpr double tolerance = 3e-4;
@@ -104,4 +104,4 @@ TEST(StaticContact, IsThatOfCalculiX) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::static_contact

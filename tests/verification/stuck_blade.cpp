@@ -35,7 +35,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip {
+namespace microslip::stuck_blade {
 namespace {
 
 constexpr double k_local = 1e11;  // [N/m³]
@@ -221,4 +221,4 @@ TEST(StuckBlade, FewModesWithResidualStiffnessAreThoseOfDirectFiniteElements) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::stuck_blade

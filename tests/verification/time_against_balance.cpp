@@ -31,7 +31,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::time_against_balance {
 namespace {
 
 constexpr double linear_tolerance = 1e-7;
@@ -188,4 +188,4 @@ TEST(TimeAgainstBalance, ThreeDegreesOfFreedomAgreeOnEveryPartOfTheBranch) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::time_against_balance

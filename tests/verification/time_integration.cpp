@@ -23,7 +23,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::time_integration {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -260,4 +260,4 @@ TEST(EventsAgainstCvode, RandomPatches) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::time_integration

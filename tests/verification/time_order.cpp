@@ -16,7 +16,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::time_order {
 namespace {
 
 constexpr double omega = 2.0 * M_PI * 22.0;
@@ -104,4 +104,4 @@ TEST(EnergyBalance, HoldsOverASteadyPeriod) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::time_order

@@ -15,7 +15,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip {
+namespace microslip::time_scenes {
 namespace {
 
 constexpr double hertz = 2.0 * M_PI;
@@ -134,4 +134,4 @@ TEST(ThreeDegreesOfFreedom, DoNotJumpAt0And100And200Newtons) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::time_scenes

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_contact_force {
 namespace {
 
 constexpr Eigen::Index n_modes = 3;
@@ -220,4 +220,4 @@ TEST(ContactForce, ALoadThatPressesIsSharedAndAGapIsNot) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_contact_force

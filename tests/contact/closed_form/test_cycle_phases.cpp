@@ -7,7 +7,7 @@
 
 #include "support/cycle_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_cycle_phases {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -68,4 +68,4 @@ TEST(CyclePhases, SlipEndsAtItsExtremum) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_cycle_phases

@@ -11,7 +11,7 @@
 
 #include "support/cycle_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_friction_cycle {
 namespace {
 
 using test::CycleCase;
@@ -330,4 +330,4 @@ TEST(FrictionCycle, SliderRestsInStickAndFollowsInSeparation) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_friction_cycle

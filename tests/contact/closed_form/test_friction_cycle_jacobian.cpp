@@ -9,7 +9,7 @@
 #include "contact/closed_form/slip_functions.hpp"
 #include "support/cycle_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_friction_cycle_jacobian {
 namespace {
 
 using test::CycleCase;
@@ -165,4 +165,4 @@ TEST(FrictionCycleJacobian, StickAfterSeparationRemembersTheMotionOfTouchDown) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_friction_cycle_jacobian

@@ -32,7 +32,7 @@ void PrintTo(const PointParameters& p, std::ostream* out) {
 
 }  // namespace microslip::contact
 
-namespace microslip::test {
+namespace microslip::test::test_friction_cycle_reference {
 namespace {
 
 using contact::friction_cycle;
@@ -160,4 +160,4 @@ TEST(FrictionCycleSequences, AreThoseOfTheReference) {
 }
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::test_friction_cycle_reference

@@ -7,7 +7,7 @@
 
 #include "contact/closed_form/friction_cycle.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_slip_energy {
 namespace {
 
 SlipEnergy energy(const PointParameters& point, const PointMotion& motion) {
@@ -87,4 +87,4 @@ TEST(SlipEnergy, SlipJustBeforeLiftOffKeepsItsDigits) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_slip_energy

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace microslip::contact {
+namespace microslip::contact::test_slip_functions {
 namespace {
 
 // At θ_P, θ_N and δ the functions have the extrema they are named for.
@@ -61,4 +61,4 @@ TEST(SlipFunctions, PreloadThatTheMeanApproachCancelsKeepsItsDigits) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_slip_functions

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_block_kernels {
 namespace {
 
 constexpr std::size_t n_modes = 5;
@@ -85,4 +85,4 @@ TEST_P(BlockKernelSets, ProductsAreSumsOverPointsForEachPairOfModes) {
 INSTANTIATE_TEST_SUITE_P(Sets, BlockKernelSets, testing::ValuesIn(runnable_block_kernels()));
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_block_kernels

@@ -16,7 +16,7 @@
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_contact_states {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -149,4 +149,4 @@ TEST(ContactStates, TellHowMuchHasChanged) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_contact_states

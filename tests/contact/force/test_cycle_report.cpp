@@ -8,7 +8,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/contact_patch.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_cycle_report {
 namespace {
 
 constexpr PointParameters stuck{1.0, 0.0, 0.5, 100.0};
@@ -80,4 +80,4 @@ TEST(CycleReport, PatchWithoutAreaHasNoShares) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_cycle_report

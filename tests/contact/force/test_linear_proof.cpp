@@ -2,7 +2,7 @@
 
 #include "contact/force/patch_force.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_linear_proof {
 namespace {
 
 /// One mode on two points; u = x, v = x/2 on the second one.
@@ -64,4 +64,4 @@ TEST(LinearState, RefusesOtherModes) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_linear_proof

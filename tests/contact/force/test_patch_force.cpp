@@ -12,7 +12,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/point_motions.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_patch_force {
 namespace {
 
 constexpr Eigen::Index n_modes = 4;
@@ -254,4 +254,4 @@ TEST(PatchForce, DoesNotReadTheShapesItHasNoUseFor) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_patch_force

@@ -12,7 +12,7 @@
 #include "contact/force/patch_force.hpp"
 #include "contact/line/line_events.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_point_method_force {
 namespace {
 
 constexpr Eigen::Index n_modes = 3;
@@ -260,4 +260,4 @@ TEST(PointMethodForce, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_point_method_force

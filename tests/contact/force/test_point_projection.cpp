@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace microslip::contact {
+namespace microslip::contact::test_point_projection {
 namespace {
 
 std::mt19937_64& generator() {
@@ -147,4 +147,4 @@ TEST(ProjectionKernels, AgreeWithThePlainOnes) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_point_projection

@@ -14,7 +14,7 @@
 #include "contact/line/line_events.hpp"
 #include "contact/sampled/patch_force.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_pointwise_force {
 namespace {
 
 constexpr Eigen::Index n_points = 60;
@@ -145,4 +145,4 @@ TEST(ModalForce, RefusesWhatItCannotAnswer) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_pointwise_force

@@ -13,7 +13,7 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/support/sleepless_method.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_sleeping_set {
 namespace {
 
 constexpr Eigen::Index n_modes = 4;
@@ -294,4 +294,4 @@ TEST(SleepingSet, LinearStateIsProvedOfSeveralHarmonics) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_sleeping_set

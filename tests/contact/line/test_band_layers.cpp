@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_band_layers {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -124,4 +124,4 @@ TEST(BandLayers, ThePlaceOfAPhaseIsThePhase) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_band_layers

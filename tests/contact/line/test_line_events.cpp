@@ -12,7 +12,7 @@
 #include "support/cycle_cases.hpp"
 #include "support/motion_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_line_events {
 namespace {
 
 using test::friction_scale;
@@ -317,4 +317,4 @@ TEST(LineEventsWithOneHarmonicJacobian, IsTheClosedFormAwayFromLimits) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_line_events

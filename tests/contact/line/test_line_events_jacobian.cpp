@@ -10,7 +10,7 @@
 #include "contact/line/line_events.hpp"
 #include "support/motion_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_line_events_jacobian {
 namespace {
 
 using test::MotionCase;
@@ -156,4 +156,4 @@ TEST(LineEventsJacobianOfFullStick, IsOneSidedAtTheOnsetOfSlip) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_line_events_jacobian

@@ -14,7 +14,7 @@
 #include "support/motion_reference.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::test {
+namespace microslip::test::test_line_events_reference {
 namespace {
 
 using contact::LineEvents;
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Strata, LineEventsAgainstReference, testing::ValuesIn(m
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::test_line_events_reference

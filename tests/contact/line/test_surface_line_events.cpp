@@ -18,7 +18,7 @@
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_surface_line_events {
 namespace {
 
 using test::friction_scale;
@@ -403,4 +403,4 @@ TEST(SurfaceLineEvents, RefusesWhatIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_surface_line_events

@@ -16,7 +16,7 @@
 #include "support/surface_reference.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::test {
+namespace microslip::test::test_surface_line_events_reference {
 namespace {
 
 using contact::PointHistory;
@@ -169,4 +169,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace microslip::test
+}  // namespace microslip::test::test_surface_line_events_reference

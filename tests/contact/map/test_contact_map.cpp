@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace microslip::contact {
+namespace microslip::contact::test_contact_map {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -138,4 +138,4 @@ TEST(ContactMap, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_contact_map

@@ -12,7 +12,7 @@
 #include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_transition_guards {
 namespace {
 
 PointMotion random_motion(std::mt19937_64& random) {
@@ -128,4 +128,4 @@ TEST(ContactMapOfManyHarmonics, KeepsEveryStartAndTheSharesOfThePeriod) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_transition_guards

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-namespace microslip::contact {
+namespace microslip::contact::test_dense {
 namespace {
 
 Eigen::MatrixXd random_matrix(Eigen::Index n, unsigned seed) {
@@ -80,4 +80,4 @@ TEST(Dense, WhatIsNotFiniteHasNoEigenvalues) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_dense

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace microslip::contact {
+namespace microslip::contact::test_harmonics {
 namespace {
 
 TEST(Harmonics, VectorIsMeansThenSinesThenCosines) {
@@ -35,4 +35,4 @@ TEST(Harmonics, RefusesSizesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_harmonics

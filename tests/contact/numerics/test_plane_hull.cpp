@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace microslip::contact {
+namespace microslip::contact::test_plane_hull {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -62,4 +62,4 @@ TEST(PlaneHull, OnePointHoldsItself) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_plane_hull

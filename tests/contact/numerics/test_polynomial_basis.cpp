@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::contact {
+namespace microslip::contact::test_polynomial_basis {
 namespace {
 
 TEST(PolynomialBasis, TermsAreLegendreProductsByTotalDegree) {
@@ -23,4 +23,4 @@ TEST(PolynomialBasis, DirectionWithoutExtentIsAllowed) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_polynomial_basis

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_sign_changes {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -170,4 +170,4 @@ TEST(SignChanges, HighHarmonicsAreServed) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_sign_changes

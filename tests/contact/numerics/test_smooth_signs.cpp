@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_smooth_signs {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -91,4 +91,4 @@ TEST(SmoothSigns, AreFoundInAShortInterval) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_smooth_signs

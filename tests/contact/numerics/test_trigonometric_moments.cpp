@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace microslip::contact {
+namespace microslip::contact::test_trigonometric_moments {
 namespace {
 
 // Composite Simpson with 2000 cells of b_i b_j: errs by (length h/2000)⁴ / 180 < 1e-12 here.
@@ -89,4 +89,4 @@ TEST(TrigonometricMoments, SamplesAddUpAsPiecesDo) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_trigonometric_moments

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace microslip::contact {
+namespace microslip::contact::test_trigonometric_polynomial {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -53,4 +53,4 @@ TEST(Crossing, IsTheRootOfTheLevel) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_trigonometric_polynomial

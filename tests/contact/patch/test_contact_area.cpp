@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace microslip::contact {
+namespace microslip::contact::test_contact_area {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -78,4 +78,4 @@ TEST(ContactArea, RefusesCellsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_contact_area

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace microslip::contact {
+namespace microslip::contact::test_contact_patch {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -54,4 +54,4 @@ TEST(ContactPatch, RefusesSizesThatDiffer) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_contact_patch

@@ -8,7 +8,7 @@
 
 #include "contact/patch/preload_equilibrium.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_elastic_rest {
 namespace {
 
 /// n points that are freedoms themselves.
@@ -132,4 +132,4 @@ TEST(ElasticRest, SizesMustFit) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_elastic_rest

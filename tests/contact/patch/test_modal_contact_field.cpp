@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace microslip::contact {
+namespace microslip::contact::test_modal_contact_field {
 namespace {
 
 struct Samples {
@@ -192,4 +192,4 @@ TEST(ModalContactField, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_modal_contact_field

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace microslip::contact {
+namespace microslip::contact::test_point_motions {
 namespace {
 
 TEST(PointMotions, AreShapesTimesModalCoordinates) {
@@ -30,4 +30,4 @@ TEST(PointMotions, RefuseOtherNumbersOfHarmonicsOrModes) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_point_motions

@@ -11,7 +11,7 @@
 
 #include "contact/numerics/delaunay.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_position_table {
 namespace {
 
 struct Points {
@@ -167,4 +167,4 @@ TEST(PositionTable, RefusesTheSamePlaceTwice) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_position_table

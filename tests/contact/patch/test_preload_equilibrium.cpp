@@ -13,7 +13,7 @@
 #include "contact/numerics/plane_hull.hpp"
 #include "contact/surface/surface_law.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_preload_equilibrium {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -242,4 +242,4 @@ TEST(PreloadEquilibrium, RefusesALawThatEndsBelowTheForce) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_preload_equilibrium

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace microslip::contact {
+namespace microslip::contact::test_preload_field {
 namespace {
 
 struct PatchRule {
@@ -101,4 +101,4 @@ TEST(PreloadField, AWrongTotalIsRefusedWithBothNumbers) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_preload_field

@@ -10,7 +10,7 @@
 
 #include "support/cycle_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_cycle {
 namespace {
 
 constexpr double tight = 1e-11;
@@ -287,4 +287,4 @@ TEST(PlaneEvents, GaussianHeightsThatPartFarTouchAgain) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_cycle

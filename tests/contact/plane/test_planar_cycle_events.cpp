@@ -12,7 +12,7 @@
 #include "support/planar_events.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_cycle_events {
 namespace {
 
 using test::EventCase;
@@ -82,4 +82,4 @@ TEST(PlaneEventsTolerance, TolerancesAreMet) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_cycle_events

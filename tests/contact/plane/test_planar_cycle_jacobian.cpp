@@ -9,7 +9,7 @@
 
 #include "contact/plane/planar_cycle.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_cycle_jacobian {
 namespace {
 
 // Forces are known to 1e-12 of their scale; with this step the differences err by 1e-12/1e-5 = 1e-7
@@ -199,4 +199,4 @@ TEST(PlaneEventsJacobian, OfADraggedStuckPointMeetsDifferences) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_cycle_jacobian

@@ -11,7 +11,7 @@
 #include "support/planar_reference.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_cycle_reference {
 namespace {
 
 using test::PlanarCase;
@@ -178,4 +178,4 @@ TEST(PlaneEventsReference, AgreesWithMarchesOnRoughBodiesOfUnequalStiffness) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_cycle_reference

@@ -14,7 +14,7 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "support/planar_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_rest {
 namespace {
 
 using Answer = RestPlace::Answer;
@@ -127,4 +127,4 @@ TEST(PlanarRest, NoPlaceNearbyIsBetter) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_rest

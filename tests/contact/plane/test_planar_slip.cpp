@@ -7,7 +7,7 @@
 
 #include "contact/numerics/bracketed_root.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_slip {
 namespace {
 
 TEST(RadauNodes, IntegrateAndDifferentiatePolynomialsExactly) {
@@ -76,4 +76,4 @@ TEST(BracketedRoot, FindsTheSignChangeToRounding) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_slip

@@ -16,7 +16,7 @@
 #include "contact/plane/planar_rest.hpp"
 #include "support/planar_cases.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_steady {
 namespace {
 
 constexpr double tight = 1e-11;
@@ -363,4 +363,4 @@ TEST(PlanarSteady, HardlyAnySearchEndsBeforeItsTolerance) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_steady

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace microslip::contact {
+namespace microslip::contact::test_cycle_segments {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -43,4 +43,4 @@ TEST(CycleSegments, PhasesOfRoundingBelongToTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_cycle_segments

@@ -15,7 +15,7 @@
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
 
-namespace microslip::contact::sampled {
+namespace microslip::contact::sampled::test_sampled_line {
 namespace {
 
 using test::friction_scale;
@@ -322,4 +322,4 @@ TEST(SampledLine, EveryStratumIsFiniteAndNearLocatedEvents) {
 }
 
 }  // namespace
-}  // namespace microslip::contact::sampled
+}  // namespace microslip::contact::sampled::test_sampled_line

@@ -15,7 +15,7 @@
 #include "one_point.hpp"
 #include "support/planar_cases.hpp"
 
-namespace microslip::contact::sampled {
+namespace microslip::contact::sampled::test_sampled_plane {
 namespace {
 
 using test::modal;
@@ -233,4 +233,4 @@ TEST(SampledPlane, EveryStratumIsFiniteAndNearThePlaneEvents) {
 }
 
 }  // namespace
-}  // namespace microslip::contact::sampled
+}  // namespace microslip::contact::sampled::test_sampled_plane

@@ -7,7 +7,7 @@
 
 #include "contact/sampled/step_spline.hpp"
 
-namespace microslip::contact::sampled {
+namespace microslip::contact::sampled::test_step_spline {
 namespace {
 
 std::array<double, 4> drawn(std::mt19937_64& random) {
@@ -85,4 +85,4 @@ TEST(StepSpline, RisesThroughZeroWhereTheSignalDoes) {
 }
 
 }  // namespace
-}  // namespace microslip::contact::sampled
+}  // namespace microslip::contact::sampled::test_step_spline

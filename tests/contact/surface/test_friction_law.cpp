@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_friction_law {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -146,4 +146,4 @@ TEST(FrictionLaw, RefusesValuesOutOfRangeByName) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_friction_law

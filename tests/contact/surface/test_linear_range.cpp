@@ -9,7 +9,7 @@
 
 #include "contact/harmonics.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_linear_range {
 namespace {
 
 SleepState state_of(const LinearRange& range, const Harmonics& u, const Harmonics& v,
@@ -134,4 +134,4 @@ TEST(LinearRange, ReserveIsLeftOver) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_linear_range

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace microslip::contact {
+namespace microslip::contact::test_rough_surface {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -240,4 +240,4 @@ TEST(RoughSurface, RefusesValuesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_rough_surface

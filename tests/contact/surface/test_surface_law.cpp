@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace microslip::contact {
+namespace microslip::contact::test_surface_law {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -292,4 +292,4 @@ TEST(SurfaceLaw, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_surface_law

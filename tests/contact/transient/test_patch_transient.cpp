@@ -10,7 +10,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/force/patch_force.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_patch_transient {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -232,4 +232,4 @@ TEST(PatchTransient, SharesAreFractionsOfTheArea) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_patch_transient

@@ -16,7 +16,7 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/patch_transient.hpp"
 
-namespace microslip::contact {
+namespace microslip::contact::test_planar_transient {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -357,4 +357,4 @@ TEST(PlanarTransient, SharesTheStuckLimitWithHarmonicBalance) {
 }
 
 }  // namespace
-}  // namespace microslip::contact
+}  // namespace microslip::contact::test_planar_transient

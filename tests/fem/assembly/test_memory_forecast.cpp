@@ -10,7 +10,7 @@
 #include "fem/petsc_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_memory_forecast {
 namespace {
 
 using mesh::ElementType;
@@ -100,4 +100,4 @@ TEST(MemoryForecast, OfTheIterativeWayGrowsWithTheUnknownsAlone) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_memory_forecast

@@ -15,7 +15,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_attachment {
 namespace {
 
 using mesh::ElementType;
@@ -223,4 +223,4 @@ TEST(Attachment, WithoutLocalStiffnessNoTractionMatters) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_attachment

@@ -9,7 +9,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_eigensolver {
 namespace {
 
 const Material steel{.youngs_modulus = 2.0e11, .poissons_ratio = 0.3, .density = 7800.0};
@@ -126,4 +126,4 @@ TEST(ModeSearch, FindsTheTwinThatTheFirstSearchMissed) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_eigensolver

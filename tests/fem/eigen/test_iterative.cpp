@@ -9,7 +9,7 @@
 #include "fem/petsc_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_iterative {
 namespace {
 
 using mesh::ElementType;
@@ -103,4 +103,4 @@ TEST(IterativeSolution, OfABodyWithAMechanismIsRefused) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_iterative

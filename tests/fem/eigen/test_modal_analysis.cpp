@@ -10,7 +10,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_modal_analysis {
 namespace {
 
 using mesh::ElementType;
@@ -216,4 +216,4 @@ TEST(ModalAnalysis, AHingeInsideTheBodyIsAMechanism) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_modal_analysis

@@ -8,7 +8,7 @@
 #include "tests/fem/elements/bent_box.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_deformed_element {
 namespace {
 
 using mesh::ElementType;
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(AllTypes, DeformedElementOf,
                          [](const auto& type) { return std::string(mesh::name(type.param)); });
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_deformed_element

@@ -16,7 +16,7 @@
 #include "tests/fem/elements/bent_box.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_element_matrices {
 namespace {
 
 using mesh::ElementType;
@@ -200,4 +200,4 @@ TEST(ElementMatrices, RefuseAMaterialOutOfRangeByName) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_element_matrices

@@ -13,7 +13,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_loads {
 namespace {
 
 using mesh::ElementType;
@@ -236,4 +236,4 @@ TEST(Loads, OfASideWithTrianglesBesideQuadrilateralsHaveTheRightResultants) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_loads

@@ -6,7 +6,7 @@
 
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_modal_mass {
 namespace {
 
 constexpr double density = 7800.0;
@@ -44,4 +44,4 @@ TEST(ModalMass, RefusesOtherMeshesAndDensities) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_modal_mass

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::fem {
+namespace microslip::fem::test_quadrature {
 namespace {
 
 // Weights of order one are summed over at most 125 points.
@@ -113,4 +113,4 @@ TEST(Quadrature, FaceRulesIntegrateTheirDegree) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_quadrature

@@ -11,7 +11,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_factorisation {
 namespace {
 
 const Material titanium{1.14e11, 0.32, 4430.0};
@@ -58,4 +58,4 @@ TEST(Factorisation, ThatDoesNotFitIsRefusedWithItsSize) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_factorisation

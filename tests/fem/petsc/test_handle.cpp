@@ -7,7 +7,7 @@
 
 #include "fem/petsc_error.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_handle {
 namespace {
 
 // Number of owners PETSC sees, itself held once more to look at it after the handle let go.
@@ -72,4 +72,4 @@ TEST(Handle, CannotBeCopied) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_handle

@@ -10,7 +10,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_machine_memory {
 namespace {
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -68,4 +68,4 @@ TEST(MachineMemory, IsWhatTheAddressSpaceLeaves) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_machine_memory

@@ -7,7 +7,7 @@
 #include "fem/petsc/handle.hpp"
 #include "fem/slepc_session.hpp"
 
-namespace microslip::fem {
+namespace microslip::fem::test_petsc_error {
 namespace {
 
 std::string message_of_a_failing_call() {
@@ -58,4 +58,4 @@ TEST(SlepcSession, NamesItsLibraries) {
 }
 
 }  // namespace
-}  // namespace microslip::fem
+}  // namespace microslip::fem::test_petsc_error

@@ -8,7 +8,7 @@
 #include "mesh/shape_functions.hpp"
 #include "tests/mesh/given_mesh.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_element_shape {
 namespace {
 
 using std::numbers::pi;
@@ -109,4 +109,4 @@ TEST(ElementShape, SaysNothingAboutGoodElements) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_element_shape

@@ -9,7 +9,7 @@
 #include "mesh/checks/mesh_quality.hpp"
 #include "mesh/shape_functions.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_mesh {
 namespace {
 
 /// The reference element as a mesh of one element.
@@ -174,4 +174,4 @@ TEST(Mesh, RefusesCoordinatesThatAreNoNumbers) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_mesh

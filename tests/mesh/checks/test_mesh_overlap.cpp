@@ -5,7 +5,7 @@
 #include "mesh/shape_functions.hpp"
 #include "tests/mesh/given_mesh.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_mesh_overlap {
 namespace {
 
 using tests::block_of;
@@ -107,4 +107,4 @@ TEST(MeshOverlap, RefusesPartsOfTheBodyThatCross) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_mesh_overlap

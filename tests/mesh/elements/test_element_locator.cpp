@@ -8,7 +8,7 @@
 #include "tests/mesh/given_mesh.hpp"
 #include "tests/mesh/sample_meshes.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_element_locator {
 namespace {
 
 constexpr ElementReference nobody{.block = 99, .element = 0};
@@ -108,4 +108,4 @@ TEST(ElementLocator, NamesTheElementOfAGrid) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_element_locator

@@ -5,7 +5,7 @@
 #include "mesh/shape_functions.hpp"
 #include "tests/mesh/given_mesh.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_face_map {
 namespace {
 
 using tests::block_of;
@@ -116,4 +116,4 @@ TEST(FaceMap, RefusesAQuadraticWedgeBesideALinearPyramid) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_face_map

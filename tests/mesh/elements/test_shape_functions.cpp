@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_shape_functions {
 namespace {
 
 const Eigen::Vector3d inside(0.21, 0.17, 0.33);  // of all reference shapes, on no symmetry
@@ -128,4 +128,4 @@ TEST(ShapeFunctions, OfPyramidsHaveGradientsAtTheApex) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_shape_functions

@@ -7,7 +7,7 @@
 #include "mesh/mesh.hpp"
 #include "mesh/shape_functions.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_surface {
 namespace {
 
 /// One face of reference shape in the plane z = 0, mid-nodes moved inside the plane.
@@ -112,4 +112,4 @@ TEST(Surface, PlaneTellsHowFarAFaceIsFromPlane) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_surface

@@ -18,7 +18,7 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_blade {
 namespace {
 
 namespace fs = std::filesystem;
@@ -258,4 +258,4 @@ TEST_F(Blade, AnEndWhileWritingLeavesAWholeMeshOrNone) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_blade

@@ -15,7 +15,7 @@
 #include "tests/mesh/given_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_extruded {
 namespace {
 
 namespace occ = gmsh::model::occ;
@@ -175,4 +175,4 @@ TEST_F(GmshMeshes, PyramidsJoinHexahedraAndTetrahedra) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_extruded

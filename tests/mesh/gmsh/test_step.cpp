@@ -12,7 +12,7 @@
 #include "mesh/step_geometry.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_step {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST_F(Step, ExportedBladeIsTheParametricOne) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_step

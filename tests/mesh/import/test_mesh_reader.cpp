@@ -9,7 +9,7 @@
 #include "mesh/import/gmsh_elements.hpp"
 #include "tests/mesh/sample_meshes.hpp"
 
-namespace microslip::mesh {
+namespace microslip::mesh::test_mesh_reader {
 namespace {
 
 using tests::curved_element;
@@ -197,4 +197,4 @@ TEST(MeshReader, DamagedFilesGiveAMeshOrAMeshError) {
 }
 
 }  // namespace
-}  // namespace microslip::mesh
+}  // namespace microslip::mesh::test_mesh_reader

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_effect_bounds {
 namespace {
 
 constexpr double tolerance = 0.02;
@@ -111,4 +111,4 @@ TEST(MissedEffects, APeakThatIsLostWithTheEffectIsBeyondEveryTolerance) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_effect_bounds

@@ -11,7 +11,7 @@
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_optimum_budget {
 namespace {
 
 struct Found {
@@ -68,4 +68,4 @@ TEST(OptimumBudget, HasNoRowsWhereNothingIsFound) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_optimum_budget

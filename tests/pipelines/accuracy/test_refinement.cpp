@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_refinement {
 namespace {
 
 constexpr double tolerance = 0.02;
@@ -153,4 +153,4 @@ TEST(Refinement, HarmonicsAreChosenAsCloselyAsCanBe) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_refinement

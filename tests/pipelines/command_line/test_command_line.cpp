@@ -19,7 +19,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip {
+namespace microslip::test_command_line {
 namespace {
 
 using Json = nlohmann::json;
@@ -765,4 +765,4 @@ TEST_F(Program, TwoRunsDoNotShareAFolder) {
 }
 
 }  // namespace
-}  // namespace microslip
+}  // namespace microslip::test_command_line

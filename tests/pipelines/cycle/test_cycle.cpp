@@ -16,7 +16,7 @@
 #include "contact/line/line_events.hpp"
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_cycle {
 namespace {
 
 using Json = nlohmann::json;
@@ -457,4 +457,4 @@ TEST(BadCycleTable, AnyMutationEndsInJsonOrAnError) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_cycle

@@ -20,7 +20,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_cycle_fuzz {
 namespace {
 
 const std::array<std::string, 2> good_tables{
@@ -132,4 +132,4 @@ TEST(CycleFuzz, DamagedTablesAreReadOrRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_cycle_fuzz

@@ -18,7 +18,7 @@
 #include "pipelines/system/exit_code.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_cycle_plot {
 namespace {
 
 using Json = nlohmann::json;
@@ -236,4 +236,4 @@ TEST(CyclePlot, AFolderThatCannotBeMadeIsExitFour) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_cycle_plot

@@ -14,7 +14,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_checkpoint {
 namespace {
 
 std::string content_of(const std::filesystem::path& file) {
@@ -141,4 +141,4 @@ TEST(Checkpoint, AnotherSceneIsToldByTheKeyThatDiffers) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_checkpoint

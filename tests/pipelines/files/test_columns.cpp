@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_columns {
 namespace {
 
 TEST(Columns, TheListInTheDocumentationIsTheOneOfTheProgram) {
@@ -36,4 +36,4 @@ TEST(Columns, CurvesBeginAsTheyAlwaysDid) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_columns

@@ -9,7 +9,7 @@
 #include "tests/pipelines/hdf5_reading.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_model_file {
 namespace {
 
 void expect_structure(const std::filesystem::path& file, const ReducedModel& model) {
@@ -106,4 +106,4 @@ TEST(ModelFile, NamesUnitsAndShapesAreThoseOfTheInterface) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_model_file

@@ -9,7 +9,7 @@
 
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_write_csv {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -182,4 +182,4 @@ TEST(WriteCsv, TraceTellsEndsOfTheRangeAndAFlatMinimum) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_write_csv

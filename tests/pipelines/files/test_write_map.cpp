@@ -10,7 +10,7 @@
 #include "tests/pipelines/synthetic_run.hpp"
 #include "tests/pipelines/vtk_reading.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_write_map {
 namespace {
 
 void expect_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eigen::Index j) {
@@ -146,4 +146,4 @@ TEST(WriteMap, MapOfAnotherPatchIsRefused) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_write_map

@@ -17,7 +17,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_write_report {
 namespace {
 
 using namespace std::chrono_literals;
@@ -287,4 +287,4 @@ TEST(ChildProcess, SignalAndMissingProgramAreNamed) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_write_report

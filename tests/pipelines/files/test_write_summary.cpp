@@ -9,7 +9,7 @@
 
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_write_summary {
 namespace {
 
 using nlohmann::json;
@@ -120,4 +120,4 @@ TEST(WriteSummary, MachineIsDescribedWithoutItsName) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_write_summary

@@ -19,7 +19,7 @@
 #include "tests/pipelines/vtk_reading.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_write_vtk {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 6> tet_edges{
@@ -236,4 +236,4 @@ TEST(WriteVtk, MotionIsDrawnOnTheOuterFacesOverOnePeriod) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_write_vtk

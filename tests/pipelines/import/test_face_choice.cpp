@@ -6,7 +6,7 @@
 
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_face_choice {
 namespace {
 
 /// Sides of the box [0, 1] x [0, 2] x [0, 1] m, numbers 1 to 6: x = 0, x = 1, y = 0, y = 2, z = 0, z = 1.
@@ -105,4 +105,4 @@ TEST(FaceChoice, FaceMeantTwiceIsRefused) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_face_choice

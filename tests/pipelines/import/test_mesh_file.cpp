@@ -15,7 +15,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_mesh_file {
 namespace {
 
 /// One tetrahedron of edge 60 with its foot as a node set.
@@ -130,4 +130,4 @@ TEST_F(MeshFile, AConverterThatMisbehavesIsAnError) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_mesh_file

@@ -16,7 +16,7 @@
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_named_points {
 namespace {
 
 /// A box of 0.1 x 0.2 x 0.4 m with elements of 0.1 m.
@@ -178,4 +178,4 @@ frequency = [280, 320]
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_named_points

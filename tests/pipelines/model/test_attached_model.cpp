@@ -26,7 +26,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_attached_model {
 namespace {
 
 constexpr const char* scene_text = R"([model]
@@ -266,4 +266,4 @@ TEST(AttachedModel, WithOtherSettingsIsThatOfASceneThatHasThem) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_attached_model

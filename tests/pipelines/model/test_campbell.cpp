@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_campbell {
 namespace {
 
 // ω² = ω₀² + SΩ²: the line ω = kΩ meets it at Ω² = ω₀²/(k² − S).
@@ -31,4 +31,4 @@ TEST(Campbell, FindsNothingBelowTheFirstCrossing) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_campbell

@@ -9,7 +9,7 @@
 
 #include "pipelines/scene/scene_file.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_curve_cost {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -71,4 +71,4 @@ TEST(CurveCost, AMotionInTimeCostsByItsFrequencies) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_curve_cost

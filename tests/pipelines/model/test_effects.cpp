@@ -22,7 +22,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_effects {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -322,4 +322,4 @@ TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_effects

@@ -12,7 +12,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_scene_places {
 namespace {
 
 const char* const text = R"(
@@ -106,4 +106,4 @@ TEST(OuterFaces, AreTheSkinOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_scene_places

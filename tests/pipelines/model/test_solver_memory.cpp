@@ -14,7 +14,7 @@
 #include "pipelines/system/exit_code.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_solver_memory {
 namespace {
 
 using fem::SolverKind;
@@ -155,4 +155,4 @@ TEST(Scene, ARotatingBodyIsSolvedDirectly) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_solver_memory

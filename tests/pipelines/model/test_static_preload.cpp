@@ -20,7 +20,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_static_preload {
 namespace {
 
 constexpr double E = 2e11;
@@ -270,4 +270,4 @@ TEST(StaticPreload, UnknownPlacesOfLoadsAreRefusedWithTheNamesThereAre) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_static_preload

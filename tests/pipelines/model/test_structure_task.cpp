@@ -12,7 +12,7 @@
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_structure_task {
 namespace {
 
 constexpr const char* scene_text = R"([model]
@@ -142,4 +142,4 @@ TEST(StructureTask, LoadsAreTheSameShapeWhateverTheirAmplitude) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_structure_task

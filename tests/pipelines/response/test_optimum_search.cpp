@@ -12,7 +12,7 @@
 #include "pipelines/model/contact_factors.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_optimum_search {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -200,4 +200,4 @@ TEST(OptimumSearch, SaysThatItDoesNotIntegrateInTime) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_optimum_search

@@ -15,7 +15,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_time_response {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -115,4 +115,4 @@ TEST(TimeResponse, StepsAreForIntegrationInTime) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_time_response

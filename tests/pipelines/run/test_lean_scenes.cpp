@@ -12,7 +12,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_lean_scenes {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -319,4 +319,4 @@ TEST(LeanScenes, TheCompletedSceneReadsBackToItself) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_lean_scenes

@@ -10,7 +10,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_progress {
 namespace {
 
 std::string content_of(const std::filesystem::path& file) {
@@ -144,4 +144,4 @@ TEST(Progress, MissingRunFolderIsReported) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_progress

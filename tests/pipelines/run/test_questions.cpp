@@ -18,7 +18,7 @@
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_questions {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -290,4 +290,4 @@ TEST_F(OfModes, AskForLargeAmplitudes) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_questions

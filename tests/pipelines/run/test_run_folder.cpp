@@ -11,7 +11,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_run_folder {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST_F(Folder, IsLockedAndUnlocked) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_run_folder

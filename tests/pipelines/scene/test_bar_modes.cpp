@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_bar_modes {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -128,4 +128,4 @@ TEST(BarModes, AFreeBarNeedsItsRigidBodyModeForAResidual) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_bar_modes

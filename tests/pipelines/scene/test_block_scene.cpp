@@ -22,7 +22,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "solver/continuation.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_block_scene {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -356,4 +356,4 @@ TEST(BlockScene, TemplateAndCompletedSceneReadBack) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_block_scene

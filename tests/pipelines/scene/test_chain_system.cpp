@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_chain_system {
 namespace {
 
 TEST(ChainSystem, SpringsTieNeighboursAndTheGround) {
@@ -53,4 +53,4 @@ TEST(ChainSystem, TheChainOfPaperBHasItsFrequencies) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_chain_system

@@ -9,7 +9,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_effects_section {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -213,4 +213,4 @@ TEST(EffectsSection, EveryRowOfTheTableIsAKey) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_effects_section

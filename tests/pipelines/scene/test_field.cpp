@@ -9,7 +9,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_field {
 namespace {
 
 const Eigen::VectorXd p = Eigen::Vector3d(0.0, 0.01, 0.03);
@@ -82,4 +82,4 @@ TEST(Field, MustStayInItsRange) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_field

@@ -8,7 +8,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_matrix_files {
 namespace {
 
 Eigen::MatrixXd read(const std::string& text) {
@@ -63,4 +63,4 @@ TEST(MatrixMarket, WhatIsWrongIsToldWithItsLine) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_matrix_files

@@ -13,7 +13,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_scene_file {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -887,4 +887,4 @@ TEST(BadSceneFile, DeepNestingEndsInAnError) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_scene_file

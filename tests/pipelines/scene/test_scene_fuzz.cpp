@@ -14,7 +14,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/campaign.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_scene_fuzz {
 namespace {
 
 constexpr std::array kinds{"blade", "modal", "bar", "chain",
@@ -173,4 +173,4 @@ TEST(SceneFuzz, ADamagedSceneIsReadOrRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_scene_fuzz

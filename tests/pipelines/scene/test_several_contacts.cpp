@@ -8,7 +8,7 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_several_contacts {
 namespace {
 
 std::string scene_with(const std::string& first, const std::string& second) {
@@ -95,4 +95,4 @@ TEST(SeveralContacts, SharesOfThePreloadAreRelativeWeights) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_several_contacts

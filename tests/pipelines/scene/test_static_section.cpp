@@ -10,7 +10,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/units.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_static_section {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -176,4 +176,4 @@ TEST(StaticSection, SaysWhatIsWrongWithALoad) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_static_section

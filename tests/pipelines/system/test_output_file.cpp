@@ -16,7 +16,7 @@
 #include "pipelines/system/scene_error.hpp"
 #include "tests/pipelines/synthetic_run.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_output_file {
 namespace {
 
 std::string content_of(const std::filesystem::path& file) {
@@ -181,4 +181,4 @@ TEST(OutputFile, NumbersHaveAPointInEveryLocale) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_output_file

@@ -15,7 +15,7 @@
 #include "pipelines/system/sealed_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_result_cache {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ TEST(CacheFolder, IsWhereUsersExpectIt) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_result_cache

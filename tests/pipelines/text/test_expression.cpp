@@ -11,7 +11,7 @@
 
 #include "pipelines/system/scene_error.hpp"
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_expression {
 namespace {
 
 double value(const std::string& text, double p, double r) {
@@ -106,4 +106,4 @@ TEST(Expression, MayBeUsedByManyThreads) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_expression

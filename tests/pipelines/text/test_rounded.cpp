@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_rounded {
 namespace {
 
 TEST(Rounded, HasTheDigitsOfItsHalfWidth) {
@@ -25,4 +25,4 @@ TEST(Rounded, WithoutAnErrorItIsWhole) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_rounded

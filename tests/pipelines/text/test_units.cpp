@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-namespace microslip::pipelines {
+namespace microslip::pipelines::test_units {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -219,4 +219,4 @@ TEST(Units, AnyTextEndsInANumberOrAnError) {
 }
 
 }  // namespace
-}  // namespace microslip::pipelines
+}  // namespace microslip::pipelines::test_units

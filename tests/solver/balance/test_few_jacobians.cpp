@@ -9,7 +9,7 @@
 #include "solver/continuation.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_few_jacobians {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -103,4 +103,4 @@ TEST(FewJacobians, ACurveCostsFewWholeEvaluations) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_few_jacobians

@@ -10,7 +10,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_harmonic_balance {
 namespace {
 
 /// A motion of the size of the stuck response, on no symmetry.
@@ -189,4 +189,4 @@ TEST(HarmonicBalance, JacobianOfASetIsTheDifferenceOfResiduals) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_harmonic_balance

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_harmonic_set {
 namespace {
 
 TEST(HarmonicSet, AWholeNumberStandsForAllUpToIt) {
@@ -35,4 +35,4 @@ TEST(HarmonicSet, RefusesWhatIsNoHarmonic) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_harmonic_set

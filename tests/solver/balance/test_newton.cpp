@@ -6,7 +6,7 @@
 
 #include "solver/branch/branch_walker.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_newton {
 namespace {
 
 BalanceEvaluation scalar(double residual, double slope, double by_parameter) {
@@ -148,4 +148,4 @@ TEST(Newton, StaysOnThePlaneOfItsConstraint) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_newton

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_output_amplitude {
 namespace {
 
 TEST(OutputAmplitude, OfOneHarmonicIsItsHypot) {
@@ -60,4 +60,4 @@ TEST(OutputAmplitude, OfNoMotionIsZeroWithAFiniteGradient) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_output_amplitude

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_predictor {
 namespace {
 
 /// A branch that turns and twists: (cos s, sin s, s³/20) with a tangent of length one.
@@ -60,4 +60,4 @@ TEST(BranchPredictor, OfOnePointAloneIsTheTangent) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_predictor

@@ -20,7 +20,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_special_points {
 namespace {
 
 using tests::frequency_range;
@@ -217,4 +217,4 @@ TEST(SpecialPoints, AChangeOfSignThatCannotBeSolvedForIsGivenAndSaidSo) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_special_points

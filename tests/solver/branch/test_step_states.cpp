@@ -16,7 +16,7 @@
 #include "solver/continuation.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_step_states {
 namespace {
 
 contact::ContactStates states_at(const Scene& scene, const ResponsePoint& point) {
@@ -148,4 +148,4 @@ TEST(StepStates, ThatChangeAtEveryStepDoNotHoldTheWalkUp) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_step_states

@@ -15,7 +15,7 @@
 #include "tests/solver/humped_damping.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_branch_search {
 namespace {
 
 Scene with_isola() { return tests::isola_scene(0.5); }
@@ -154,4 +154,4 @@ TEST(BranchSearch, IsNotMadeUnlessAskedFor) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_branch_search

@@ -4,7 +4,7 @@
 
 #include "tests/solver/duffing.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_certificate {
 namespace {
 
 ResponsePoint certified(const Scene& scene, const Eigen::Vector3d& x, double frequency) {
@@ -42,4 +42,4 @@ TEST(Certificate, AnImbalanceBesideTheExcitationIsTold) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_certificate

@@ -17,7 +17,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_continuation {
 namespace {
 
 using tests::Duffing;
@@ -372,4 +372,4 @@ TEST(TraceLinear, HasTheLimitsOfTheContact) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_continuation

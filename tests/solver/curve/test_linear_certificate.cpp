@@ -12,7 +12,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_linear_certificate {
 namespace {
 
 using contact::LinearState;
@@ -146,4 +146,4 @@ TEST(CertifiedCurve, OfRandomScenesHoldsWhereTheNonlinearSolverIsAsked) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_linear_certificate

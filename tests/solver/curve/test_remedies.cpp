@@ -12,7 +12,7 @@
 #include "solver/continuation.hpp"
 #include "tests/support/full_force.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_remedies {
 namespace {
 
 class JumpingForce final : public tests::FullForce {
@@ -124,4 +124,4 @@ TEST(WorkOfACurve, IsTheSumOfItsPoints) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_remedies

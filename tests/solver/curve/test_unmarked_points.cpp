@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_unmarked_points {
 namespace {
 
 struct Row {
@@ -59,4 +59,4 @@ TEST(UnmarkedPoints, SolvedPeaksRoundingAndBrokenCurvesAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_unmarked_points

@@ -9,7 +9,7 @@
 #include "tests/solver/enrichment/solved_peaks.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_enrichment {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -150,4 +150,4 @@ TEST(Enrichment, SaysSoWhereTheContactChangesTooMuch) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_enrichment

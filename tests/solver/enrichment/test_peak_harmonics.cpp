@@ -15,7 +15,7 @@
 #include "tests/solver/enrichment/solved_peaks.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_peak_harmonics {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -207,4 +207,4 @@ TEST(CurveHarmonics, ASingleFrequencyChoosesForItself) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_peak_harmonics

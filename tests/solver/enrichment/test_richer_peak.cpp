@@ -9,7 +9,7 @@
 #include "tests/solver/enrichment/solved_peaks.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_richer_peak {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -62,4 +62,4 @@ TEST(RicherPeak, NoCurveHasNone) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_richer_peak

@@ -13,7 +13,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_peak_trace {
 namespace {
 
 using tests::frequency_range;
@@ -180,4 +180,4 @@ TEST(PeakTrace, OfPeaksThatEnterAndLeaveTheRangeIsThatOfWholeCurves) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_peak_trace

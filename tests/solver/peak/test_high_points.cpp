@@ -7,7 +7,7 @@
 
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_high_points {
 namespace {
 
 ContinuationOptions chain_range(double end_hz = 28.0) {
@@ -63,4 +63,4 @@ TEST(HighPoints, DoNotTakeTheLastPointOfAnIncompleteCurveForAnEnd) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_high_points

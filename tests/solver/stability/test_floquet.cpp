@@ -17,7 +17,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_floquet {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -264,4 +264,4 @@ TEST(Floquet, PointStuckForGoodAddsNothing) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_floquet

@@ -15,7 +15,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_stability {
 namespace {
 
 TEST(Stability, SlowFlowOfALinearModeDecaysWithItsDamping) {
@@ -198,4 +198,4 @@ TEST(Stability, NegativeDampingIsUnstable) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_stability

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_periodicity {
 namespace {
 
 PeriodState at(double x, double y = 0.0, double force = 0.0) {
@@ -72,4 +72,4 @@ TEST(Periodicity, OfRestIsFoundAtOnce) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_periodicity

@@ -6,7 +6,7 @@
 
 #include "contact/transient/patch_transient.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_time_guards {
 namespace {
 
 /// Mode 0 is u, mode 1 is v of a single point.
@@ -72,4 +72,4 @@ TEST(FirstEvent, IsTheEarliestOfSeveralPointsAndTakesThoseAtTheSameInstant) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_time_guards

@@ -10,7 +10,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_time_integration {
 namespace {
 
 Scene oscillator(double preload, double damping = 0.05) {
@@ -184,4 +184,4 @@ TEST(Sweep, RefusesBeforeItStarts) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_time_integration

@@ -9,7 +9,7 @@
 
 #include "contact/transient/patch_transient.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_time_recorder {
 namespace {
 
 using contact::ContactState;
@@ -122,4 +122,4 @@ TEST(TimeRecorder, CountsStickPhasesAroundTheEndOfThePeriod) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_time_recorder

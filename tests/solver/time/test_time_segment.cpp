@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace microslip::solver {
+namespace microslip::solver::test_time_segment {
 namespace {
 
 Eigen::VectorXd scalar(double x) { return Eigen::VectorXd::Constant(1, x); }
@@ -54,4 +54,4 @@ TEST(TimeSegment, KeepsItsVelocityInVeryShortSteps) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_time_segment

@@ -10,7 +10,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver {
+namespace microslip::solver::test_time_stepper {
 namespace {
 
 Scene oscillator(const contact::PointParameters& point) {
@@ -181,4 +181,4 @@ TEST(StateOn, AMotionOfTheStuckPointLeavesTheSliderVirgin) {
 }
 
 }  // namespace
-}  // namespace microslip::solver
+}  // namespace microslip::solver::test_time_stepper
