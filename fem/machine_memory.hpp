@@ -13,8 +13,9 @@ struct AvailableMemory {
   std::string limited_by;  ///< what is smallest: the machine, its control group, the address space
 };
 
-/// What this process can still take on this machine without swapping: the smallest of what the machine has available, what
-/// the memory limits of its control groups leave, and what its address space (`ulimit -v`) leaves.
+/// What the ranks on this machine can still take together without swapping: the smallest of what the machine has available,
+/// what the memory limits of its control groups leave, and what their address spaces (`ulimit -v`) leave: each has its own,
+/// taken to be as full as that of this one.
 [[nodiscard]] AvailableMemory available_memory_here();
 
 /// What the machines of all ranks can still give [MB]; the same on every rank. Collective over PETSC_COMM_WORLD.

@@ -106,7 +106,7 @@ AvailableMemory available_memory_here() {
   };
   compare(memory_left_in_groups("/proc/self/cgroup", "/sys/fs/cgroup"),
           "the limit of the control group");
-  compare(left_in_address_space(), "the limit of the address space, ulimit -v");
+  compare(n_ranks_here() * left_in_address_space(), "the limit of the address space, ulimit -v");
   return least;
 }
 

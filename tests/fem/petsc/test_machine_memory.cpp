@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/ranks.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::fem::test_machine_memory {
@@ -61,10 +62,38 @@ TEST(MachineMemory, IsWhatTheAddressSpaceLeaves) {
   ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
   const AvailableMemory available = available_memory_here();
   ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
-  EXPECT_LT(available.megabytes, 6000.0);
+  EXPECT_LT(available.megabytes, 6000.0 * n_ranks_here());
   if (available.megabytes > 0.0 && available.limited_by.find("ulimit") == std::string::npos) {
     EXPECT_LT(available.megabytes, available_memory_here().megabytes * 1.1);  // less still
   }
+}
+
+/// Address space of this process [MB].
+double size_now() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmSize:")) return 1.024e-3 * std::stod(line.substr(7));
+  }
+  return 0.0;
+}
+
+// The machine is one for all ranks, an address space is not: two ranks have twice that of one.
+TEST(MachineMemory, OfEveryRankIsAnAddressSpaceOfItsOwn) {
+  constexpr double left = 500.0;  // [MB], of each
+  const double without = available_memory_mb();
+  if (without < 2.0 * left * n_ranks()) GTEST_SKIP() << "the machine has " << without << " MB";
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit little{.rlim_cur = static_cast<rlim_t>(1e6 * (size_now() + left)),
+                      .rlim_max = before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  const AvailableMemory here = available_memory_here();
+  const double everywhere = available_memory_mb();
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  // Measuring takes a buffer or two.
+  EXPECT_NEAR(here.megabytes, left * n_ranks_here(), 0.05 * left * n_ranks_here());
+  EXPECT_NE(here.limited_by.find("ulimit"), std::string::npos) << here.limited_by;
+  EXPECT_NEAR(everywhere, left * n_ranks(), 0.05 * left * n_ranks());
 }
 
 }  // namespace
