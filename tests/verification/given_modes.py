@@ -346,6 +346,10 @@ class GivenModes(unittest.TestCase):
         with open(path("cut.frd"), "w", encoding="latin-1") as stream:
             stream.writelines(lines[:250])
         self.assertIn("cut.frd: the file ends in the middle of a block, at line 250", refusal(given(path("cut.frd"))))
+        begins = [i for i, line in enumerate(lines) if line.startswith("    1PSTEP")]
+        with open(path("modes.frd"), "w", encoding="latin-1") as stream:
+            stream.writelines(lines[:begins[3]])
+        self.assertIn(f"modes.frd:{begins[3]}: the file ends here, after mode 3", refusal(given(path("modes.frd"))))
         with open(path("none.frd"), "w", encoding="latin-1") as stream:
             stream.writelines(lines[:180])
         self.assertIn("none.frd: there are no modes in it", refusal(given(path("none.frd"))))

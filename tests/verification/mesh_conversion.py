@@ -260,8 +260,20 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace("GRID,1,,", "GRID,1,5,"), "deck.bdf:8", "coordinate system 5", name="deck.bdf")
         self.refused(NASTRAN.replace(",9,7,1,3,2,", ",9,7,1,3,"), "deck.bdf:15", "has 3 nodes", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,one"), "deck.bdf:9", '"one"', name="deck.bdf")
-        self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2"), "deck.bdf:19", "CBAR", name="deck.bdf")
+        self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2\nENDDATA"), "deck.bdf:19", "CBAR", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
+
+    def test_a_deck_that_is_cut_off(self):
+        """Between two cards, within one, within a word: every element that is left would be read as it stands."""
+        whole = NASTRAN.replace("ENDDATA\n", "")
+        for text in (whole, whole.split("CTETRA,9")[0], whole.split(",11\nSPC1")[0], NASTRAN[:-3]):
+            with self.subTest(end=text[-20:]):
+                self.refused(text, f"deck.bdf:{len(text.splitlines())}: ", "cut off", "ENDDATA", name="deck.bdf")
+
+    def test_the_end_may_stand_in_a_file_that_is_included(self):
+        with open(self.path("bulk.bdf"), "w", encoding="utf-8") as file:
+            file.write(NASTRAN.split("BULK\n")[1])
+        self.assertEqual(self.deck("SOL 103\nCEND\nBEGIN BULK\nINCLUDE 'bulk.bdf'\n", "deck.bdf").code, 0)
 
 
 class UniversalFiles(Conversion):

@@ -1,7 +1,7 @@
 """Bulk data of Nastran and OptiStruct (.bdf, .nas, .fem): GRID, solids, shells, SPC, SPC1, SET, PLOAD4.
 
-meshio 5.0 is not used here: it takes coordinates of local systems for global ones, wants BEGIN BULK and ENDDATA, follows
-no INCLUDE and gives no names.
+meshio 5.0 is not used here: it takes coordinates of local systems for global ones, wants BEGIN BULK, follows no INCLUDE
+and gives no names. A deck ends with ENDDATA: without it nothing tells a whole one from one that was cut off.
 
 Names: "PID 3" for the elements of property 3, "SPC 1" for the nodes that set 1 holds, "SET 2" for a set of nodes,
 "PLOAD4 4" for the faces that carry pressure set 4; or what HyperMesh and Femap call them in their comments.
@@ -32,6 +32,9 @@ def read(path):
     """A Content. Raises Refused with file and line."""
     deck = _Deck(path)
     lines = list(_lines(path, os.path.dirname(os.path.abspath(path)), (), deck))
+    if not deck.is_ended and any(re.match(r"GRID\b", text, re.I) for _, text in lines):
+        raise Refused(f"{lines[-1][0]}: the file ends here without ENDDATA: it seems to be cut off. Copy it once more; if it is "
+                      "whole, add a last line ENDDATA")
     bulk = next((i + 1 for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK\b", text, re.I)), 0)
     for place, text in _statements(lines[:bulk]):
         deck.take_case(place, text)
@@ -52,7 +55,8 @@ def _lines(path, folder, above, deck):
             text = line.split("$", 1)[0].expandtabs(8).rstrip()
             if "$" in line:
                 deck.take_comment(line)
-            if re.match(r"ENDDATA\b", text, re.I) and not above:
+            if re.match(r"ENDDATA\b", text, re.I):
+                deck.is_ended = True
                 return
             if re.match(r"INCLUDE\b", text, re.I):
                 name = text[7:].strip().strip("'\"")
@@ -137,6 +141,7 @@ def _listed(place, words):
 class _Deck:
     def __init__(self, path):
         self.path = path
+        self.is_ended = False   # by ENDDATA
         self.nodes, self.coordinates, self.turned = [], [], []
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers

@@ -1,8 +1,8 @@
 """Results of CalculiX (.frd, in text) with *FREQUENCY.
 
 Lines begin with a key: ` -1` node and numbers, ` -3` end of a block; `    2C` coordinates; `  100CL` a set of results,
-with the frequency [cycles per unit of time] and, of modes, the word MODAL; ` -4  DISP` displacements. Numbers take
-12 columns from the 14th on. After: CalculiX GraphiX manual, section "Result Format".
+with the frequency [cycles per unit of time] and, of modes, the word MODAL; ` -4  DISP` displacements; ` 9999` end of
+the file. Numbers take 12 columns from the 14th on. After: CalculiX GraphiX manual, section "Result Format".
 """
 import numpy as np
 
@@ -16,8 +16,9 @@ _KEY, _WIDTH = 13, 12
 def read(path):
     with open(path, encoding="latin-1") as file:
         lines = _Lines(path, file)
-        numbers, coordinates, frequencies, shapes = None, None, [], []
+        numbers, coordinates, frequencies, shapes, is_ended = None, None, [], [], False
         for line in lines:
+            is_ended = line.split() == ["9999"]
             if line.startswith("    2C"):
                 numbers, coordinates = lines.block()
             elif line.startswith("  100CL") and "MODAL" in line:
@@ -35,6 +36,8 @@ def read(path):
                 shapes.append(shape)
     require(lines.number_of_line, f"{path}: the file is empty")
     require(shapes, f"{path}: there are no modes in it (a *FREQUENCY step with *NODE FILE, U)")
+    require(is_ended, f"{lines.place}: the file ends here, after mode {len(shapes)}, without its last line 9999: it is cut off; copy "
+                      "it once more, or let ccx run to its end")
     return Modes(coordinates, np.array(frequencies), np.array(shapes))
 
 
