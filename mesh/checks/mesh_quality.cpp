@@ -281,9 +281,14 @@ void check_elements(const Eigen::MatrixX3d& nodes, const std::vector<ElementBloc
     text << "; all of them: the nodes are listed left-handed";
   } else if (all) {
     text << "; all of them in part: are the mid-edge nodes in the order of gmsh?";
+  } else if (n_negative > 0) {
+    text << "; " << n_negative
+         << " of them inside out: is the file damaged, or their order of nodes not that of the "
+            "format? Write it once more";
   } else if (worst < std::numeric_limits<double>::infinity()) {
     text << "; worst ratio of smallest to largest Jacobian " << worst
-         << "; mesh with smaller elements, or optimise the curved elements";
+         << "; are the mid-edge nodes where they belong? Else mesh with smaller elements, or "
+            "optimise the curved elements";
   }
   throw MeshError(text.str());
 }

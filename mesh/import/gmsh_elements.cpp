@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 #include "mesh/shape_functions.hpp"
@@ -213,9 +214,16 @@ std::string gmsh_remedy(const GmshType* type) {
 }
 
 Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file) {
-  Mesh mesh = MeshMaker(content, length_unit, file).make();
-  require_size_of_a_body(mesh, file);
-  return mesh;
+  try {
+    Mesh mesh = MeshMaker(content, length_unit, file).make();
+    require_size_of_a_body(mesh, file);
+    return mesh;
+  } catch (const MeshError& error) {  // the checks of a mesh do not know its file
+    const std::string message = error.what();
+    constexpr std::string_view finding = "bad-mesh: ";
+    if (!message.starts_with(finding)) throw;
+    throw MeshError(std::string(finding) + file + ": " + message.substr(finding.size()));
+  }
 }
 
 }  // namespace microslip::mesh

@@ -77,9 +77,20 @@ class Reader {
       if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"') {
         source_.fail("expected a name in quotes");
       }
-      content_.group_names[{dimension, tag}] = std::string(rest.substr(1, rest.size() - 2));
+      add_name(dimension, tag, std::string(rest.substr(1, rest.size() - 2)));
     }
     source_.set_binary(binary);
+  }
+
+  /// Groups of one name would be one surface or set. Those of volumes name nothing here.
+  void add_name(int dimension, std::int64_t tag, const std::string& name) {
+    const auto [same, is_new] = group_of_name_.try_emplace({dimension, name}, tag);
+    if (!is_new && same->second != tag && dimension < 3) {
+      source_.fail("physical groups " + std::to_string(same->second) + " and " +
+                   std::to_string(tag) + " of dimension " + std::to_string(dimension) +
+                   " are both named \"" + name + "\"; rename one, or make one group of them");
+    }
+    content_.group_names[{dimension, tag}] = name;
   }
 
   void read_entities() {
@@ -206,6 +217,7 @@ class Reader {
   GmshSource source_;
   GmshContent content_;
   bool version_4_ = false;
+  std::map<std::pair<int, std::string>, std::int64_t> group_of_name_;
   std::map<std::pair<int, std::int64_t>, std::vector<std::int64_t>> groups_;  // of an entity
 };
 

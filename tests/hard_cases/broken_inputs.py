@@ -356,11 +356,12 @@ def meshes(sound):
         yield changed("no elements", "$Elements", "$Elemente")
         yield changed("an unknown node", "2 3 4 5\n", "2 3 4 77\n", says="77")
         yield changed("an element on one node", "2 3 4 5\n", "2 2 2 2\n")
-        yield changed("a flat element", "0 0 1\n", "1 1 0\n")
+        yield changed("a flat element", "0 0 1\n", "1 1 0\n", says="mesh.msh")
         yield changed("a coordinate nan", "0 1 0\n", "0 nan 0\n")
         yield changed("a coordinate 1e400", "0 1 0\n", "0 1e400 0\n")
         yield changed("a coordinate 1e300", "0 1 0\n", "0 1e300 0\n")
         yield changed("a coordinate that is a word", "0 1 0\n", "0 one 0\n")
+        yield changed("two surfaces of one name", '$PhysicalNames\n2\n', '$PhysicalNames\n3\n2 7 "left"\n', says="1 and 7")
         yield changed("a name without quotes", '"left"', "left")
         yield changed("a carriage return in each line", "\n", "\r\n", -1, must_refuse=False)
         for count in ("-1", "0", "2147483648", "9223372036854775807", "18446744073709551616", "1e3"):

@@ -95,7 +95,7 @@ TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   expect_words(refusal(write("wrong.inp", wrong)), {"wrong.inp:3", "\"x\""});
   std::string turned = deck;
   turned.replace(turned.find("1, 1, 2, 3"), 10, "1, 2, 1, 3");
-  expect_words(refusal(write("turned.inp", turned)), {"bad-mesh", "1"});
+  expect_words(refusal(write("turned.inp", turned)), {"bad-mesh: ", "turned.inp: 1 of 1 elements"});
 }
 
 TEST_F(MeshFile, WhatIsNoMeshIsToldBeforeItIsReadWhole) {
