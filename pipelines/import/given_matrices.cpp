@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/import/node_rows.hpp"
 #include "pipelines/scene/matrix_files.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -49,7 +50,10 @@ fem::GivenMatrices matrices_of(const mesh::Mesh& mesh, const SceneDescription& s
         fmt::format("{}: {} rows of the matrices belong to nodes that the mesh has not",
                     files.place, K.rows() - S.nonZeros()));
   }
-  return {(1.0 / length_unit) * (S * K * S.transpose()), files.mass_unit * (S * M * S.transpose())};
+  fem::GivenMatrices matrices{(1.0 / length_unit) * (S * K * S.transpose()),
+                              files.mass_unit * (S * M * S.transpose())};
+  check_matrices(mesh, matrices, {files.stiffness, files.mass, files.nodes});
+  return matrices;
 }
 
 }  // namespace microslip::pipelines

@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "fem/petsc_error.hpp"
 #include "fem/ranks.hpp"
 #include "fem/slepc_session.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "pipelines/import/given_matrices.hpp"
+#include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/import/mesh_file.hpp"
 #include "pipelines/import/mesher_limits.hpp"
 #include "pipelines/import/named_points.hpp"
@@ -141,6 +143,26 @@ StructureModes solved(const StructureTask& task) {
   return modes;
 }
 
+/// What the eigensolver finds wrong lies in the files.
+StructureModes solved_from_matrices(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const StructureTask task = task_of(mesh, scene);
+  try {
+    StructureModes modes = solved(task);
+    if (std::string question = mass_question(mesh, *task.matrices); !question.empty()) {
+      modes.warnings.push_back(std::move(question));
+    }
+    return modes;
+  } catch (const fem::EigenError& error) {
+    const MatrixFiles& files = *given_matrices(scene);
+    throw fem::EigenError(
+        fmt::format("{}; of given matrices that is most often a stiffness that is not positive "
+                    "definite: look in "
+                    "{} for an entry that is lost, of the wrong sign or size, and whether {} is of "
+                    "the same model",
+                    error.what(), files.stiffness.string(), files.mass.string()));
+  }
+}
+
 }  // namespace
 
 mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
@@ -201,6 +223,7 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
+  if (given_matrices(scene) != nullptr) return solved_from_matrices(mesh, scene);
   StructureModes modes = solved(task_of(mesh, scene));
   if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
   return modes;

@@ -12,6 +12,7 @@
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/import/given_matrices.hpp"
+#include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_cost.hpp"
@@ -183,7 +184,11 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
     for (const std::string& line : modes.notes) out << line << '\n';
     result.warnings.insert(result.warnings.end(), modes.warnings.begin(), modes.warnings.end());
   } else if (given_matrices(scene) != nullptr) {
-    static_cast<void>(matrices_of(mesh, scene));  // they are read and checked
+    const fem::GivenMatrices matrices = matrices_of(mesh, scene);  // they are read and checked
+    fmt::print(out, "mass of the free nodes, by the matrix: {:.6g} kg\n", free_mass(matrices));
+    if (std::string question = mass_question(mesh, matrices); !question.empty()) {
+      result.warnings.push_back(std::move(question));
+    }
   } else if (scene.clamped.empty() && scene.response) {
     result.warnings.emplace_back(
         "nothing is clamped: the structure has rigid-body modes, which only a contact that "

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -109,6 +110,14 @@ void require_symmetric(const Sparse& matrix, const std::filesystem::path& file) 
   }
 }
 
+/// A pipe that nobody writes to would be waited for.
+void require_regular_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error)) return;
+  if (std::filesystem::is_regular_file(file, error)) return;
+  throw SceneError(fmt::format("{}: not a file; write it to one", file.string()));
+}
+
 Eigen::Index row_in(const CsvTable& table, std::size_t line, std::size_t column, Eigen::Index n) {
   const double value = table.at(line, column);
   if (value == std::floor(value) && value >= 0.0 && value <= static_cast<double>(n)) {
@@ -121,6 +130,7 @@ Eigen::Index row_in(const CsvTable& table, std::size_t line, std::size_t column,
 }  // namespace
 
 Sparse read_matrix_market(const std::filesystem::path& file) {
+  require_regular_file(file);
   Lines lines(file);
   const bool symmetric = read_is_symmetric(lines);
   const auto [n, columns, n_entries] = read_size(lines);
@@ -139,6 +149,7 @@ Sparse read_matrix_market(const std::filesystem::path& file) {
 }
 
 NodeRows read_node_rows(const std::filesystem::path& file, Eigen::Index n) {
+  require_regular_file(file);
   const CsvTable table = CsvTable::read(file);
   const std::array<const char*, 3> axes{"x", "y", "z"};
   const auto n_nodes = static_cast<Eigen::Index>(table.n_rows());

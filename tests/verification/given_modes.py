@@ -299,6 +299,58 @@ class GivenModes(unittest.TestCase):
         self.assertIn("1 of the 44 nodes of the mesh have no place", changed(1, "1,-2,", "1,-3,"))
         self.assertIn("stiffness.mtx", refusal(self.matrices(mass="missing.mtx", stiffness="stiffness.mtx")))
 
+    @staticmethod
+    def changed_matrix(name, change):
+        """Entries (row, column, value) of a matrix, changed."""
+        with open(os.path.join(PLATE, name), encoding="ascii") as stream:
+            header, size, *lines = stream.readlines()
+        entries = [change(int(row), int(column), float(value)) for row, column, value in map(str.split, lines)]
+        with open(path("changed_" + name), "w", encoding="ascii") as stream:
+            stream.writelines([header, size, *(f"{row} {column} {value!r}\n" for row, column, value in entries)])
+        return path("changed_" + name)
+
+    def exchanged_columns(self, *order):
+        """The table of nodes with other directions: ux, uy, uz are its last columns."""
+        with open(os.path.join(PLATE, "nodes.csv"), encoding="ascii") as stream:
+            header, *rows = [line.strip().split(",") for line in stream]
+        with open(path("nodes.csv"), "w", encoding="ascii") as stream:
+            stream.write("\n".join(",".join(row) for row in [header, *(row[:4] + [row[4 + i] for i in order] for row in rows)]))
+        return refusal(self.matrices(nodes=path("nodes.csv")))
+
+    def test_matrices_that_are_none_of_a_body_are_refused(self):
+        for name in ("stiffness", "mass"):
+            for sign in (-1.0, 0.0):
+                wrong = self.changed_matrix(name + ".mtx", lambda i, j, value: (i, j, sign * value if i == j == 5 else value))
+                text = refusal(self.matrices(**{name: wrong}))
+                self.assertIn(f"{name}.mtx: the diagonal entry of u", text)
+                self.assertIn(" of the node at (", text)
+        for order in ((0, 2, 1), (1, 0, 2), (1, 2, 0)):
+            self.assertIn("do ux, uy, uz stand for the directions", self.exchanged_columns(*order))
+        self.assertIn("are stiffness and mass exchanged?", refusal(self.matrices(
+            stiffness=os.path.join(PLATE, "mass.mtx"), mass=os.path.join(PLATE, "stiffness.mtx"))))
+        heavy = self.changed_matrix("mass.mtx", lambda i, j, value: (i, j, 3.0 * value if i == j and i % 3 == 1 else value))
+        self.assertIn("the mass of all free nodes is", refusal(self.matrices(mass=heavy)))
+
+    def test_a_stiffness_that_is_not_positive_definite_is_told(self):
+        """Off the diagonal, so that only the eigensolver sees it."""
+        wrong = self.changed_matrix("stiffness.mtx", lambda i, j, value: (i, j, 40.0 * value if (i, j) == (2, 1) else value))
+        scene = write_scene("indefinite.toml", self.matrices(stiffness=wrong), "count = 4")
+        finished = subprocess.run([PROGRAM, "modes", scene, "-o", path("indefinite")], capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 2, finished.stdout + finished.stderr)
+        self.assertIn("not positive definite: look in", finished.stderr)
+
+    def test_a_mass_in_another_unit_is_questioned(self):
+        scene = write_scene("mass.toml", self.matrices() + '\nmass_unit = "kg"', "count = 4")
+        finished = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True, check=True)
+        self.assertRegex(finished.stdout, r"warning: model.mass_unit: the free nodes have .* 7\.2\d kg/m\^3")
+        scene = write_scene("mass.toml", self.matrices(), "count = 4")
+        finished = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True, check=True)
+        self.assertNotIn("model.mass_unit", finished.stdout)
+
+    def test_a_matrix_that_is_a_pipe_is_not_waited_for(self):
+        os.mkfifo(path("pipe.mtx"))
+        self.assertIn("pipe.mtx: not a file", refusal(self.matrices(stiffness=path("pipe.mtx"))))
+
     def test_other_normalisation_is_rescaled(self):
         scaled = {**self.arrays, "shapes": self.arrays["shapes"] * np.array([1, 7, 0.1, 3, 2, 5])[:, None, None]}
         np.savez(path("scaled.npz"), **scaled)
