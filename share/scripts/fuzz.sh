@@ -38,7 +38,7 @@ seeds_of() {
 }
 
 # A text that is no unit costs UDUNITS-2 some bytes.
-export LSAN_OPTIONS=suppressions="$root/tests/fuzz/leaks.txt":print_suppressions=0
+export LSAN_OPTIONS=suppressions="$root/tests/support/leaks.txt":print_suppressions=0
 for reader in "$@"; do
   sources=$(sources_of "$reader")
   # shellcheck disable=SC2086  # lists of words

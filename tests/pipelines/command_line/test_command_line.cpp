@@ -648,6 +648,9 @@ TEST_F(Program, LongNamesAreToldInAFewLines) {
 
 /// Under a limit of the address space the threads of OpenBLAS cannot start.
 TEST_F(Program, LittleAddressSpaceIsNoHang) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer takes terabytes of address space";
+#endif
   write(path("scene.toml"), scene_text);
   for (const char* megabytes : {"200", "250", "300", "450"}) {
     const std::string limit = std::string("ulimit -v ") + megabytes + "000; timeout 30";
@@ -662,6 +665,9 @@ TEST_F(Program, LittleAddressSpaceIsNoHang) {
 
 /// OpenBLAS asks for its buffer for ever where there is none, and MPI ends the process.
 TEST_F(Program, LittleAddressSpaceOfAMeshedSceneIsExitFour) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer takes terabytes of address space";
+#endif
   write(path("scene.toml"),
         "[model]\nkind = \"blade\"\nelement_size = \"20 mm\"\n[material]\nyoungs_modulus = 2e11\n"
         "poissons_ratio = 0.3\ndensity = 7800\n[supports]\nclamped = [\"root\"]\n");
