@@ -22,7 +22,7 @@ class LuFactors {
   LuFactors(const LuFactors&) = delete;
   LuFactors& operator=(const LuFactors&) = delete;
 
-  /// A⁻¹ B, any number of columns.
+  /// A⁻¹ B, any number of columns; NaN where a pivot vanishes.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const;
   /// A⁻ᵀ B.
   [[nodiscard]] Eigen::MatrixXd solve_transposed(const Eigen::Ref<const Eigen::MatrixXd>& B) const;

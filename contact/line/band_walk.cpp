@@ -34,7 +34,7 @@ double crossing(SliderBand& band, double sign, double position, const BandStretc
     const double beyond = now.reach - sign * (now.position - position);  // > 0: not reached
     const double slope = now.reach_rate - sign * now.velocity;
     (beyond > 0.0 ? low : high) = x;
-    const double newton = x - beyond / slope;
+    const double newton = slope != 0.0 ? x - beyond / slope : low;
     const bool inside = newton > low && newton < high;
     const double next = inside ? newton : 0.5 * (low + high);
     if (inside && std::abs(next - x) <= close) return next;

@@ -1,6 +1,7 @@
 #include "contact/dense.hpp"
 
 #include <complex>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -52,6 +53,10 @@ Eigen::MatrixXcd complex_vectors(const Eigen::VectorXcd& values, const Eigen::Ma
   return vectors;
 }
 
+Eigen::MatrixXd no_solution(const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  return Eigen::MatrixXd::Constant(B.rows(), B.cols(), std::numeric_limits<double>::quiet_NaN());
+}
+
 double sign_of(double pivot) { return pivot > 0.0 ? 1.0 : (pivot < 0.0 ? -1.0 : 0.0); }
 
 }  // namespace
@@ -61,6 +66,13 @@ struct LuFactors::Factors {
   Eigen::PartialPivLU<Eigen::MatrixXd> small;
   Eigen::MatrixXd large;
   Eigen::VectorXi pivots;
+
+  [[nodiscard]] const Eigen::MatrixXd& triangles() const {
+    return large.size() > 0 ? large : small.matrixLU();
+  }
+  [[nodiscard]] bool has_zero_pivot() const {
+    return (triangles().diagonal().array() == 0.0).any();
+  }
 
   [[nodiscard]] Eigen::MatrixXd solve(const char* transposed, Eigen::MatrixXd B) const {
     const int n = static_cast<int>(large.rows());
@@ -87,10 +99,12 @@ LuFactors::LuFactors(LuFactors&&) noexcept = default;
 LuFactors& LuFactors::operator=(LuFactors&&) noexcept = default;
 
 Eigen::MatrixXd LuFactors::solve(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+  if (factors_->has_zero_pivot()) return no_solution(B);
   return factors_->large.size() > 0 ? factors_->solve("N", B) : factors_->small.solve(B);
 }
 
 Eigen::MatrixXd LuFactors::solve_transposed(const Eigen::Ref<const Eigen::MatrixXd>& B) const {
+  if (factors_->has_zero_pivot()) return no_solution(B);
   return factors_->large.size() > 0 ? factors_->solve("T", B)
                                     : factors_->small.transpose().solve(B);
 }
@@ -105,8 +119,7 @@ double LuFactors::sign_of_determinant() const {
   } else {
     sign = static_cast<double>(factors_->small.permutationP().determinant());
   }
-  const auto& matrix = is_large ? factors_->large : factors_->small.matrixLU();
-  const Eigen::VectorXd pivots = matrix.diagonal();
+  const Eigen::VectorXd pivots = factors_->triangles().diagonal();
   for (const double pivot : pivots) sign *= sign_of(pivot);
   return sign;
 }

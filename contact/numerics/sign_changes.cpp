@@ -106,7 +106,7 @@ class Cell {
           3.0 * (s * s * (inner_a_ - a_.value) + 2.0 * s * t * (inner_b_ - inner_a_) +
                  t * t * (b_.value - inner_b_));
       ((value > 0.0) == (a_.value > 0.0) ? low : high) = t;
-      const double next = t - value / slope;
+      const double next = slope != 0.0 ? t - value / slope : low;
       t = next > low && next < high ? next : 0.5 * (low + high);
     }
     return a_.phase + t * width_;

@@ -143,8 +143,11 @@ double starting_angle(const PlanarPoint& point, const PlanarPointInstant& now,
   if (point.active.sum() == 2.0 && share < 1.0) {
     const Vector2d reach_rate = as_planar(now).reach_rate();
     const double rho = settled_slip_speed(now.velocity, reach_rate);
-    const Eigen::Array2d settled = now.velocity.array() / (rho + reach_rate.array());
-    if (rho > 0.0 && settled.allFinite()) e = share * e + (1.0 - share) * settled.matrix();
+    const Eigen::Array2d speed = rho + reach_rate.array();
+    if (rho > 0.0 && (speed != 0.0).all()) {
+      const Eigen::Array2d settled = now.velocity.array() / speed;
+      if (settled.allFinite()) e = share * e + (1.0 - share) * settled.matrix();
+    }
   }
   return std::atan2(e[1], e[0]);
 }

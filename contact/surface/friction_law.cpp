@@ -1,6 +1,7 @@
 #include "contact/surface/friction_law.hpp"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -60,12 +61,11 @@ void FrictionLaw::grades(double fastest, std::vector<double>& speeds) const {
   if (!is_rate_dependent()) return;
   constexpr double flat = 40.0;  // e⁻⁴⁰ is rounding
   constexpr double small = 1e6;
-  double grade = 1.0;
-  while (grade / decay_ < fastest && std::isfinite(grade)) {
+  constexpr double largest = std::numeric_limits<double>::max() / 64.0;
+  for (double grade = 1.0; grade / decay_ < fastest; grade *= grade < small ? 4.0 : 64.0) {
     if (kind_ == Kind::exponential && grade > flat) grade = flat;
     speeds.push_back(grade / decay_);
-    if (kind_ == Kind::exponential && grade >= flat) return;
-    grade *= grade < small ? 4.0 : 64.0;
+    if ((kind_ == Kind::exponential && grade >= flat) || grade > largest) return;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -49,6 +50,11 @@ struct Value {
   double value;
   double slope;
   double steepest;  ///< slope in the direction in which it rises most
+
+  /// Slope as a share of the steepest; infinite where nothing rises, as level is not what that is.
+  [[nodiscard]] double steepness() const {
+    return steepest > 0.0 ? std::abs(slope) / steepest : std::numeric_limits<double>::infinity();
+  }
 };
 
 /// A place on a segment.
@@ -150,8 +156,7 @@ class Segment {
     const double first = angle(a.tangent, chord);
     const double second = angle(chord, b.tangent);
     const auto [less, more] = std::minmax(first, second);
-    const double nearest = std::min(std::abs(a.value.slope) / a.value.steepest,
-                                    std::abs(b.value.slope) / b.value.steepest);
+    const double nearest = std::min(a.value.steepness(), b.value.steepness());
     const double turn = first + second;
     if (turn > slight_turn_ && more > uneven * less && nearest < turn) return true;
     const bool same_sign = (a.value.slope > 0.0) == (b.value.slope > 0.0);
@@ -208,6 +213,7 @@ class Segment {
   /// segment; 0: it does not.
   [[nodiscard]] static double turning_share(const Node& a, const Node& b) {
     const CubicSlope slope(a, b);
+    if (slope.c[2] == 0.0) return 0.0;
     const double share = -0.5 * slope.c[1] / slope.c[2];
     if (!(share > 0.02) || !(share < 0.98)) return 0.0;
     const double sign = slope.c[0] > 0.0 ? 1.0 : -1.0;

@@ -27,10 +27,11 @@ struct Bracket {
   double value;
 };
 
-/// The minimum of a parabola through three points, relative to the first; NaN where they lie on a line.
+/// The minimum of a parabola through three points, relative to the first; infinite where they lie on a line.
 double parabola_step(const std::array<double, 3>& at, const std::array<double, 3>& value) {
   const double r = (at[0] - at[1]) * (value[0] - value[2]);
   const double q = (at[0] - at[2]) * (value[0] - value[1]);
+  if (q == r) return std::numeric_limits<double>::infinity();
   return -0.5 * ((at[0] - at[2]) * q - (at[0] - at[1]) * r) / (q - r);
 }
 
