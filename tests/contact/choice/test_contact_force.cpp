@@ -1,4 +1,5 @@
 #include "contact/contact_force.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,9 @@
 
 namespace microslip::contact::test_contact_force {
 namespace {
+
+// Lanes compute what they then do not take.
+[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
 
 constexpr Eigen::Index n_modes = 3;
 

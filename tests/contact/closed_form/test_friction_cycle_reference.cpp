@@ -59,7 +59,7 @@ double touch_down_uncertainty(const CycleCase& c) {
   const double B = c.point.normal_stiffness * std::hypot(c.motion.v_sin, c.motion.v_cos);
   const double n0 = c.point.preload + c.point.normal_stiffness * c.motion.v_mean;
   const double rate = std::sqrt(std::max(B - n0, 0.0)) * std::sqrt(std::max(B + n0, 0.0));
-  return std::min(1e-8, 4e-17 * normal_scale(c) / rate);
+  return rate > 0.0 ? std::min(1e-8, 4e-17 * normal_scale(c) / rate) : 1e-8;
 }
 
 class CycleAgainstReference : public testing::TestWithParam<Stratum> {};

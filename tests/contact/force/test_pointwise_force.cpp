@@ -13,9 +13,13 @@
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
 #include "contact/sampled/patch_force.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::test_pointwise_force {
 namespace {
+
+// Lanes compute what they then do not take.
+[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
 
 constexpr Eigen::Index n_points = 60;
 constexpr Eigen::Index n_modes = 3;

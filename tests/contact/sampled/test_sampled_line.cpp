@@ -14,9 +14,13 @@
 #include "one_point.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::sampled::test_sampled_line {
 namespace {
+
+// Lanes compute what they then do not take.
+[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
 
 using test::friction_scale;
 using test::modal;

@@ -14,9 +14,13 @@
 #include "contact/sampled/patch_force.hpp"
 #include "one_point.hpp"
 #include "support/planar_cases.hpp"
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::sampled::test_sampled_plane {
 namespace {
+
+// Lanes compute what they then do not take.
+[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
 
 using test::modal;
 using test::one_point;
