@@ -1,5 +1,5 @@
 /// @file
-/// Modal masses of given shapes: what the normalisation of modes from elsewhere is checked by.
+/// Modal masses and strain energies of given shapes: what modes from elsewhere are checked by.
 ///
 ///   G = ΦᵀMΦ = Σ_e Σ_ij m_ij Σ_d φ_id φ_jdᵀ,   m_ij = ∫ ρ N_i N_j dV of element e   [kg]
 ///
@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "fem/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace microslip::fem {
@@ -19,5 +20,11 @@ namespace microslip::fem {
 /// @note A translation by 1 has the mass of the mesh.
 [[nodiscard]] Eigen::MatrixXd modal_mass(const mesh::Mesh& mesh, double density,
                                          const Eigen::MatrixXd& shapes);
+
+/// φᵀKφ of every shape with the stiffness of a body of one material, held by nothing [N/m per kg].
+/// @param material  its E and ν; the density does not matter.  @param shapes  as above.
+/// @throws std::invalid_argument  as above.
+[[nodiscard]] Eigen::VectorXd modal_stiffness(const mesh::Mesh& mesh, const Material& material,
+                                              const Eigen::MatrixXd& shapes);
 
 }  // namespace microslip::fem

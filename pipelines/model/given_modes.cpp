@@ -1,5 +1,6 @@
 #include "pipelines/model/given_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fem/modal_mass.hpp"
+#include "mesh/element_type.hpp"
 #include "pipelines/import/conversion.hpp"
 #include "pipelines/import/node_rows.hpp"
 #include "pipelines/system/mesh_format.hpp"
@@ -25,6 +27,12 @@ namespace {
 // Codes differ in their quadrature of the mass, most on coarse meshes.
 constexpr double mass_told = 0.02;
 constexpr double mass_refused = 0.5;
+constexpr double coupling_refused = 0.2;
+// Of the largest of Young's moduli to the least: rotation and supports that give stiffen some
+// modes.
+constexpr double modulus_told = 1.1;
+constexpr double modulus_refused = 10.0;
+constexpr double stiffest = 1.5e12;  // [Pa]: diamond has 1.2e12
 
 Eigen::MatrixXd shapes_on(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& of_file) {
   Eigen::MatrixXd shapes(3 * std::ssize(rows), of_file.cols());
@@ -56,6 +64,60 @@ std::vector<Eigen::Index> columns_of(const ModesOfFile& read, const SceneDescrip
   return columns;
 }
 
+bool is_quadratic(const mesh::Mesh& mesh) {
+  return std::ranges::all_of(mesh.elements(), [](const mesh::ElementBlock& block) {
+    return mesh::is_quadratic(block.type);
+  });
+}
+
+/// Young's modulus that frequency and strain energy of each mode tell: E = ω² φᵀMφ / (φᵀKφ for E = 1).
+/// One of all modes, whatever they are scaled by. Linear elements of other codes are softer than ours: nothing is told
+/// of them. @param mass  φᵀMφ.
+void check_stiffness(const mesh::Mesh& mesh, const SceneDescription& scene,
+                     const Eigen::VectorXd& mass, StructureModes& modes) {
+  constexpr double poissons_ratio = 0.3;  // of another one the moduli move by some percent together
+  const Eigen::Index n_rigid = modes.basis.n_rigid_body;
+  const Eigen::Index n = modes.basis.n_free() - n_rigid;
+  if (n < 1 || !is_quadratic(mesh)) return;
+  const Eigen::VectorXd unit_stiffness =
+      fem::modal_stiffness(mesh, {1.0, poissons_ratio, scene.material.density},
+                           modes.basis.shapes.middleCols(n_rigid, n));
+  const Eigen::VectorXd modulus = modes.basis.frequency.segment(n_rigid, n).array().square() *
+                                  mass.segment(n_rigid, n).array() / unit_stiffness.array();
+  Eigen::Index low = 0;
+  Eigen::Index high = 0;
+  const double least = modulus.minCoeff(&low);
+  const double most = modulus.maxCoeff(&high);
+  const ModesFile& file = *given_modes(scene);
+  const std::string found = fmt::format(
+      "frequencies, shapes and density of {} tell a Young's modulus of {:.3g} Pa (mode {}) to "
+      "{:.3g} "
+      "Pa (mode {})",
+      file.file.filename().string(), least, n_rigid + low + 1, most, n_rigid + high + 1);
+  if (least > stiffest) {
+    throw SceneError(
+        fmt::format("{}: {}, as no material has: are the frequencies in Hz? In rad/s they are 6.28 "
+                    "times as large, "
+                    "the modulus 39.5 times. Are length_unit and density right?",
+                    file.place, found));
+  }
+  if (most > modulus_refused * least) {
+    throw SceneError(
+        fmt::format("{}: {}; a body of one material has one: are nodes or directions mixed up, are "
+                    "the shapes of "
+                    "this mesh?",
+                    file.place, found));
+  }
+  if (most <= modulus_told * least) {
+    modes.notes.push_back(found);
+    return;
+  }
+  modes.warnings.push_back(
+      found +
+      "; a body of one material at rest has one. Are some nodes or directions mixed up? A second "
+      "material, rotation and supports that give move it as well");
+}
+
 /// What ΦᵀMΦ says of the shapes; rescales them where the scene asks for it.
 void check_mass(const mesh::Mesh& mesh, const SceneDescription& scene, StructureModes& modes) {
   const ModesFile& file = *given_modes(scene);
@@ -73,14 +135,17 @@ void check_mass(const mesh::Mesh& mesh, const SceneDescription& scene, Structure
   Eigen::MatrixXd coupling = scale.asDiagonal() * G * scale.asDiagonal();
   coupling.diagonal().setZero();
   const double worst = coupling.cwiseAbs().maxCoeff();
+  check_stiffness(mesh, scene, mass, modes);
   const std::string found =
       fmt::format("with {:g} kg/m^3 the modal masses of {} are {:.6g} to {:.6g} kg", density,
                   file.file.filename().string(), mass.minCoeff(), mass.maxCoeff());
   if (worst > mass_told) {
-    modes.warnings.push_back(fmt::format(
+    const std::string text = fmt::format(
         "two modes of {} are not orthogonal: their common mass is {:.2g} % of their own. Is the "
         "density the same everywhere, are nodes or directions mixed up?",
-        file.file.filename().string(), 100.0 * worst));
+        file.file.filename().string(), 100.0 * worst);
+    if (worst > coupling_refused) throw SceneError(fmt::format("{}: {}", file.place, text));
+    modes.warnings.push_back(text);
   }
   if (file.rescaled) {
     modes.basis.shapes = (modes.basis.shapes * scale.asDiagonal()).eval();

@@ -385,10 +385,31 @@ class GivenModes(unittest.TestCase):
         self.assertIn("has no attachment shapes", refusal(given(path("modes.npz"), 'mass_unit = "kg"'), 'residual = "attachment"'))
         self.assertIn("modal masses", refusal(given(os.path.join(PLATE, "plate.frd"), 'mass_unit = "kg"')))
 
+    def test_shapes_that_do_not_belong_to_their_frequencies(self):
+        """Exchanged nodes or directions, radians per second: the strain energy tells."""
+        def scene(**arrays):
+            np.savez(path("energy.npz"), **{**self.arrays, **arrays})
+            return given(path("energy.npz"), 'mass_unit = "kg"')
+
+        frequency, shapes = self.arrays["frequency_Hz"], self.arrays["shapes"]
+        self.assertIn("are the frequencies in Hz? In rad/s they are 6.28 times as large",
+                      refusal(scene(frequency_Hz=2 * np.pi * frequency)))
+        self.assertIn("nodes or directions mixed up", refusal(scene(shapes=shapes[:, :, [0, 2, 1]])))
+        exchanged = shapes.copy()
+        exchanged[:, [5, 60]] = shapes[:, [60, 5]]
+        self.assertIn("nodes or directions mixed up", refusal(scene(shapes=exchanged)))
+        stretched = frequency * np.array([1, 1, 1.1, 1.05, 1.02, 1.01])
+        written = write_scene("energy.toml", scene(frequency_Hz=stretched), "")
+        finished = subprocess.run([PROGRAM, "check", written], capture_output=True, text=True, check=True)
+        self.assertRegex(finished.stdout, r"warning: frequencies, shapes and density of energy.npz tell a Young's modulus of 2\.1")
+        coupled = shapes.copy()
+        coupled[1] = (shapes[1] + 0.3 * shapes[0]) / np.sqrt(1.09)
+        self.assertIn("two modes of energy.npz are not orthogonal", refusal(scene(shapes=coupled)))
+
     def mixed(self, shapes):
         """A scene whose second mode has some of the first in it."""
         wrong = shapes.copy()
-        wrong[1] = 0.8 * shapes[1] + 0.6 * shapes[0]
+        wrong[1] = shapes[1] + 0.1 * shapes[0]
         np.savez(path("bad.npz"), **{**self.arrays, "shapes": wrong})
         return write_scene("mixed.toml", given(path("bad.npz"), 'mass_unit = "kg"'), "")
 

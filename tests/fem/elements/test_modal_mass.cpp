@@ -34,6 +34,21 @@ TEST(ModalMass, OfAQuadraticMotionIsItsIntegral) {
   EXPECT_NEAR(modal_mass(mesh, density, shape)(0, 0), expected, 1e-13 * expected);
 }
 
+TEST(ModalStiffness, OfAShearIsItsStrainEnergyAndOfARotationNone) {
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = test::mixed_box_mesh(order, grid);
+    Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3 * mesh.n_nodes(), 2);
+    for (Eigen::Index i = 0; i < mesh.n_nodes(); ++i) {
+      const double x = mesh.nodes()(i, 0);
+      shapes(3 * i + 1, 0) = shapes(3 * i + 1, 1) = x;
+      shapes(3 * i, 1) = -mesh.nodes()(i, 1);
+    }
+    const Eigen::VectorXd found = modal_stiffness(mesh, {2.6, 0.3, density}, shapes);  // G = 1
+    EXPECT_NEAR(found[0], 0.3 * 0.2 * 0.1, 1e-14) << order;
+    EXPECT_NEAR(found[1], 0.0, 1e-14) << order;
+  }
+}
+
 TEST(ModalMass, RefusesOtherMeshesAndDensities) {
   const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, grid);
   EXPECT_THROW(static_cast<void>(modal_mass(mesh, density, Eigen::MatrixXd::Ones(3, 1))),
