@@ -196,6 +196,11 @@ class AbaqusDecks(Conversion):
         self.refused("*INCLUDE, INPUT=gone.inp\n", "deck.inp:1", "gone.inp cannot be read")
         self.refused("*INCLUDE, INPUT=deck.inp\n", "include itself")
 
+    def test_trusses_and_shells_that_name_edges_and_faces(self):
+        """As gmsh writes them."""
+        result = self.deck(BAR + "*ELEMENT, TYPE=T3D2, ELSET=edge\n99, 1, 2\n*ELEMENT, TYPE=S4, ELSET=skin\n98, 1, 4, 5, 2\n")
+        self.assert_names(result, {"skin": 1}, {"edge": 2, "left": 8, "right": 8})
+
     def test_an_instance_where_its_part_lies(self):
         assembly = ("*PART, NAME=Blade\n" + BAR + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Blade-1, PART=Blade\n{}"
                     "*END INSTANCE\n*NSET, NSET=tip, INSTANCE=Blade-1\n3, 6\n*ELSET, ELSET=_f, INTERNAL, INSTANCE=Blade-1\n 8,\n"
@@ -209,8 +214,8 @@ class AbaqusDecks(Conversion):
         self.refused(BAR.replace("C3D8, ELSET=right", "C3D27, ELSET=right"), "deck.inp:17", "C3D27")
         self.refused(BAR.replace("13, 16, 15\n", "13, 16\n"), "deck.inp:18", "element 8")
         self.refused(BAR.replace("13, 16, 15\n", "13, 16, 99\n"), "element 8 uses node 99")
-        self.refused(BAR.replace("6, 2, 1, 0", "5, 2, 1, 0"), "node 5 stands twice")
-        self.refused(BAR.replace("\n8, 2", "\n7, 2"), "element 7 stands twice")
+        self.refused(BAR.replace("6, 2, 1, 0", "5, 2, 1, 0"), "deck.inp: node 5 stands twice", "deck.inp:6 and ", "deck.inp:7;")
+        self.refused(BAR.replace("\n8, 2", "\n7, 2"), "deck.inp: element 7 stands twice", "deck.inp:16 and ", "deck.inp:18;")
         self.refused(BAR.replace("6, 2, 1, 0", "6, two, 1, 0"), "deck.inp:7", '"two"')
         self.refused(BAR.replace("6, 2, 1, 0", "6, nan, 1, 0"), "node 6", "finite")
         self.refused(BAR + "*NSET, NSET=a\nfeet\n", "deck.inp:21", '"feet"')
@@ -220,6 +225,10 @@ class AbaqusDecks(Conversion):
         self.refused(BAR + "*SURFACE, NAME=s\nup, S1\n", "deck.inp:21", '"up"', "left, right")
         self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n*SURFACE, NAME=S\nleft, S2\n", "deck.inp:22", "deck.inp:20")
         self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
+        self.refused(BAR + "*MPC\nBEAM, 1, 2\n", "deck.inp:20", "*MPC", "another structure")
+        self.refused(BAR + "*ELEMENT, TYPE=B31\n99, 1, 2\n", "deck.inp:20", "B31", "another structure")
+        self.refused(BAR + "*ELEMENT, TYPE=S4\n99, 1, 2, 6, 3\n98, 1, 4, 5, 2\n", "deck.inp: shell element 99", "no face")
+        self.refused(BAR + "*NSET, NSET=Foot\n1\n*SURFACE, NAME=foot\nleft, S1\n", "deck.inp:22", '"foot"', '"Foot"', "case")
         self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
 
 
@@ -252,6 +261,10 @@ class NastranDecks(Conversion):
         self.assertIn((0.02, -1.0, 0.0), {tuple(node) for _, nodes in result.elements for node in nodes})
         self.assertEqual(result.surfaces["PLOAD4 6"], [_places([(0, 0, 0), (1, 0, 0), (0, 1, 0)])])
 
+    def test_cards_that_are_no_elements_are_passed_over(self):
+        for card in ("CORD2R,5,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.", "RBE3,9,,4,123,1.,123,1,2", "PLOTEL,7,1,2"):
+            self.assertEqual(self.deck(NASTRAN.replace("ENDDATA", card + "\nENDDATA"), "deck.bdf").code, 0, card)
+
     def test_bulk_data_alone(self):
         self.assertEqual(self.deck(NASTRAN.split("BULK\n")[1], "deck.nas").code, 0)
 
@@ -261,6 +274,7 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace(",9,7,1,3,2,", ",9,7,1,3,"), "deck.bdf:15", "has 3 nodes", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,one"), "deck.bdf:9", '"one"', name="deck.bdf")
         self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2\nENDDATA"), "deck.bdf:19", "CBAR", name="deck.bdf")
+        self.refused(NASTRAN.replace("ENDDATA", "CFOO,3,1,1,2\nENDDATA"), "deck.bdf:19", "CFOO", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
 
     def test_a_deck_that_is_cut_off(self):
@@ -329,6 +343,8 @@ class OtherFiles(Conversion):
                 result = Converted(self.path("part" + ending))
                 with self.subTest(ending=ending, share=share):
                     self.assertTrue(result.code == 0 or result.message.startswith(self.path("part" + ending)), result.message)
+                    if result.code and ending in (".vtu", ".vtk", ".e", ".med"):
+                        self.assertIn("cut off", result.message)
 
     def test_exodus_side_sets(self):
         if importlib.util.find_spec("netCDF4") is None:

@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 
-from .content import TYPES, Block, Content, Refused, boundary_faces, require
+from .content import TYPES, Block, Content, Refused, boundary_faces, require, volumes
 
 _SOLID = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge", "15": "wedge15",
           "5": "pyramid", "13": "pyramid13"}
@@ -16,6 +16,9 @@ _SHELL = {"3": "triangle", "6": "triangle6", "4": "quad", "8": "quad8"}
 _LINE = {"T3D2": "line", "B31": "line", "B32": "line3", "T3D3": "line3", "T2D2": "line", "T2D3": "line3"}
 _FACES = {"SPOS": 0, "SNEG": 0, **{f"S{i}": i - 1 for i in range(1, 7)}}  # the two sides of a shell are one face here
 _COPIES = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
+# Left out they would make another structure of it. Trusses are what gmsh writes of named edges.
+_BEAM = re.compile(r"B3[123]", re.I)
+_TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING")
 _DEEPEST = 20  # *INCLUDE within *INCLUDE
 
 
@@ -156,6 +159,11 @@ class _Sets:
             self._ready[key] = np.unique(np.concatenate(parts).astype(np.int64))
         return self._ready[key]
 
+    def spelling(self, name):
+        """That of the file, None where there is no such set to be named."""
+        key = name.upper()
+        return None if key in self._hidden else self._spelling.get(key)
+
     def named(self):
         return {self._spelling[key]: self.get(key, "") for key in self._parts if key not in self._hidden}
 
@@ -164,6 +172,7 @@ class _Deck:
     def __init__(self, path):
         self.path = path
         self.nodes, self.coordinates, self.blocks = [], [], []
+        self.seen = {"node": {}, "element": {}}  # number → file and line
         self.node_sets, self.element_sets = _Sets("node"), _Sets("element")
         self.surfaces = {}   # upper-case name → card
         self.instances = []
@@ -207,6 +216,9 @@ class _Deck:
     def _take(self, card):
         if card.keyword in _COPIES:
             raise Refused(f"{card.place}: *{card.keyword} is not followed; write the mesh out node by node")
+        if card.keyword in _TIES:
+            raise Refused(f"{card.place}: *{card.keyword} is not read: without it this is another structure; join the nodes, or "
+                          "take it out of the file")
         if card.keyword == "NODE":
             self._take_nodes(card)
         elif card.keyword == "ELEMENT":
@@ -233,14 +245,25 @@ class _Deck:
             has = counts > axis + 1
             places[has, axis] = values[starts[has] + axis + 1]
         numbers = values[starts].astype(np.int64)
+        self._refuse_twice("node", numbers, [where for where, _ in card.data])
         self.nodes.append(numbers)
         self.coordinates.append(places)
         if card.get("NSET"):
             self.node_sets.add(card.get("NSET"), card.place, numbers)
 
+    def _refuse_twice(self, kind, numbers, places):
+        """Of one *NODE or *ELEMENT after another. places: file and line of each number."""
+        seen = self.seen[kind]
+        for number, where in zip(numbers.tolist(), places):
+            first = seen.setdefault(number, where)
+            require(first is where, f"{self.path}: {kind} {number} stands twice, at {first[0]}:{first[1]} and "
+                                    f"{where[0]}:{where[1]}; take one out")
+
     def _take_elements(self, card):
         given = card.name("TYPE")
         own = _type(given)
+        require(not _BEAM.match(given), f"{card.place}: beams ({given}) are not read: without them this is another structure; take "
+                                        "them out of the file, or name edges by trusses (T3D2) or node sets")
         require(own, f"{card.place}: elements of type {given} are not read; bodies may be C3D4, C3D10, C3D8, C3D20, C3D6, "
                      "C3D15, C3D5, C3D13 with any letters behind")
         if not card.data:
@@ -258,6 +281,8 @@ class _Deck:
             raise Refused(f"{where[0]}:{where[1]}: element {values[begin]} does not have the {width - 1} nodes of a "
                           f"{given}: the lines hold fewer or more")
         table = values.reshape(-1, width)
+        lines = np.searchsorted(ends, np.arange(0, len(values), width), side="right")
+        self._refuse_twice("element", table[:, 0], [card.data[line][0] for line in lines])
         self.blocks.append(Block(own, table[:, 0], table[:, 1:]))
         if card.get("ELSET"):
             self.element_sets.add(card.get("ELSET"), card.place, table[:, 0])
@@ -303,6 +328,8 @@ class _Deck:
         require(self.nodes, f"{self.path}: no *NODE with coordinates in it: is it a deck of Abaqus or CalculiX?")
         require(self.blocks, f"{self.path}: no *ELEMENT with data in it")
         content = Content(np.concatenate(self.nodes), np.concatenate(self.coordinates), self.blocks)
+        self._refuse_loose_shells(content)
+        self._refuse_names_of_other_case()
         outer = None
         for card in self.surfaces.values():
             if card.get("TYPE", "ELEMENT").upper() == "NODE":
@@ -315,6 +342,26 @@ class _Deck:
         content.node_sets = self.node_sets.named()
         content.element_sets = self.element_sets.named()
         return content
+
+    def _refuse_loose_shells(self, content):
+        """Shells that lie on a face of a solid name it; others would be lost."""
+        faces = {frozenset(corners.tolist()) for block in volumes(content) for face in TYPES[block.type].faces
+                 for corners in block.nodes[:, face]} if any(TYPES[b.type].dimension == 2 for b in content.blocks) else set()
+        for block in content.blocks:
+            if TYPES[block.type].dimension != 2:
+                continue
+            for number, nodes in zip(block.numbers, block.nodes[:, :TYPES[block.type].n_corners]):
+                require(frozenset(nodes.tolist()) in faces,
+                        f"{self.path}: shell element {number} lies on no face of a solid: without it this is another structure; "
+                        "take it out of the file")
+
+    def _refuse_names_of_other_case(self):
+        """For Abaqus names of other case are one, here two; a set and a surface may share one name."""
+        for card in self.surfaces.values():
+            name = card.name("NAME")
+            other = self.node_sets.spelling(name) or self.element_sets.spelling(name)
+            require(other in (None, name), f'{card.place}: surface "{name}" and the set "{other}" differ in case alone, which Abaqus '
+                                           "ignores; rename one")
 
     def _settle_parts(self):
         """Of several parts the one that the instance is of."""

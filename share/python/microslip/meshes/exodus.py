@@ -24,7 +24,7 @@ def read(path):
     try:
         file = netCDF4.Dataset(path)
     except OSError as error:
-        raise Refused(f"{path}: no Exodus file: {error.strerror or error}") from None
+        raise Refused(f"{path}: no Exodus file: {error.strerror or error}. It may be cut off or damaged: write it once more") from None
     with file:
         file.set_auto_mask(False)
         return _content(path, file)
@@ -94,5 +94,5 @@ def _faces(path, name, content, sides):
         require((sides[own, 1] >= 1).all() and (sides[own, 1] <= len(table)).all(),
                 f'{path}: side set "{name}": an element has no side of that number')
         faces[own] = table[sides[own, 1] - 1] if TYPES[block.type].dimension > 1 else -1
-    require((faces >= 0).all(), f'{path}: side set "{name}" speaks of elements that are not there')
+    require((faces >= 0).all(), f'{path}: side set "{name}" speaks of elements that are not there: is the file cut off?')
     return np.column_stack([sides[:, 0], faces])

@@ -73,7 +73,7 @@ def _add_element_set(groups, content, name, elements, n_volumes):
     for block in content.blocks:
         own = block.nodes[np.isin(block.numbers, elements)]
         dimension = TYPES[block.type].dimension
-        if dimension == 2 and not faces_are_named:
+        if dimension == 2 and not faces_are_named and len(own):
             corners = TYPES[block.type].n_corners
             groups.add(2, _FACES[corners], name, own[:, :corners])
         elif dimension != 2 and not nodes_are_named and not (dimension == 3 and len(elements) >= n_volumes) and len(own):

@@ -23,7 +23,9 @@ _ELEMENTS = {**_SOLID, **_SHELL}
 _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15": (*range(9), 12, 13, 14, 9, 10, 11)}
 # Left out they would make another structure of it. RBE3 spreads a load, PLOTEL is a picture: nothing is lost with them.
 _NOT_SOLID = re.compile(r"C(BAR|BEAM|BEND|BUSH|DAMP|ELAS|GAP|MASS|ONM|ONROD|ROD|SHEAR|TUBE|VISC|WELD|FAST|SEAM)|RBE[12]|"
-                        r"RBAR|RROD|RTRPLT|C(TETRA|HEXA|PENTA|PYR|TRI|QUAD)")
+                        r"RBAR|RROD|RTRPLT|GENEL|C(TETRA|HEXA|PENTA|PYR|TRI|QUAD)")
+# Cards that begin with C and are no elements: coordinate systems, aerodynamics, heat, cyclic symmetry, control.
+_NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD")
 _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+\s*)?"([^"]+)"|'
                     r"Femap.*Property\s+(\d+)\s*:\s*(.+))", re.I)
 
@@ -178,7 +180,8 @@ class _Deck:
         elif name == "PLOAD4":
             self._take_pressure(place, words)
         else:
-            require(not _NOT_SOLID.match(name),
+            is_element = re.fullmatch(r"C[A-Z]+\d*[A-Z]*", name) and not _NO_ELEMENT.match(name)
+            require(not _NOT_SOLID.match(name) and not is_element,
                     f"{place}: {name} is not read: bodies are {', '.join(list(_SOLID)[:4])}, shells on them name faces; take "
                     "it out of the file")
 

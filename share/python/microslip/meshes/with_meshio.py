@@ -12,7 +12,8 @@ _MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it
 def read_med(path):
     """A Content. Families become groups: a family of nodes or elements is in each group it names."""
     import h5py
-    require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5; files of MED before version 3 must be converted")
+    require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5, or it is cut off; files of MED before version 3 must "
+                                "be converted")
     content, mesh = _read(path, "med")
     for name, numbers in _families(getattr(mesh, "point_tags", {}), mesh.point_data.get("point_tags"), content.node_numbers):
         content.node_sets[name] = numbers
@@ -76,7 +77,8 @@ def _read(path, file_format):
     except (MemoryError, ImportError):
         raise
     except (SystemExit, Exception) as error:  # it may leave by either
-        raise Refused(f"{path}: no {file_format} file that meshio can read: {_told(error, said)}") from error
+        raise Refused(f"{path}: no {file_format} file that meshio can read: {_told(error, said)}. It may be cut off or damaged, "
+                      "or of another format: write it once more, or as .inp") from error
     content = Content(np.arange(1, len(mesh.points) + 1), np.asarray(mesh.points, dtype=float), [],
                       either_hand=True)
     require(content.coordinates.ndim == 2 and content.coordinates.shape[1] == 3,
@@ -95,4 +97,4 @@ def _read(path, file_format):
 def _told(error, said):
     own_words = not isinstance(error, (SystemExit, AttributeError, TypeError))  # else those of a programmer
     text = " ".join(f"{said.getvalue()} {error if own_words else ''}".split())
-    return text or f"meshio gave up without a word ({type(error).__name__})"
+    return text.rstrip(".") or f"it ended where more was expected ({type(error).__name__})"

@@ -1,5 +1,8 @@
 """Modes in a .npz file of NumPy: arrays `nodes` (n × 3), `frequency_Hz` (m), `shapes` (m × n × 3); for static shapes that
 stand for omitted modes, `attachment_frequency_Hz` (k) and `attachment_shapes` (k × n × 3), M-orthonormal with the modes."""
+import zipfile
+import zlib
+
 import numpy as np
 
 from microslip.meshes.content import Refused, require
@@ -11,8 +14,8 @@ def read(path):
     try:
         with np.load(path, allow_pickle=False) as arrays:
             given = {name: arrays[name] for name in arrays.files}
-    except (ValueError, OSError, EOFError) as error:
-        raise Refused(f"{path}: it is no .npz file of numbers: {error}") from None
+    except (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise Refused(f"{path}: it is no .npz file of numbers, or it is cut off: {error}; write it once more") from None
     nodes = _array(path, given, "nodes", (None, 3))
     frequency, shapes = _shapes(path, given, "", len(nodes))
     n_attachment = 0
