@@ -239,6 +239,10 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
   }
   for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
   describe(result.effects, out);
+  if (scene.response && !std::holds_alternative<ModalModel>(scene.model)) {
+    out << "asked by `run` alone, which knows the modes and the curves: whether modes lie in the "
+           "frequency range, whether the face slides along r, how large the amplitude is\n";
+  }
   out << (scene.response
               ? "the scene is complete and consistent\n"
               : "the scene is complete for `mesh` and `modes`; `run` needs a [response]\n");

@@ -128,6 +128,20 @@ Findings damping_ratio(const Facts& facts) {
   return {{"modes.damping_ratio", percent * *std::ranges::max_element(*ratios)}};
 }
 
+/// Rayleigh damping is least where its two parts are the same: ζ = √(αβ); α alone damps the lowest frequency of the
+/// range least at its end, β alone at its begin.
+Findings rayleigh_damping(const Facts& facts) {
+  const auto* given = std::get_if<RayleighDamping>(&facts.scene.modes.damping);
+  if (given == nullptr || !facts.scene.response) return {};
+  const auto [low, high] = std::minmax(
+      {facts.scene.response->frequency_begin_hz, facts.scene.response->frequency_end_hz});
+  const double least = given->beta > 0.0 ? std::sqrt(given->alpha / given->beta) : unlimited;
+  const double omega =
+      std::clamp(least, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high);
+  return {{"modes.damping_ratio", percent * 0.5 * (given->alpha / omega + given->beta * omega),
+           fmt::format("at {:.4g} Hz, by alpha and beta", omega / (2.0 * std::numbers::pi))}};
+}
+
 /// How often each load stands in the list of preloads or scales.
 Findings repeated_preload(const Facts& facts) {
   Findings findings;
@@ -150,7 +164,7 @@ Findings size(const Facts& facts) {
   const double mass = facts.scene.material.density * facts.mesh->volume();
   const bool blade = std::holds_alternative<BladeModel>(facts.scene.model);
   return {{blade ? "model.span" : "model.length_unit", longest_side(*facts.mesh),
-           fmt::format("and the mass {:.3g} kg", mass)}};
+           mass > 0.0 ? fmt::format("and the mass {:.3g} kg", mass) : ""}};
 }
 
 Findings circumferential_speed(const Facts& facts) {
@@ -269,6 +283,16 @@ Findings range_beyond_modes(const Facts& facts) {
            fmt::format("of the last natural frequency, {:.6g} Hz", last)}};
 }
 
+/// Of a range that lies above the last mode altogether, though not far enough for the question before.
+Findings range_above_modes(const Facts& facts) {
+  if (!facts.scene.response || !is_meshed(facts.scene)) return {};
+  const double last = limit_frequencies(*facts.model).last;
+  const auto [low, high] = range_of(facts.scene);
+  if (!(last > 0.0) || high > 1.5 * last) return {};
+  return {{"response.frequency", percent * low / last,
+           fmt::format("of the last natural frequency, {:.6g} Hz", last)}};
+}
+
 /// Modes that have the range, or a part of it, between their free and their stuck frequency.
 Findings modes_in_range(const Facts& facts) {
   if (!facts.scene.response) return {};
@@ -332,11 +356,14 @@ constexpr std::array table{
     Question{Stage::scene, "the damping ratio", "%", 0.0, 20.0, "blades 0.01 to 2",
              "is it in percent already? then write \"0.2 %\"; is it a quality factor?",
              damping_ratio},
+    Question{Stage::scene, "the damping ratio", "%", 0.0, 20.0, "blades 0.01 to 2",
+             "are alpha in rad/s and beta in s? zeta = (alpha/omega + beta omega)/2",
+             rayleigh_damping},
     Question{Stage::scene, "a load is given", "×", 1.0, 1.0, "", "each makes the same curve",
              repeated_preload},
     Question{Stage::mesh, "the element size", "% of the blade's height", 0.1, 25.0, "",
              "is it in millimetres? give the unit", element_size_of_step},
-    Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 6.0, "blades 0.02 to 3",
+    Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 3.0, "blades 0.02 to 3",
              "is the file in another unit than length_unit says?", size},
     Question{Stage::mesh, "the speed of the outermost point", "m/s", 0.0, 900.0,
              "blades 200 to 600",
@@ -363,6 +390,8 @@ constexpr std::array table{
     Question{Stage::modes, "the frequency range reaches", "%", 0.0, 150.0, "",
              "modes beyond the last are left out; raise modes.count or lower the range",
              range_beyond_modes},
+    Question{Stage::modes, "the frequency range rises from", "%", 0.0, 100.0, "",
+             "the modes in and above it are left out; raise modes.count", range_above_modes},
     Question{Stage::modes, "the number of modes", "", 1.0, unlimited, "",
              "the curve has no peak of theirs; is the range the right one?", modes_in_range},
     Question{Stage::modes, "motion along r is", "%", 0.0, 200.0, "",
@@ -386,7 +415,8 @@ std::string usual_text(const Question& question) {
 std::string sentence(const Question& question, const Finding& finding) {
   const std::string_view quantity = question.quantity;
   const bool has_verb = quantity.ends_with("is") || quantity.ends_with("given") ||
-                        quantity.ends_with("rises") || quantity.ends_with("reaches");
+                        quantity.ends_with("rises") || quantity.ends_with("reaches") ||
+                        quantity.ends_with("from");
   std::string text =
       fmt::format("{}: {} {}{:.4g}", finding.key, quantity, has_verb ? "" : "is ", finding.value);
   if (*question.unit != 0) text += fmt::format(" {}", question.unit);

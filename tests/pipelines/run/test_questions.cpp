@@ -110,6 +110,9 @@ TEST(Questions, AskForSizeFrictionDampingAndLoads) {
       of_blade("contact.friction_coefficient={law=\"hyperbolic\", static=40, rate=\"1 s/m\"}"),
       "contact.friction_coefficient:", {"is 40"});
   expect_question(of_blade("modes.damping_ratio=2"), "modes.damping_ratio:", {"200 %"});
+  expect_question(of_blade("modes.damping_ratio={alpha=1e6, beta=0}"),
+                  "modes.damping_ratio:", {"by alpha and beta", "rad/s"});
+  expect_none(of_blade("modes.damping_ratio={alpha=2, beta=1e-7}"));
   expect_question(of_blade("response.preload=[100, \"free\", 100, 200]"),
                   "response.preload:", {"2 ×", "preload_100"});
   expect_question(of_chain("contact.points[0].friction_coefficient=40"),
@@ -210,6 +213,7 @@ TEST(Questions, AskForLinearElementsThatLock) {  // hard case 29
 TEST(Questions, AskForAMeshInAnotherUnit) {
   expect_question(of_box({"points.P=[10, 20, 100]"}, 1000.0),
                   "model.length_unit:", {"100 m", "mass 1.56e+08 kg"});
+  expect_question(of_box({"points.P=[0.38, 0.76, 3.8]"}, 38.0), "model.length_unit:", {"is 3.8 m"});
   expect_question(of_box({"points.P=[1e-5, 2e-5, 1e-4]", "response.preload=[\"free\"]"}, 1e-3),
                   "model.length_unit:", {"0.0001 m"});
 }
@@ -267,6 +271,13 @@ TEST_F(OfModes, AskForARangeWithoutAMode) {
 TEST_F(OfModes, AskForARangeBeyondTheLastMode) {
   expect_question(asked({range(0.9 * frequency(0), 3.0 * frequency(2))}),
                   "response.frequency:", {"300 %", "last natural frequency", "modes.count"});
+}
+
+TEST_F(OfModes, AskForARangeAboveTheLastMode) {
+  const double last = frequency(2);
+  expect_question(asked({range(1.2 * last, 1.45 * last)}), "response.frequency:",
+                  {"range rises from 120 %", "last natural frequency", "modes.count"});
+  expect_none(asked({range(0.9 * last, 1.45 * last)}));
 }
 
 TEST_F(OfModes, AskForMotionAlongR) {  // the first mode bends along x, where the face approaches;
