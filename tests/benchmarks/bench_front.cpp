@@ -154,10 +154,16 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
   };
   const bool plain = kind.surface(samples.points[0]).is_smooth() &&
                      !kind.surface(samples.points[0]).is_rate_dependent();
+  const auto add_lanes = [&] {
+    for (int n = 64; n <= 4096; n *= 2) {
+      if (n >= 8 * (kind.n_harmonics + 1)) add("lanes", n, in_lanes(samples, kind, n));
+    }
+  };
   if (kind.second_direction) {
     for (const double tolerance : {1e-13, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2}) {
       add("planar events", tolerance, by_methods(samples, kind, planar(tolerance)));
     }
+    add_lanes();
     return methods;
   }
   if (plain) add("located events", 0.0, by_methods(samples, kind, located()));
@@ -169,9 +175,7 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
         std::make_shared<PatchForce>(ContactPatch(samples.weights, samples.points),
                                      samples.shapes));
   }
-  for (int n = 64; n <= 4096; n *= 2) {
-    if (n >= 8 * (kind.n_harmonics + 1)) add("lanes", n, in_lanes(samples, kind, n));
-  }
+  add_lanes();
   return methods;
 }
 
@@ -331,7 +335,9 @@ std::vector<Kind> kinds() {
           {"rough surfaces, 3 harmonics", 3, false, rough},
           {"friction by speed, 3 harmonics", 3, false, falling},
           {"two directions, 1 harmonic", 1, true, smooth},
-          {"two directions, 3 harmonics", 3, true, smooth}};
+          {"two directions, 3 harmonics", 3, true, smooth},
+          {"two directions, rough, 3 harmonics", 3, true, rough},
+          {"two directions, friction by speed, 3 harmonics", 3, true, falling}};
 }
 
 void write(const std::string& path, const std::vector<Row>& rows) {

@@ -59,14 +59,14 @@ def draw_kind(axes, kind, methods):
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.xaxis.set_minor_formatter(NullFormatter())
     light_grid(axes)
-    axes.set_title(kind, loc="left")
+    axes.set_title(kind.replace("two directions, ", "two directions,\n"), loc="left")
     axes.set_xlabel("µs per patch" if "patch" in kind else "µs per point")
 
 
 def plot_front(table, output):
     """One panel for each kind of point, one for the rule over the patch."""
     kinds = read_front(table)
-    figure, grid = subplots(2, (len(kinds) + 1) // 2, (11.0, 5.2))
+    figure, grid = subplots(-(-len(kinds) // 4), 4, (11.0, 7.6))
     for axes, (kind, methods) in zip(grid.flat, kinds.items()):
         draw_kind(axes, kind, methods)
     for axes in grid.flat[len(kinds):]:
