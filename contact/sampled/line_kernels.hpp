@@ -1,5 +1,5 @@
 /// @file
-/// One tangential direction, a block of points through all instants of the period (theory section 8):
+/// One tangential direction, a block of points through all instants of the period (theory sections 8, 23):
 ///
 ///   s_i = clip(s_{i−1}; w_i, W_i),   f_i = k_i (u_i − s_i)                                    (1)
 ///   r_{i−1} ≤ 0 < r_i:   s_{i−1} is u where r, interpolated, vanishes                         (2)

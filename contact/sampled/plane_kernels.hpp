@@ -1,5 +1,5 @@
 /// @file
-/// Two tangential directions, a block of points through all instants of the period (theory section 9). With the
+/// Two tangential directions, a block of points through all instants of the period (theory sections 9, 23.1). With the
 /// half-widths W = diag(W_p, W_r) of the slider's ellipse around x = (u, w), W_p = μ n/k_p:
 ///
 ///   η = W⁻¹ (x − s),   |η| ≤ 1,   f = μ n η;   slip: η = e, s = x − W e, s' ∥ e                     (1)

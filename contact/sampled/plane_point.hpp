@@ -1,5 +1,6 @@
 /// @file
-/// Derivatives of the sampled force of one point in two directions, exactly those of the sums over instants:
+/// Derivatives of the sampled force of one point in two directions, exactly those of the sums over instants
+/// (theory section 23.1):
 ///
 ///   stick   df = K (dx − ds) + K' dv (x − s)          slip   df = e dL + L e_⊥ dα,   L = μ n           (1)
 ///   ds  after slip at i   dx − dW e − W e_⊥ dα   there,      after touch-down   that of the landing    (2)

@@ -1,5 +1,6 @@
 /// @file
-/// How slip turns the force within a step, in lanes: (2) and (3) of plane_kernels.hpp with their derivatives.
+/// How slip turns the force within a step, in lanes: (2) and (3) of plane_kernels.hpp with their derivatives (theory
+/// section 23.1).
 #pragma once
 
 #include "contact/sampled/pack.hpp"
