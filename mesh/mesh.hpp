@@ -2,24 +2,17 @@
 /// A volume mesh in metres with named surfaces and node sets. Checked when made; has no gmsh in it.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "mesh/element_type.hpp"
+#include "mesh/element_block.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/surface.hpp"
 
 namespace microslip::mesh {
-
-struct ElementBlock {
-  ElementType type = ElementType::tet10;
-  Connectivity connectivity;       ///< n_elements × nodes per element, project order
-  std::vector<std::int64_t> tags;  ///< element numbers in the file, for messages
-};
 
 class Mesh {
  public:

@@ -2,21 +2,13 @@
 /// Pseudo-arclength continuation of the harmonic-balance equations over frequency (theory section 16).
 #pragma once
 
-#include <functional>
 #include <vector>
 
-#include "solver/balance/harmonic_set.hpp"
 #include "solver/continuation_options.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"
 
 namespace microslip::solver {
-
-/// What a curve, or the choice of its harmonics, begins with.
-[[nodiscard]] HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options);
-
-/// Called after each accepted point; false stops the curve (diagnosis "interrupted").
-using PointObserver = std::function<bool(const ResponsePoint&)>;
 
 /// The whole branch from frequency_begin to frequency_end with peaks and folds solved for as points of
 /// their own. Never throws for a curve that cannot be completed: `complete` and `diagnosis` say so.

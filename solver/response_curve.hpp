@@ -3,6 +3,7 @@
 /// balance, stability.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct ResponsePoint {
       0;                 ///< since the point before: steps that failed, peaks and folds included
   double seconds = 0.0;  ///< of work since the point before
 };
+
+/// Called after each accepted point; false stops the curve (diagnosis "interrupted").
+using PointObserver = std::function<bool(const ResponsePoint&)>;
 
 /// A remedy that was needed and helped.
 struct SolverEvent {

@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "solver/continuation.hpp"
+#include "solver/continuation_options.hpp"
+#include "solver/response_curve.hpp"
+#include "solver/scene.hpp"
 
 namespace microslip::solver {
 

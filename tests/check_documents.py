@@ -51,6 +51,21 @@ def theory_sections():
     return sections | {f"15.{number}" for number in re.findall(r"^(\d)\. ", checks, re.M)}
 
 
+def drawers_of(layout, room):
+    """[(drawer, what it uses)] of a room's table, in its order."""
+    if f"### {room}/\n" in layout:
+        table = layout[layout.index(f"### {room}/"):].split("\n### ")[0].split("\n## ")[0]
+        return re.findall(r"^\| `(\w+)/` .*\| ([^|]*) \|$", table, re.M)
+    return re.findall(rf"^\| `{room}/(\w+)/` .*\| ([^|]*) \|$", layout, re.M)
+
+
+def named_drawers(uses, above):
+    """The drawers that a cell names: a list, "all above", "all above but a, b"."""
+    if uses.startswith("all above"):
+        return set(above) - set(re.findall(r"\w+", uses.removeprefix("all above but ")))
+    return set(re.findall(r"\w+", uses)) - {"and", "the"}
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for page in pages():
@@ -84,11 +99,31 @@ class Documents(unittest.TestCase):
     def test_tables_of_drawers_are_those_that_are_checked(self):
         drawn = text(os.path.join(SOURCE, "tests", "check_dependencies.cmake"))
         layout = document("layout.md")
-        for room in ("contact", "solver", "pipelines"):
+        for room in ("mesh", "fem", "contact", "solver", "pipelines"):
             drawers = re.search(rf"set\(drawers_{room}([^)]*)\)", drawn)[1].split()
-            table = layout[layout.index(f"### {room}/"):].split("\n### ")[0].split("\n## ")[0]
+            rows = drawers_of(layout, room)
             with self.subTest(room=room):
-                self.assertEqual(set(re.findall(r"^\| `(\w+)/` ", table, re.M)), set(drawers))
+                self.assertEqual([name for name, _ in rows], [name for name in drawers if name != "face"])
+            for name, uses in rows:
+                arrows = re.search(rf"set\(uses_{room}_{name}([^)]*)\)", drawn)
+                with self.subTest(room=room, drawer=name):
+                    above = [row[0] for row in rows[:[row[0] for row in rows].index(name)]]
+                    self.assertEqual(named_drawers(uses, above), set(arrows[1].split() if arrows else ()))
+
+    def test_files_named_in_comments_exist(self):
+        """With a folder: from the root, from the room of the file that names it or from share/doc; else anywhere."""
+        names = {os.path.basename(path) for path in files((".hpp", ".cpp", ".py", ".md", ".cmake"))}
+        named = 0
+        for path in files((".hpp", ".cpp")):
+            room = os.path.relpath(path, SOURCE).split(os.sep)[0]
+            roots = [os.path.join(SOURCE, folder) for folder in ("", room, os.path.join("share", "doc"))]
+            for comment in re.findall(r"//.*", text(path)):
+                for name in re.findall(r"(?<![\w/<.])(?:\w+/)*\w+\.(?:hpp|cpp|py)\b", comment):
+                    named += 1
+                    with self.subTest(path=path, name=name):
+                        there = any(os.path.exists(os.path.join(root, name)) for root in roots)
+                        self.assertTrue(there or ("/" not in name and name in names))
+        self.assertGreater(named, 100)
 
     def test_readme_is_short(self):
         readme = text(os.path.join(SOURCE, "README.md"))

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/force/pointwise_force.hpp"
+#include "contact/patch/contact_patch.hpp"
 #include "contact/point/point_motion.hpp"
 
 namespace microslip::contact {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/force/point_projection.hpp"
 #include "contact/force/pointwise_force.hpp"
+#include "contact/patch.hpp"
 #include "contact/point/point_method.hpp"
 
 namespace microslip::contact {

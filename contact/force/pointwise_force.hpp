@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/force/cycle_report.hpp"
 #include "contact/force/sleeping_set.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/patch.hpp"
 #include "contact/surface/linear_range.hpp"
 
 namespace microslip::contact {

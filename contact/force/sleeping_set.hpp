@@ -15,8 +15,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/patch.hpp"
 #include "contact/surface/linear_range.hpp"
 
 namespace microslip::contact {

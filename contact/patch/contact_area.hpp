@@ -18,7 +18,7 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
+#include "contact/patch.hpp"
 
 namespace microslip::contact {
 

@@ -1,4 +1,4 @@
-#include "contact/contact_patch.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -15,8 +15,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
 #include "contact/numerics/polynomial_basis.hpp"
+#include "contact/patch.hpp"
 
 namespace microslip::contact {
 

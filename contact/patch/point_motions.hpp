@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch.hpp"
 #include "contact/point/point_motion.hpp"
 
 namespace microslip::contact {

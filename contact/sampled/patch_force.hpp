@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/force/pointwise_force.hpp"
+#include "contact/patch.hpp"
 #include "contact/sampled/line_block.hpp"
 #include "contact/sampled/plane_block.hpp"
 #include "contact/sampled/projection.hpp"

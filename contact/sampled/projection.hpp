@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "contact/contact_patch.hpp"
 #include "contact/modal_force.hpp"
+#include "contact/patch.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/product_kernels.hpp"
 

@@ -16,7 +16,7 @@
 /// weight 0 never changes state.
 #pragma once
 
-#include "contact/contact_patch.hpp"
+#include "contact/patch/contact_patch.hpp"
 #include "contact/transient_force.hpp"
 
 namespace microslip::contact {

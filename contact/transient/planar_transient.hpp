@@ -18,7 +18,7 @@
 
 #include <vector>
 
-#include "contact/contact_patch.hpp"
+#include "contact/patch.hpp"
 #include "contact/plane/planar_point.hpp"
 #include "contact/transient_force.hpp"
 

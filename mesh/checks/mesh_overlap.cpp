@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "mesh/elements/element_locator.hpp"
+#include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {

@@ -11,8 +11,8 @@
 
 #include <vector>
 
+#include "mesh/element_block.hpp"
 #include "mesh/elements/face_map.hpp"
-#include "mesh/mesh.hpp"
 
 namespace microslip::mesh {
 

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {

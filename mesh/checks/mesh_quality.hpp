@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "mesh/mesh.hpp"
+#include "mesh/element_block.hpp"
 
 namespace microslip::mesh {
 

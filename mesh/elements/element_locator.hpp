@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/mesh.hpp"
+#include "mesh/element_block.hpp"
 
 namespace microslip::mesh {
 

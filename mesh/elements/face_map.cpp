@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {

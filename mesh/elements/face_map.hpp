@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/mesh.hpp"
+#include "mesh/element_block.hpp"
 
 namespace microslip::mesh {
 

@@ -20,7 +20,7 @@ sources_of() {
     csv) echo "$text/csv_table.cpp $text/units.cpp $text/nearest_name.cpp" ;;
     units) echo "$text/units.cpp $text/nearest_name.cpp" ;;
     expression) echo "$text/expression.cpp $text/nearest_name.cpp" ;;
-    msh) ls mesh/checks/*.cpp mesh/elements/*.cpp mesh/import/gmsh_*.cpp mesh/import/mesh_reader.cpp ;;
+    msh) ls mesh/body/*.cpp mesh/checks/*.cpp mesh/elements/*.cpp mesh/import/gmsh_*.cpp mesh/import/mesh_reader.cpp ;;
     *) echo "fuzz: no reader is called $1" >&2; exit 1 ;;
   esac
 }

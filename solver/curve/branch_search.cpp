@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "contact/dense.hpp"
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/curve/curve_tracer.hpp"
 #include "solver/curve/solved_point.hpp"

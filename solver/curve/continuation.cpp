@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/balance/linear_resonance.hpp"
 #include "solver/branch/start_point.hpp"
@@ -18,7 +19,6 @@
 #include "solver/curve/linear_certificate.hpp"
 #include "solver/curve/solved_point.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
-#include "solver/enrichment/peak_harmonics.hpp"
 
 namespace microslip::solver {
 namespace {
@@ -150,11 +150,6 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
 }
 
 }  // namespace
-
-HarmonicSet first_harmonics(const Scene& scene, const ContinuationOptions& options) {
-  if (options.harmonic_tolerance > 0.0) return least_harmonics(scene);
-  return options.orders.empty() ? HarmonicSet(options.n_harmonics) : HarmonicSet(options.orders);
-}
 
 ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& options,
                              const PointObserver& observe) {

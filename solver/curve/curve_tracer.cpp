@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/balance/linear_resonance.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/curve/unmarked_points.hpp"

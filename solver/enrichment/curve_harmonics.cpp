@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::solver {

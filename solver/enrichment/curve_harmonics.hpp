@@ -8,8 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "solver/continuation.hpp"
+#include "solver/balance/harmonic_set.hpp"
+#include "solver/continuation_options.hpp"
 #include "solver/enrichment/peak_harmonics.hpp"
+#include "solver/response_curve.hpp"
+#include "solver/scene.hpp"
 
 namespace microslip::solver {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/enrichment/dropped_harmonics.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/enrichment/resonant_orders.hpp"
@@ -39,16 +40,6 @@ std::vector<int> beyond(const HarmonicSet& set, const Harmonics& force, double s
 }
 
 }  // namespace
-
-HarmonicSet least_harmonics(const Scene& scene) {
-  std::vector<int> orders{1};
-  for (int k = 1; k <= scene.excitation.n_harmonics(); ++k) {
-    const bool excited =
-        scene.excitation.sine(k).norm() > 0.0 || scene.excitation.cosine(k).norm() > 0.0;
-    if (excited) orders.push_back(k);
-  }
-  return HarmonicSet(std::move(orders));
-}
 
 PeakHarmonicsChoice::PeakHarmonicsChoice(const Scene& scene, const ContinuationOptions& range)
     : scene_(scene), range_(range), least_(least_harmonics(scene)) {

@@ -24,9 +24,6 @@
 
 namespace microslip::solver {
 
-/// What every motion has: the first harmonic and those of the excitation.
-[[nodiscard]] HarmonicSet least_harmonics(const Scene& scene);
-
 struct PeakHarmonics {
   HarmonicSet set{1};
   /// Solved with the set, in its unknowns. Empty: it was not found there by Newton's method.

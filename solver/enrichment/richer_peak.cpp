@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/peak/high_points.hpp"

@@ -1,5 +1,7 @@
 #include "solver/optimum/common_harmonics.hpp"
 
+#include "solver/balance/first_harmonics.hpp"
+#include "solver/continuation.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/peak_harmonics.hpp"
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/optimum/common_harmonics.hpp"
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
+#include "solver/continuation.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/optimum/common_harmonics.hpp"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/balance/first_harmonics.hpp"
+
 namespace microslip::solver {
 namespace {
 

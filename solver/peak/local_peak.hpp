@@ -16,7 +16,8 @@
 #include <optional>
 
 #include "solver/balance/newton.hpp"
-#include "solver/continuation.hpp"
+#include "solver/continuation_options.hpp"
+#include "solver/response_curve.hpp"
 
 namespace microslip::solver {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 namespace microslip::test {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 namespace microslip::test {
 

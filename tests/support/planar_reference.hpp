@@ -10,8 +10,8 @@
 #include <functional>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 namespace microslip::test {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_patch.hpp"
 #include "contact/harmonics.hpp"
+#include "contact/patch/contact_patch.hpp"
 #include "contact/surface/surface_law.hpp"
 
 namespace microslip::test {

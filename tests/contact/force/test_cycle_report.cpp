@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/closed_form/friction_cycle.hpp"
-#include "contact/contact_patch.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 namespace microslip::contact::test_cycle_report {
 namespace {

@@ -1,7 +1,8 @@
-#include "contact/contact_patch.hpp"
-#include "tests/support/floating_point_traps.hpp"
+#include "contact/patch/contact_patch.hpp"
 
 #include <gtest/gtest.h>
+
+#include "tests/support/floating_point_traps.hpp"
 
 #include <limits>
 #include <stdexcept>

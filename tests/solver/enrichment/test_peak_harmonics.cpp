@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/balance/first_harmonics.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/enrichment/dropped_harmonics.hpp"
 #include "solver/enrichment/level_point.hpp"
