@@ -12,7 +12,7 @@
 
 namespace microslip::pipelines {
 
-/// contact.preload_field scaled so that the points carry 1 N (contact/preload_field.hpp); uniform without one.
+/// contact.preload_field scaled so that the points carry 1 N (contact/patch/preload_field.hpp); uniform without one.
 /// @param p, r  from the centroid of the patch [m], n.   @param weights  [m²], n.   @return [Pa], n.
 /// @throws SceneError  the field is not finite, or its integral is not above 0: names its place.
 [[nodiscard]] Eigen::VectorXd unit_preload(const ContactDescription& contact,

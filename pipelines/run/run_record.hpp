@@ -64,8 +64,8 @@ class RunRecord {
   /// modes.csv and modes.vtu, residuals and counts to the log.
   void keep_modes(const mesh::Mesh& mesh, const StructureModes& modes,
                   const Eigen::VectorXd& damping_ratio);
-  /// model.h5; a modal scene's modes.csv as well.
   void keep_effects(std::vector<EffectRecord> effects);
+  /// model.h5; a modal scene's modes.csv as well.
   void keep_model(const ReducedModel& model);
   /// Forgets curves and errors, and what a resumed run would start from: those of finer settings come.
   void begin_again();
