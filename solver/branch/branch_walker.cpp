@@ -48,18 +48,23 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
 }
 
 BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) const {
-  return attempt(now_.tangent, distance, max_iterations);
+  if (!residual_) return attempt(now_.tangent, distance, max_iterations);
+  // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
+  return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance,
+                   max_iterations);
 }
 
 BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
                                           int max_iterations) const {
+  return corrected(moved(now_.solution.point, direction, distance, now_.scaling), direction,
+                   distance, max_iterations);
+}
+
+BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
+                                            const BranchVector& direction, double distance,
+                                            int max_iterations) const {
   Trial trial;
   const NewtonOptions options{tolerance_, max_iterations};
-  // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
-  const bool along = residual_ && &direction == &now_.tangent;
-  const BranchVector predicted =
-      along ? predictor_.point(before_, now_, distance)
-            : moved(now_.solution.point, direction, distance, now_.scaling);
   NewtonResult solution = solved(predicted, direction, options);
   evaluations_ += solution.evaluations;
   iterations_ += solution.iterations;

@@ -90,6 +90,9 @@ class BranchWalker {
   [[nodiscard]] Trial attempt(double length, int max_iterations) const;
   [[nodiscard]] Trial attempt(const BranchVector& direction, double length,
                               int max_iterations) const;
+  /// On the plane across `direction` through the predicted point, `length` away.
+  [[nodiscard]] Trial corrected(const BranchVector& predicted, const BranchVector& direction,
+                                double length, int max_iterations) const;
   [[nodiscard]] bool smooth(const Trial& trial) const;
   void accept(Trial trial);
   void choose_step(const Trial& trial);
