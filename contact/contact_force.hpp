@@ -35,6 +35,14 @@ struct RestingLoad {
   bool partly_open = false;  ///< presses on a part, a gap on another
 };
 
+/// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition
+/// in method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
+enum class Method { closed_form, lanes, point_methods };
+
+/// The choice. @param n_points  of all patches together.
+/// @param plain  one direction, constant friction, smooth surfaces everywhere.
+[[nodiscard]] Method method_for(Eigen::Index n_points, bool plain, int n_harmonics);
+
 /// Whether forces of the patches are sampled in time, in lanes (contact/sampled), instead of located event by
 /// event: where several harmonics meet many points.
 [[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);

@@ -32,10 +32,6 @@ constexpr int instants_of_others = 512;
 
 using PointMethods = std::vector<std::shared_ptr<const PointMethod>>;
 
-/// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition in
-/// method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
-enum class Method { closed_form, lanes, point_methods };
-
 /// One direction, constant friction, smooth surfaces.
 bool is_plain(const Patch& patch, const ContactEffects& effects) {
   return !effects.second_direction && patch.rules.plain();
@@ -51,11 +47,8 @@ Eigen::Index n_points(std::span<const Patch> patches) {
   return n;
 }
 
-/// The switch: which method serves these patches.
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
-  if (effects.n_harmonics == 1 && are_plain(patches, effects)) return Method::closed_form;
-  if (n_points(patches) >= least_points_in_lanes) return Method::lanes;
-  return Method::point_methods;
+  return contact::method_for(n_points(patches), are_plain(patches, effects), effects.n_harmonics);
 }
 
 int instants_for(std::span<const Patch> patches, const ContactEffects& effects) {
@@ -166,6 +159,11 @@ std::vector<Item> joined(std::span<const std::vector<Item>> lists) {
 }
 
 }  // namespace
+
+Method method_for(Eigen::Index n_points, bool plain, int n_harmonics) {
+  if (n_harmonics == 1 && plain) return Method::closed_form;
+  return n_points >= least_points_in_lanes ? Method::lanes : Method::point_methods;
+}
 
 bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects) {
   return method_for(patches, effects) == Method::lanes;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "contact/contact_force.hpp"
 #include "pipelines/scene/curve_request.hpp"
 
 namespace microslip::pipelines {
@@ -25,7 +26,6 @@ constexpr double frequencies_of_a_search = 14.0;  // of a range (solver/curve/br
 
 constexpr double points_of_a_curve = 95.0;
 constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
-constexpr double least_points_in_lanes = 48;   // as contact/choice/contact_force.cpp
 constexpr double period_map = 2e-3;            // of a point of a curve in scenes of few states
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
@@ -41,7 +41,7 @@ struct Size {
   int harmonics = 1;
 };
 
-Size size_of(const SceneDescription& scene, const PointMethod& method) {
+Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   constexpr double attachment_shapes = 4.0;  // of a patch, about
   Size size;
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
@@ -55,35 +55,39 @@ Size size_of(const SceneDescription& scene, const PointMethod& method) {
   }
   const HarmonicSettings& given = scene.settings.harmonics;
   const int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
-  const bool chosen = method.chosen_harmonics || (method.several_harmonics && n_given == 1);
-  size.harmonics = chosen ? harmonics_of_a_choice : method.several_harmonics ? n_given : 1;
+  const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
+  size.harmonics = chosen ? harmonics_of_a_choice : effects.several_harmonics ? n_given : 1;
   return size;
 }
 
-/// Force and Jacobian of one point, with its share of the step: the methods of contact/choice.
-double point_seconds(const SceneDescription& scene, const PointMethod& method, const Size& size) {
+/// Force and Jacobian of one point, with its share of the step, by the method that contact would choose.
+double point_seconds(const SceneDescription& scene, const CurveEffects& effects, const Size& size) {
   const bool rough = is_rough(scene);
+  const bool plain = !effects.second_direction && !rough && !is_rate_dependent(scene);
   const double more = size.harmonics - 1;  // harmonics
-  const bool lanes = size.points >= least_points_in_lanes;
-  if (!method.second_direction && !rough && !is_rate_dependent(scene)) {
-    if (size.harmonics == 1) return 1.0 * microsecond;
-    return (lanes ? 7.0 + 0.9 * more : 2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
+  switch (contact::method_for(std::llround(size.points), plain, size.harmonics)) {
+    case contact::Method::closed_form:
+      return 1.0 * microsecond;
+    case contact::Method::lanes:
+      return (plain ? 7.0 + 0.9 * more : (rough ? 40.0 : 30.0) + 1.5 * more) * microsecond;
+    case contact::Method::point_methods:
+      break;
   }
-  if (lanes) return ((rough ? 40.0 : 30.0) + 1.5 * more) * microsecond;
-  if (!method.second_direction) return 17.0 * (1.0 + 0.7 * more) * microsecond;
+  if (plain) return (2.0 + 1.5 * more + 0.17 * more * more) * microsecond;
+  if (!effects.second_direction) return 17.0 * (1.0 + 0.7 * more) * microsecond;
   return (rough ? 250.0 : 140.0) * size.harmonics * microsecond;
 }
 
-double evaluation_seconds(const SceneDescription& scene, const PointMethod& method,
+double evaluation_seconds(const SceneDescription& scene, const CurveEffects& effects,
                           const Size& size) {
   const double unknowns = size.modes * (2.0 * size.harmonics + 1.0);
-  return size.points * point_seconds(scene, method, size) +
+  return size.points * point_seconds(scene, effects, size) +
          factorisation * unknowns * unknowns * unknowns;
 }
 
 /// Of one point of a curve, where the multipliers of its period are looked at.
-double stability_seconds(const PointMethod& method, const Size& size) {
-  const bool in_time = size.harmonics > 1 && !method.second_direction &&
+double stability_seconds(const CurveEffects& effects, const Size& size) {
+  const bool in_time = size.harmonics > 1 && !effects.second_direction &&
                        2.0 * size.modes + size.points <= states_of_a_period_map;
   return in_time ? period_map : 0.0;
 }
@@ -100,13 +104,12 @@ double n_curves(const SceneDescription& scene) {
 }
 
 /// Of the harmonics of one curve (response_stage.hpp).
-double check_seconds(const SceneDescription& scene, PointMethod method, Size size) {
-  constexpr int more = 8;
+double check_seconds(const SceneDescription& scene, CurveEffects effects, Size size) {
   const HarmonicSettings& given = scene.settings.harmonics;
   if (given.chosen() || !given.checked || size.points == 0.0) return 0.0;
-  size.harmonics = given.highest + more;
-  method.several_harmonics = true;
-  return of_a_check * evaluation_seconds(scene, method, size);
+  size.harmonics = given.highest + harmonics_of_a_check;
+  effects.several_harmonics = true;
+  return of_a_check * evaluation_seconds(scene, effects, size);
 }
 
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
@@ -117,26 +120,26 @@ double seconds_in_time(const SceneDescription& scene, const Size& size) {
 
 }  // namespace
 
-PointMethod method_of(const SceneDescription& scene, bool second_direction) {
+CurveEffects curve_effects(const SceneDescription& scene, bool second_direction) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   return {second_direction, harmonics.highest > 1, harmonics.chosen()};
 }
 
-ResponseSeconds response_seconds(const SceneDescription& scene, const PointMethod& method) {
-  const Size size = size_of(scene, method);
-  const double evaluation = evaluation_seconds(scene, method, size);
-  const double stability = stability_seconds(method, size);
+ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffects& effects) {
+  const Size size = size_of(scene, effects);
+  const double evaluation = evaluation_seconds(scene, effects, size);
+  const double stability = stability_seconds(effects, size);
   const bool one = is_one_frequency(scene);
   ResponseSeconds seconds;
   if (scene.response->method == ResponseDescription::Method::time) {
     seconds.curves = seconds_in_time(scene, size);
   } else {
-    const double evaluations = one                       ? of_one_frequency
-                               : method.chosen_harmonics ? of_a_choosing_curve
-                                                         : of_a_curve;
+    const double evaluations = one                        ? of_one_frequency
+                               : effects.chosen_harmonics ? of_a_choosing_curve
+                                                          : of_a_curve;
     seconds.curves =
         n_curves(scene) * (evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability +
-                           check_seconds(scene, method, size));
+                           check_seconds(scene, effects, size));
     const bool told = scene.accuracy.error_budget && !scene.contacts.empty();
     if (told) seconds.errors = n_curves(scene) * of_error_rows * evaluation;
   }
@@ -150,11 +153,11 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const PointMetho
   return seconds;
 }
 
-double search_seconds(const SceneDescription& scene, const PointMethod& method, int n_starts) {
+double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
   const double frequencies = is_one_frequency(scene) ? 1.0 : frequencies_of_a_search;
-  const Size size = size_of(scene, method);
+  const Size size = size_of(scene, effects);
   return n_curves(scene) * frequencies * n_starts * of_a_start *
-         evaluation_seconds(scene, method, size);
+         evaluation_seconds(scene, effects, size);
 }
 
 }  // namespace microslip::pipelines

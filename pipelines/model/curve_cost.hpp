@@ -7,15 +7,15 @@
 
 namespace microslip::pipelines {
 
-/// What decides the method of the points.
-struct PointMethod {
+/// What decides the method of the contact points (contact::method_for) beside the surfaces.
+struct CurveEffects {
   bool second_direction = false;
   bool several_harmonics = false;
   bool chosen_harmonics = false;
 };
 
 /// What a scene has. @param second_direction  as decided.
-[[nodiscard]] PointMethod method_of(const SceneDescription& scene, bool second_direction);
+[[nodiscard]] CurveEffects curve_effects(const SceneDescription& scene, bool second_direction);
 
 /// Stages of a run [s].
 struct ResponseSeconds {
@@ -28,10 +28,10 @@ struct ResponseSeconds {
 
 /// @param scene  with [response].
 [[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
-                                               const PointMethod& method);
+                                               const CurveEffects& effects);
 
 /// A search for other solutions with every curve [s]. @param n_starts  per frequency.
-[[nodiscard]] double search_seconds(const SceneDescription& scene, const PointMethod& method,
+[[nodiscard]] double search_seconds(const SceneDescription& scene, const CurveEffects& effects,
                                     int n_starts);
 
 }  // namespace microslip::pipelines

@@ -352,7 +352,7 @@ EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
 }
 
 double seconds_of_search(const EffectFacts& facts) {
-  return search_seconds(facts.scene, method_of(facts.scene, facts.both_directions),
+  return search_seconds(facts.scene, curve_effects(facts.scene, facts.both_directions),
                         default_starts(facts.scene));
 }
 

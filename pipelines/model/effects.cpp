@@ -21,8 +21,8 @@ constexpr double in_percent = 100.0;
 /// What the curves take longer with an effect than without, where the method of the points tells.
 std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return std::nullopt;
-  PointMethod with = method_of(facts.scene, facts.both_directions);
-  PointMethod without = with;
+  CurveEffects with = curve_effects(facts.scene, facts.both_directions);
+  CurveEffects without = with;
   if (name == "second_direction") {
     with.second_direction = true;
     without.second_direction = false;

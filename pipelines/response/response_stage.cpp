@@ -224,7 +224,7 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   return options;
 }
 
-/// With the contact in time where that judges stability (solver/stability.hpp).
+/// With the contact in time where that judges stability (solver/stability/stability.hpp).
 solver::Scene balanced_scene(const ReducedModel& model, double load,
                              const solver::ContinuationOptions& options) {
   solver::Scene problem = solver_scene(model, load);
@@ -234,12 +234,11 @@ solver::Scene balanced_scene(const ReducedModel& model, double load,
 
 int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
-  constexpr int more = 8;
   constexpr int most_harmonics = 99;   // of a scene
   constexpr int most_unknowns = 1500;  // seconds a step beyond
   if (harmonics.chosen() || !harmonics.checked || model.patches.empty()) return 0;
-  const int highest = std::min(harmonics.highest + more, most_harmonics);
-  if (highest <= harmonics.highest + more / 2) return 0;
+  const int highest = std::min(harmonics.highest + harmonics_of_a_check, most_harmonics);
+  if (highest <= harmonics.highest + harmonics_of_a_check / 2) return 0;
   return static_cast<int>(model.frequency.size()) * (2 * highest + 1) <= most_unknowns ? highest
                                                                                        : 0;
 }

@@ -41,9 +41,9 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   using enum Discretisation::Choice;
   const Discretisation::Choice along_r = scene.settings.second_direction;
   const bool is_on = model != nullptr ? model->effects.second_direction : along_r == on;
-  forecast.response = response_seconds(scene, method_of(scene, is_on));
+  forecast.response = response_seconds(scene, curve_effects(scene, is_on));
   if (model == nullptr && along_r == automatic) {
-    forecast.response_along_r = response_seconds(scene, method_of(scene, true));
+    forecast.response_along_r = response_seconds(scene, curve_effects(scene, true));
   }
 }
 

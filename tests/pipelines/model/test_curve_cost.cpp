@@ -33,7 +33,7 @@ preload = ["free", 10, 30, "stuck"]
 
 ResponseSeconds seconds(const Overrides& overrides, bool along_r = false) {
   const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", overrides);
-  return response_seconds(scene, method_of(scene, along_r));
+  return response_seconds(scene, curve_effects(scene, along_r));
 }
 
 TEST(CurveCost, LinearLimitsCostNothing) {
