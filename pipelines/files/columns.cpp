@@ -13,6 +13,7 @@ namespace {
 
 using contact::ContactMap;
 using contact::CycleReport;
+using contact::Patch;
 using contact::PatchSamples;
 using solver::ResponsePoint;
 
@@ -242,24 +243,193 @@ Eigen::VectorXd stiffness(const PatchSamples& samples) {
   return samples.stiffness.col(axis);
 }
 
+using Fields = Dataset<PatchSamples, Eigen::VectorXd>;
 constexpr std::array sample_table{
-    SampleArray{"friction_coefficient", "1", "that at rest where it depends on the slip speed",
-                [](const PatchSamples& s) { return s.friction; }},
-    SampleArray{"tangential_stiffness", "N/m^3", "along p, flexibility of omitted modes included",
-                stiffness<0>},
-    SampleArray{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>},
-    SampleArray{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>},
-    SampleArray{"preload", "Pa", "at unit load: 1 N over the patch, or as given; negative: a gap",
-                [](const PatchSamples& s) { return s.preload; }},
+    Fields{"friction_coefficient", "1", "that at rest where it depends on the slip speed",
+           [](const PatchSamples& s) { return s.friction; }},
+    Fields{"tangential_stiffness", "N/m^3", "along p, flexibility of omitted modes included",
+           stiffness<0>},
+    Fields{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>},
+    Fields{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>},
+    Fields{"preload", "Pa", "at unit load: 1 N over the patch, or as given; negative: a gap",
+           [](const PatchSamples& s) { return s.preload; }},
 };
+
+using Shapes = Dataset<PatchSamples, Eigen::MatrixXd>;
+constexpr std::array shape_table{
+    Shapes{"phi_u", "1/kg^0.5", "relative mode shapes along p, places x modes",
+           [](const PatchSamples& s) { return s.shapes.u; }},
+    Shapes{"phi_v", "1/kg^0.5", "along q, positive when it closes",
+           [](const PatchSamples& s) { return s.shapes.v; }},
+    Shapes{"phi_w", "1/kg^0.5", "along r", [](const PatchSamples& s) { return s.shapes.w; }},
+};
+
+Eigen::VectorXd one(double value) { return Eigen::VectorXd::Constant(1, value); }
+
+using OfModel = Dataset<ReducedModel, Eigen::VectorXd>;
+constexpr std::array model_table{
+    OfModel{"frequency_Hz", "Hz", "natural frequencies without contact",
+            [](const ReducedModel& m) -> Eigen::VectorXd { return m.frequency / two_pi; }},
+    OfModel{"angular_frequency", "rad/s", "the same", [](const auto& m) { return m.frequency; }},
+    OfModel{"damping_ratio", "1", "of critical damping",
+            [](const auto& m) { return m.damping_ratio; }},
+    OfModel{"n_attachment", "1", "so many of the modes, the last, are static shapes",
+            [](const auto& m) { return one(static_cast<double>(m.n_attachment)); }},
+    OfModel{"force_sine", "N/kg^0.5", "modal excitation, sine of the first harmonic",
+            [](const auto& m) { return m.force_sine; }},
+    OfModel{"force_cosine", "N/kg^0.5", "its cosine", [](const auto& m) { return m.force_cosine; }},
+    OfModel{"force_static", "N/kg^0.5", "its mean", [](const auto& m) { return m.force_static; }},
+    OfModel{"output", "1/kg^0.5", "the output is this times the modal coordinates",
+            [](const auto& m) { return m.output; }},
+};
+
+using Places = Dataset<Patch, Eigen::MatrixXd>;
+constexpr std::array patch_place_table{
+    Places{"points", "m", "contact points, n x 3",
+           [](const Patch& p) -> Eigen::MatrixXd { return p.cells.points; }},
+    Places{"frame", "1", "rows p, q (normal), r",
+           [](const Patch& p) -> Eigen::MatrixXd { return p.frame; }},
+    Places{"vertices", "m", "of the cells, n x 3",
+           [](const Patch& p) -> Eigen::MatrixXd { return p.vertices.points; }},
+};
+
+/// Coordinates (p, r) in the plane of the patch, from its centroid where it has cells.
+Eigen::MatrixXd in_plane(const contact::Patch& patch, const Eigen::MatrixX3d& positions) {
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
+  if (patch.connectivity.rows() > 0 && patch.cells.weights.sum() > 0.0) {
+    origin = contact::centroid(patch).transpose();
+  }
+  const Eigen::MatrixX3d local = (positions.rowwise() - origin) * patch.frame.transpose();
+  Eigen::MatrixXd plane(local.rows(), 2);
+  plane << local.col(0), local.col(2);
+  return plane;
+}
+
+constexpr std::array map_place_table{
+    Places{"points", "m",
+           "(p, r) of the contact points in the plane of the contact, from its centroid",
+           [](const Patch& p) { return in_plane(p, point_positions(p)); }},
+    Places{"vertices", "m", "the same of the vertices of their cells",
+           [](const Patch& p) { return in_plane(p, p.vertices.points); }},
+};
+
+using OfPatch = Dataset<Patch, Eigen::VectorXd>;
+constexpr std::array weight_table{
+    OfPatch{"weights", "m^2", "area of each contact point",
+            [](const Patch& p) { return p.cells.weights; }},
+};
+constexpr std::array fit_table{
+    OfPatch{"fit_degree", "1", "of the polynomials fitted to the mode shapes; -1: none",
+            [](const Patch& p) { return one(static_cast<double>(p.fit_degree)); }},
+    OfPatch{"fit_error", "1", "of them, relative, one per mode",
+            [](const Patch& p) { return p.fit_error; }},
+};
+constexpr std::array cell_table{
+    Dataset<Patch, Indices>{
+        "cells", "1", "vertices of the cell of each contact point, from 0",
+        [](const Patch& p) -> Indices { return p.connectivity.cast<std::int64_t>(); }},
+};
+
+using OfMap = Dataset<NamedMap, Eigen::VectorXd>;
+constexpr std::array map_table{
+    OfMap{"frequency_Hz", "Hz", "of the excitation",
+          [](const NamedMap& m) { return one(m.frequency_hz); }},
+    OfMap{"amplitude_m", "m", "of the output, half peak-to-peak",
+          [](const NamedMap& m) { return one(m.amplitude); }},
+    OfMap{"stable", "1", "1 stable, 0 unstable, -1 not assessed",
+          [](const NamedMap& m) { return one(static_cast<double>(m.stability)); }},
+    OfMap{"phase_deg", "deg", "of the columns of the fields below",
+          [](const NamedMap& m) -> Eigen::VectorXd { return m.points.phase * degrees; }},
+};
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+using Transitions = Dataset<ContactMap, Eigen::MatrixXd>;
+constexpr std::array transition_table{
+    Transitions{"state_start_deg", "deg",
+                "where each state first begins, places x 5; NaN: never, or it lasts throughout",
+                [](const ContactMap& m) -> Eigen::MatrixXd { return m.state_start / degree; }},
+    Transitions{"state_starts_deg", "deg", "all its begins, m columns for each state; NaN beyond",
+                [](const ContactMap& m) -> Eigen::MatrixXd { return m.state_starts / degree; }},
+    Transitions{"state_share", "1", "of the period in each state, places x 5",
+                [](const ContactMap& m) { return m.state_share; }},
+};
+
+constexpr std::array<const char*, 5> stem_table{"stick", "positive_slip", "negative_slip",
+                                                "separation", "slip"};
+using OfState = StateArray<Eigen::VectorXd>;
+constexpr std::array state_table{
+    OfState{"start_deg", "deg", "where it first begins; NaN: never, or it lasts throughout",
+            [](const ContactMap& m, Eigen::Index state) -> Eigen::VectorXd {
+              return m.state_start.col(state) / degree;
+            }},
+    OfState{"share", "1", "of the period",
+            [](const ContactMap& m, Eigen::Index state) -> Eigen::VectorXd {
+              return m.state_share.col(state);
+            }},
+};
+constexpr std::array count_table{
+    StateArray<Eigen::VectorXi>{"starts", "1", "how often it begins",
+                                [](const ContactMap& m, Eigen::Index state) -> Eigen::VectorXi {
+                                  const Eigen::Index most =
+                                      m.state_starts.cols() / m.state_share.cols();
+                                  const auto starts =
+                                      m.state_starts.middleCols(state * most, most).array();
+                                  return (starts == starts).cast<int>().rowwise().sum().matrix();
+                                }},
+};
+
+template <typename Row>
+void add_row(std::string& text, const Row& row, const char* prefix = "", const char* suffix = "") {
+  text += fmt::format("| `{}{}{}` | {} | {} |\n", prefix, row.name, suffix, row.unit, row.doc);
+}
+
+void add_title(std::string& text, const std::string& title) {
+  text += fmt::format("\n## {}\n\n| name | unit | what it is |\n|---|---|---|\n", title);
+}
+
+/// One after the other.
+template <typename... Rows>
+void add_rows(std::string& text, const char* prefix, const Rows&... tables) {
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows) add_row(text, row, prefix);
+  };
+  (add(tables), ...);
+}
 
 template <typename Rows>
 void add_table(std::string& text, const std::string& title, const Rows& rows,
                const char* prefix = "") {
-  text += fmt::format("\n## {}\n\n| name | unit | what it is |\n|---|---|---|\n", title);
-  for (const auto& row : rows) {
-    text += fmt::format("| `{}{}` | {} | {} |\n", prefix, row.name, row.unit, row.doc);
-  }
+  add_title(text, title);
+  add_rows(text, prefix, rows);
+}
+
+void add_map_tables(std::string& text) {
+  add_table(text, "maps/NAME_*.vtp and maps/NAME.h5: at each phase", std::array{state_entry});
+  add_rows(text, "", instant_table);
+  add_table(text, "maps/NAME_*.vtp and maps/NAME.h5: of the period", cycle_table);
+  std::string stems;
+  for (const char* stem : stem_table)
+    stems += fmt::format("{}`{}`", stems.empty() ? "" : ", ", stem);
+  add_table(text, fmt::format("maps/NAME_*.vtp: of the period, of each STATE of {}", stems),
+            state_table, "STATE_");
+  add_rows(text, "STATE_", count_table);
+  add_table(text, "maps/NAME.h5: of the map", map_table);
+  add_rows(text, "", map_place_table, weight_table, cell_table);
+  add_table(text,
+            "maps/NAME.h5: at its points (`vertex_` in front, and before `state` and what is of "
+            "the period: at its vertices)",
+            transition_table);
+}
+
+void add_model_tables(std::string& text) {
+  add_table(text, "model.h5: modes, excitation and output", model_table, "/");
+  add_table(text, "model.h5: of a contact (`/contact_2/`, … further ones)", patch_place_table,
+            "/contact/");
+  add_rows(text, "/contact/", weight_table, cell_table, fit_table);
+  add_table(text, "model.h5: at the points of a contact (`vertex_` in front: at its vertices)",
+            shape_table, "/contact/");
+  add_rows(text, "/contact/", sample_table);
 }
 
 }  // namespace
@@ -276,7 +446,36 @@ std::span<const Column<OptimumRow>> optimum_columns(bool of_preload) {
 }
 std::span<const MapArray<Eigen::MatrixXd>> instant_arrays() { return instant_table; }
 std::span<const MapArray<Eigen::VectorXd>> cycle_arrays() { return cycle_table; }
-std::span<const SampleArray> sample_arrays() { return sample_table; }
+std::span<const StateArray<Eigen::VectorXd>> state_arrays() { return state_table; }
+std::span<const StateArray<Eigen::VectorXi>> state_counts() { return count_table; }
+std::span<const char* const> state_stems() { return stem_table; }
+std::span<const Dataset<NamedMap, Eigen::VectorXd>> map_arrays() { return map_table; }
+std::span<const Dataset<ContactMap, Eigen::MatrixXd>> transition_arrays() {
+  return transition_table;
+}
+std::span<const Dataset<Patch, Eigen::MatrixXd>> map_places() { return map_place_table; }
+std::span<const Dataset<ReducedModel, Eigen::VectorXd>> model_arrays() { return model_table; }
+std::span<const Dataset<Patch, Eigen::MatrixXd>> patch_places() { return patch_place_table; }
+std::span<const Dataset<Patch, Eigen::VectorXd>> fit_arrays() { return fit_table; }
+std::span<const Dataset<PatchSamples, Eigen::VectorXd>> sample_arrays() { return sample_table; }
+std::span<const Dataset<PatchSamples, Eigen::MatrixXd>> shape_arrays() { return shape_table; }
+std::span<const Dataset<Patch, Eigen::VectorXd>> weight_arrays() { return weight_table; }
+std::span<const Dataset<Patch, Indices>> cell_arrays() { return cell_table; }
+
+/// Positions of the contact points [m]; a row along p where the model has none.
+Eigen::MatrixX3d point_positions(const contact::Patch& patch) {
+  const Eigen::MatrixX3d& points = patch.cells.points;
+  const Eigen::Index n = patch.cells.weights.size();
+  const bool given = points.rows() == n &&
+                     (n < 2 || (points.rowwise() - points.row(0)).cwiseAbs().maxCoeff() > 0.0);
+  if (given) return points;
+  constexpr double spacing = 1e-3;  // [m]: a scale for pictures, nothing is computed from it
+  Eigen::MatrixX3d row(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    row.row(i) = spacing * static_cast<double>(i) * patch.frame.row(0);
+  }
+  return row;
+}
 
 const char* to_string(solver::PeakPlace place) {
   switch (place) {
@@ -294,20 +493,25 @@ std::string columns_text() {
   std::string text =
       "# Columns and arrays\n\n"
       "Printed by `microslip columns` from the tables the files are written from "
-      "(`pipelines/files/columns.cpp`); a test keeps the two the same.\n";
+      "(`pipelines/files/columns.cpp`); a test keeps the two the same. Pictures of a whole mesh "
+      "carry the names of "
+      "its surfaces and modes ([interfaces](interfaces.md)).\n";
   add_table(text, "curves/NAME.csv", point_table);
   add_table(text, "curves/NAME.csv, where its error is told ([accuracy])", trust_table);
   add_table(text, "curves/NAME.csv, for each of several contacts", patch_table, "CONTACT.");
+  add_title(text, "curves/NAME.states.csv, of every MODE from 1 and harmonic K");
+  add_row(text, point_table.front());
+  add_row(text, mean_entry, "", "_MODE");
+  add_row(text, sine_entry, "", "K_MODE");
+  add_row(text, cosine_entry, "", "K_MODE");
   add_table(text, "converge/KNOB.csv", ladder_table);
   add_table(text, "campbell/frequencies.csv", campbell_table);
   add_table(text, "campbell/crossings.csv", crossing_table);
   add_table(text, "modes.csv", mode_table);
   add_table(text, "peak_against_preload.csv (peak_against_parameter.csv: `value` in front)",
             preload_table);
-  add_table(text, "maps/NAME_*.vtp and maps/NAME.h5: at each phase", instant_table);
-  add_table(text, "maps/NAME_*.vtp and maps/NAME.h5: of the period", cycle_table);
-  add_table(text, "model.h5: at the points of a contact (`vertex_` in front: at its vertices)",
-            sample_table, "/contact/");
+  add_map_tables(text);
+  add_model_tables(text);
   return text;
 }
 

@@ -1,9 +1,10 @@
 /// @file
-/// Every column and array the program writes, once: name, unit, meaning and where its value comes from. CSV, HDF5 and
-/// VTK files are written from these tables and share/doc/columns.md is printed from them: a new column is one
-/// row in columns.cpp.
+/// Columns and arrays of curves, modes, maps and models, once: name, unit, meaning and where the value comes from. CSV,
+/// HDF5 and VTK files are written from these tables and share/doc/columns.md is printed from them: a new column is one
+/// row in columns.cpp. Pictures of a whole mesh (write_vtk.hpp, write_faces.hpp) carry names of the scene instead.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,8 @@
 #include "contact/patch.hpp"
 #include "pipelines/accuracy/convergence.hpp"
 #include "pipelines/model/campbell.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/response/run_results.hpp"
 #include "solver/peak.hpp"
 #include "solver/response_curve.hpp"
 
@@ -90,15 +93,64 @@ struct MapArray {
 /// Fields of the whole period, n.
 [[nodiscard]] std::span<const MapArray<Eigen::VectorXd>> cycle_arrays();
 
-/// Arrays of model.h5 over the places of a patch: /contact/NAME at its points, /contact/vertex_NAME at the vertices
-/// of its cells.
-struct SampleArray {
+/// Of each of the five states, in .vtp: STATE_NAME.
+template <typename Values>
+struct StateArray {
   const char* name;
   const char* unit;
   const char* doc;
-  Eigen::VectorXd (*get)(const contact::PatchSamples&);
+  Values (*get)(const contact::ContactMap&, Eigen::Index state);
 };
-[[nodiscard]] std::span<const SampleArray> sample_arrays();
+[[nodiscard]] std::span<const StateArray<Eigen::VectorXd>> state_arrays();
+[[nodiscard]] std::span<const StateArray<Eigen::VectorXi>> state_counts();
+/// Their names there, in the order of ContactState.
+[[nodiscard]] std::span<const char* const> state_stems();
+
+/// One dataset of an .h5 file and what it is taken from.
+template <typename Source, typename Values>
+struct Dataset {
+  const char* name;
+  const char* unit;
+  const char* doc;
+  Values (*get)(const Source&);
+};
+using Indices = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// maps/NAME.h5: of the whole map; of the points, with `vertex_` in front of the vertices; where they are.
+[[nodiscard]] std::span<const Dataset<NamedMap, Eigen::VectorXd>> map_arrays();
+[[nodiscard]] std::span<const Dataset<contact::ContactMap, Eigen::MatrixXd>> transition_arrays();
+[[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::MatrixXd>> map_places();
+
+/// model.h5: modes, excitation, output; each patch, in /contact/.
+[[nodiscard]] std::span<const Dataset<ReducedModel, Eigen::VectorXd>> model_arrays();
+[[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::MatrixXd>> patch_places();
+[[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::VectorXd>> fit_arrays();
+/// Over the places of a patch: /contact/NAME at its points, /contact/vertex_NAME at the vertices of its cells.
+[[nodiscard]] std::span<const Dataset<contact::PatchSamples, Eigen::VectorXd>> sample_arrays();
+[[nodiscard]] std::span<const Dataset<contact::PatchSamples, Eigen::MatrixXd>> shape_arrays();
+
+/// Of both files: areas of the points, and vertices of their cells.
+[[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::VectorXd>> weight_arrays();
+[[nodiscard]] std::span<const Dataset<contact::Patch, Indices>> cell_arrays();
+
+/// What is written in a form of its own.
+struct Entry {
+  const char* name;
+  const char* unit;
+  const char* doc;
+};
+/// At each phase, a number of ContactState.
+inline constexpr Entry state_entry{
+    "state", "1",
+    "0 stick, 1 positive slip, 2 negative slip, 3 separated, 4 slip in two directions"};
+/// curves/NAME.states.csv: the frequency, then these of every mode from 1 (`_1`, `_2`, …), sine and cosine of every
+/// harmonic.
+inline constexpr Entry mean_entry{"q_mean", "m kg^0.5", "mean of a modal coordinate"};
+inline constexpr Entry sine_entry{"q_sin", "m kg^0.5", "its sine, harmonic K"};
+inline constexpr Entry cosine_entry{"q_cos", "m kg^0.5", "its cosine, harmonic K"};
+
+/// Positions of the contact points [m]; a row along p where the model has none.
+[[nodiscard]] Eigen::MatrixX3d point_positions(const contact::Patch& patch);
 
 /// All of them as Markdown: share/doc/columns.md, `microslip columns`.
 [[nodiscard]] std::string columns_text();

@@ -47,11 +47,11 @@ std::string curve_table(const solver::ResponseCurve& curve, const std::vector<Pa
 
 std::string states_table(const solver::ResponseCurve& curve, Eigen::Index n_modes) {
   const int n_harmonics = curve.points.empty() ? 1 : curve.points.front().q.n_harmonics();
-  std::string table = "frequency_Hz";
-  append_names(table, "q_mean", n_modes);
+  std::string table = curve_columns().front().name;
+  append_names(table, mean_entry.name, n_modes);
   for (int h = 1; h <= n_harmonics; ++h) {
-    append_names(table, "q_sin" + std::to_string(h), n_modes);
-    append_names(table, "q_cos" + std::to_string(h), n_modes);
+    append_names(table, sine_entry.name + std::to_string(h), n_modes);
+    append_names(table, cosine_entry.name + std::to_string(h), n_modes);
   }
   table += "\n";
   for (const solver::ResponsePoint& point : curve.points) {
