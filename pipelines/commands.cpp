@@ -355,18 +355,23 @@ int columns(const Arguments& arguments) {
 
 namespace {
 
-/// `init KIND`, `init mesh FILE` or `init step FILE`; a STEP file is taken for what it is.
+std::filesystem::path folder_of_output(const Arguments& arguments) {
+  return (std::filesystem::current_path() / arguments.output).parent_path();
+}
+
+/// `init KIND`, or with a file `init mesh`, `init step` or `init modes`; a STEP file is taken for what it is.
 std::string new_scene(const Arguments& arguments) {
   const std::string kind = arguments.input.empty() ? "blade" : arguments.input;
   if (arguments.mesh_file.empty()) return scene_template(kind);
-  if (kind != "mesh" && kind != "step") {
-    throw SceneError(fmt::format("init {} {}: a file goes with init mesh and init step alone", kind,
-                                 arguments.mesh_file));
+  if (kind != "mesh" && kind != "step" && kind != "modes") {
+    throw SceneError(fmt::format("init {} {}: a file goes with init mesh, step and modes alone",
+                                 kind, arguments.mesh_file));
   }
+  const InterruptWatch watch;
+  const std::filesystem::path folder = folder_of_output(arguments);
+  if (kind == "modes") return scene_of_modes(arguments.mesh_file, folder);
   const bool is_step = kind == "step" || is_step_file(arguments.mesh_file);
   is_step ? require_step_format(arguments.mesh_file) : require_mesh_format(arguments.mesh_file);
-  const InterruptWatch watch;
-  const auto folder = (std::filesystem::current_path() / arguments.output).parent_path();
   return is_step ? scene_of_step(arguments.mesh_file, folder)
                  : scene_of_mesh(arguments.mesh_file, folder);
 }

@@ -74,22 +74,29 @@ std::string axis_of_largest(const Eigen::Vector3d& numbers) {
 
 class SceneMaker {
  public:
-  SceneMaker(const MeshOfFile& read, const std::filesystem::path& file,
-             const std::filesystem::path& scene_folder)
+  SceneMaker(const MeshOfFile& read, const std::filesystem::path& file)
       : read_(read), names_(mesh_names(read.mesh)), extent_(read.mesh.upper() - read.mesh.lower()) {
-    const auto relative = std::filesystem::relative(file, scene_folder);
-    values_["model.file"] = in_quotes((relative.empty() ? file : relative).string());
     set_unit(mesh_format(file) == MeshFormat::gmsh);
   }
 
-  std::string make() {
+  void set_file(const char* key, const std::filesystem::path& file,
+                const std::filesystem::path& scene_folder) {
+    const auto relative = std::filesystem::relative(file, scene_folder);
+    values_[key] = in_quotes((relative.empty() ? file : relative).string());
+  }
+
+  std::string make(std::string_view kind) {
     choose_support();
     choose_contact();
     choose_points();
+    if (kind == "modes") {  // which are of a body that is held
+      values_.erase("supports.clamped");
+      remarks_.erase("supports.clamped");
+    }
     std::string text = "# What the mesh has:\n";
     std::istringstream table(describe_names(read_.mesh, read_.length_unit));
     for (std::string line; std::getline(table, line);) text += "#   " + line + '\n';
-    text += scene_template("mesh", values_, remarks_);
+    text += scene_template(kind, values_, remarks_);
     return has_contact_ ? text : without_contact(text);
   }
 
@@ -199,7 +206,25 @@ class SceneMaker {
 
 std::string scene_of_mesh(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const MeshOfFile read = read_mesh(file, std::nullopt);
-  return SceneMaker(read, file, folder).make();
+  SceneMaker maker(read, file);
+  maker.set_file("model.file", file, folder);
+  return maker.make("mesh");
+}
+
+std::string scene_of_modes(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(file)) throw SceneError(file.string() + ": no such file");
+  const std::filesystem::path mesh = mesh_beside(file);
+  if (mesh.empty()) {
+    throw SceneError(fmt::format(
+        "{}: no mesh lies beside it under that name (.inp of a .frd, .bdf of a .pch, a .med is its "
+        "own); put it there, or begin with `init modes` and name it in model.mesh",
+        file.string()));
+  }
+  const MeshOfFile read = read_mesh(mesh, std::nullopt);
+  SceneMaker maker(read, mesh);
+  maker.set_file("model.file", file, folder);
+  maker.set_file("model.mesh", mesh, folder);
+  return maker.make("modes");
 }
 
 }  // namespace microslip::pipelines

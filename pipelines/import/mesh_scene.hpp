@@ -1,5 +1,5 @@
 /// @file
-/// `init mesh FILE`: a scene that begins with the names, the size and the unit of a mesh.
+/// `init mesh FILE`, `init modes FILE`: a scene that begins with the names, the size and the unit of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,10 @@ namespace microslip::pipelines {
 /// @note read_scene takes it as it is; what nobody can know (frequencies, stiffness, forces) is to be edited.
 [[nodiscard]] std::string scene_of_mesh(const std::filesystem::path& file,
                                         const std::filesystem::path& folder);
+
+/// The same of kind "modes", with the mesh that lies beside the file of the modes.
+/// @throws SceneError  no such file, or none of a mesh beside it.
+[[nodiscard]] std::string scene_of_modes(const std::filesystem::path& file,
+                                         const std::filesystem::path& folder);
 
 }  // namespace microslip::pipelines

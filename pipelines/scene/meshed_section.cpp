@@ -98,20 +98,6 @@ void require_step_format(const SectionReader& s, const std::string& file) {
   s.fail("file", fmt::format("\"{}\": STEP files end in .step or .stp", file), s.node("file"));
 }
 
-/// Meshes that are found without being named: the deck beside the modes, or the modes' own file.
-std::filesystem::path mesh_beside(const std::filesystem::path& modes) {
-  if (modes.extension() == ".med") return modes;
-  std::vector<std::string> endings;
-  if (modes.extension() == ".frd") endings = {".inp"};
-  if (is_punch_file(modes)) endings = {".bdf", ".nas", ".fem"};
-  for (const std::string& ending : endings) {
-    std::filesystem::path deck = modes;
-    deck.replace_extension(ending);
-    if (std::filesystem::exists(deck)) return deck;
-  }
-  return {};
-}
-
 /// The mesh of a modes file: named, or found beside it.
 std::filesystem::path mesh_of_modes(SectionReader& s, const std::filesystem::path& modes,
                                     const std::filesystem::path& folder) {

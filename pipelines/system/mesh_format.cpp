@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,6 +48,19 @@ MeshFormat mesh_format(const std::filesystem::path& file) {
 
 std::string mesh_endings() {
   return fmt::format("{}, {}", gmsh_ending, fmt::join(converted_endings, ", "));
+}
+
+std::filesystem::path mesh_beside(const std::filesystem::path& modes) {
+  if (modes.extension() == ".med") return modes;
+  std::vector<std::string> endings;
+  if (modes.extension() == ".frd") endings = {".inp"};
+  if (is_punch_file(modes)) endings = {".bdf", ".nas", ".fem"};
+  for (const std::string& ending : endings) {
+    std::filesystem::path deck = modes;
+    deck.replace_extension(ending);
+    if (std::filesystem::exists(deck)) return deck;
+  }
+  return {};
 }
 
 }  // namespace microslip::pipelines

@@ -23,6 +23,7 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
 

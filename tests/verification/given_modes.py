@@ -331,6 +331,26 @@ class GivenModes(unittest.TestCase):
         heavy = self.changed_matrix("mass.mtx", lambda i, j, value: (i, j, 3.0 * value if i == j and i % 3 == 1 else value))
         self.assertIn("the mass of all free nodes is", refusal(self.matrices(mass=heavy)))
 
+    def test_init_begins_with_the_mesh_beside_the_modes(self):
+        for name in ("plate.frd", "plate.inp"):
+            shutil.copy(os.path.join(PLATE, name), path(name))
+        scene = path("begun.toml")
+        if os.path.exists(scene):
+            os.remove(scene)
+        subprocess.run([PROGRAM, "init", "modes", path("plate.frd"), "-o", scene], check=True)
+        with open(scene, encoding="utf-8") as file:
+            text = file.read()
+        for line in ('kind = "modes"', 'file = "plate.frd"', 'mesh = "plate.inp"', 'surface = "contact"'):
+            self.assertIn("\n" + line, text)
+        checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+
+    def test_init_tells_where_the_mesh_is_missing(self):
+        shutil.copy(os.path.join(PLATE, "plate.frd"), path("alone.frd"))
+        finished = subprocess.run([PROGRAM, "init", "modes", path("alone.frd")], capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 1)
+        self.assertIn("alone.frd: no mesh lies beside it", finished.stderr)
+
     def test_a_stiffness_that_is_not_positive_definite_is_told(self):
         """Off the diagonal, so that only the eigensolver sees it."""
         wrong = self.changed_matrix("stiffness.mtx", lambda i, j, value: (i, j, 40.0 * value if (i, j) == (2, 1) else value))

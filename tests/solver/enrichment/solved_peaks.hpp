@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/continuation.hpp"
 #include "solver/peak/high_points.hpp"
 
 namespace microslip::tests {
