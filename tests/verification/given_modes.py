@@ -449,6 +449,10 @@ class GivenModes(unittest.TestCase):
         with open(path("word.frd"), "w", encoding="latin-1") as stream:
             stream.writelines([*lines[:200], lines[200].replace("E", "X"), *lines[201:]])
         self.assertIn("word.frd:201: expected a number", refusal(given(path("word.frd"))))
+        with open(path("whole.frd"), "w", encoding="latin-1") as stream:
+            stream.writelines([*lines, "\n", "\n"])  # of an editor
+        scene = write_scene("whole.toml", given(path("whole.frd")), "")
+        self.assertEqual(subprocess.run([PROGRAM, "check", scene], capture_output=True).returncode, 0)
 
 
 if __name__ == "__main__":

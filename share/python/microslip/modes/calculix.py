@@ -18,7 +18,7 @@ def read(path):
         lines = _Lines(path, file)
         numbers, coordinates, frequencies, shapes, is_ended = None, None, [], [], False
         for line in lines:
-            is_ended = line.split() == ["9999"]
+            is_ended = is_ended or line.split() == ["9999"]
             if line.startswith("    2C"):
                 numbers, coordinates = lines.block()
             elif line.startswith("  100CL") and "MODAL" in line:
