@@ -16,8 +16,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr double force_tolerance = 1e-2;  // of what the motion of a row's neighbours makes
-constexpr double mass_tolerance = 1e-3;
-constexpr double most_rows = 0.5;  // condensed parts and foundations hold fewer
+constexpr double mass_tolerance = 0.05;   // condensed parts and added masses differ by direction
+constexpr double most_rows = 0.5;         // condensed parts and foundations hold fewer
 constexpr double turned_rows =
     0.05;  // of a fine mesh: inside a body no strain that is uniform makes a force
 constexpr Eigen::Index fewest_rows = 12;  // to judge by

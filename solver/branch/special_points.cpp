@@ -143,6 +143,7 @@ class Segment {
       ++n_failed_;
       return std::nullopt;
     }
+    n_failed_ = 0;
     return node(std::move(*point));
   }
 

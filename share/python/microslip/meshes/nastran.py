@@ -25,7 +25,7 @@ _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15
 _NOT_SOLID = re.compile(r"C(BAR|BEAM|BEND|BUSH|DAMP|ELAS|GAP|MASS|ONM|ONROD|ROD|SHEAR|TUBE|VISC|WELD|FAST|SEAM)|RBE[12]|"
                         r"RBAR|RROD|RTRPLT|GENEL|C(TETRA|HEXA|PENTA|PYR|TRI|QUAD)")
 # Cards that begin with C and are no elements: coordinate systems, aerodynamics, heat, cyclic symmetry, control.
-_NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD")
+_NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD|CSET|CAMPBLL|CSUP")
 _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+\s*)?"([^"]+)"|'
                     r"Femap.*Property\s+(\d+)\s*:\s*(.+))", re.I)
 
@@ -57,7 +57,7 @@ def _lines(path, folder, above, deck):
             text = line.split("$", 1)[0].expandtabs(8).rstrip()
             if "$" in line:
                 deck.take_comment(line)
-            if re.match(r"ENDDATA\b", text, re.I):
+            if re.match(r"\s*ENDDATA\b", text, re.I):
                 deck.is_ended = True
                 return
             if re.match(r"INCLUDE\b", text, re.I):
