@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -148,13 +149,20 @@ void find_optimum(const Solution& solution, const RunOptions& options, RunRecord
   // The search itself keeps little more than one core busy. Where time may run out it comes first;
   // another number than the preload may need other modes, which one thread alone may ask for.
   const bool beside = options.bracket && options.jobs > 1 && !std::isfinite(seconds_left()) &&
-                      scene.response->optimum->of_preload();
+                      scene.response->optimum->of_preload() && search.bracket_by_few();
+  std::exception_ptr failure;  // of the bracket: what the search has found is kept all the same
   in_parallel(beside ? 2 : 1, 2, [&](std::size_t task) {
     if (task == 0) best = search.best();
-    if (task == 1) bracket = search.bracket(options.jobs - 1);
+    if (task == 0) return;
+    try {
+      bracket = search.bracket(options.jobs - 1);
+    } catch (...) {
+      failure = std::current_exception();
+    }
   });
   record.keep_optimum(solution.model, *scene.response->optimum, best,
                       budget_of(solution, best, options.jobs));
+  if (failure) std::rethrow_exception(failure);
   if (!bracket && options.bracket && !cut_short()) bracket = search.bracket(options.jobs);
   if (bracket) record.keep_bracket(std::move(*bracket));
 }

@@ -212,7 +212,7 @@ std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracke
   const bool stiffness_varies =
       varies(stiffness, "_stiffness", no_stiffness_factor(model_, scene_));
   std::vector<Change> list;
-  const bool by_few = ends_sooner(scene_);
+  const bool by_few = bracket_by_few();
   const int n = by_few ? few_harmonics : 0;
   if (by_few && friction_varies) list.push_back({friction, 1.0, {1.0, 1.0, n}});
   for (const double factor : {0.5, 2.0}) {
@@ -221,6 +221,8 @@ std::vector<OptimumSearch::Change> OptimumSearch::changes(OptimumBracket& bracke
   }
   return list;
 }
+
+bool OptimumSearch::bracket_by_few() const { return ends_sooner(scene_); }
 
 OptimumBracket OptimumSearch::bracket(int jobs) {
   OptimumBracket bracket;

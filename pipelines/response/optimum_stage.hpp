@@ -39,6 +39,8 @@ class OptimumSearch {
   /// @param jobs  searches side by side; of another number than the preload one, whatever is asked for. Of the preload it
   ///              may run beside best().
   [[nodiscard]] OptimumBracket bracket(int jobs);
+  /// Whether its searches have fewer harmonics than best(), which then takes longer than all of them.
+  [[nodiscard]] bool bracket_by_few() const;
 
  private:
   struct Factors {

@@ -78,8 +78,11 @@ class Iteration {
     for (int i = 0; i <= max_halvings; ++i, length *= 0.5) {
       NewtonResult next = stepped(i == 0 ? system_ : shortened_, direction, length);
       if (next.residual < (1.0 - 0.1 * length) * now_.residual) {
-        move_to(whole(std::move(next)));
-        return true;
+        next = whole(std::move(next));
+        if (std::isfinite(next.residual)) {
+          move_to(std::move(next));
+          return true;
+        }
       }
       if (next.residual < fallback.residual) fallback = std::move(next);
     }

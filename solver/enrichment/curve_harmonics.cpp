@@ -113,7 +113,10 @@ CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& r
       const auto distance = of_now == chosen.set
                                 ? distance_to(chosen.known, place.peak, range.harmonic_tolerance)
                                 : std::nullopt;
-      if (distance && *distance <= range.harmonic_tolerance) continue;
+      if (distance && *distance <= range.harmonic_tolerance) {
+        chosen.left_out = std::max(chosen.left_out, *distance);
+        continue;
+      }
       const PeakHarmonics found = choice.choose(of_now, place.peak, chosen.set);
       chosen.set = chosen.set.united(found.set.orders());
       chosen.left_out = std::max(chosen.left_out, found.left_out);
