@@ -171,15 +171,24 @@ std::string text_or_none(const JsonEntry& entry, const char* key) {
   return entry.has(key) ? entry.text(key) : std::string();
 }
 
-/// Value, amplitude and frequency of a best peak as cells of a table.
-std::string optimum_cells(const JsonEntry& peak) {
+/// Value, amplitude and frequency of a best peak as cells of a table, to the digits that the bar of the best value
+/// allows. @param best  it, which has that bar or none.
+std::string optimum_cells(const JsonEntry& peak, const JsonEntry& best) {
   if (!peak.has("amplitude_m")) return "– | – | – |\n";
+  const bool barred = best.has("bar");
+  const auto number = [&](double value, const char* goal, const char* usual) {
+    return barred ? with_digits_of(value, best.at("bar").number(goal))
+                  : fmt::format(fmt::runtime(usual), value);
+  };
+  const auto best_value = [&](double value) { return number(value, best_value_goal, "{:.6g}"); };
   const std::vector<JsonEntry> flat = peak.list("flat");
   const std::string value =
-      flat.size() == 2 ? fmt::format("{:.6g} … {:.6g}", flat[0].as_number(), flat[1].as_number())
-                       : fmt::format("{:.6g}", value_of(peak));
-  return fmt::format("{} | {:.5g} | {:.4f}{} |\n", value, peak.number("amplitude_m"),
-                     peak.number("frequency_Hz"),
+      flat.size() == 2
+          ? fmt::format("{} … {}", best_value(flat[0].as_number()), best_value(flat[1].as_number()))
+          : best_value(value_of(peak));
+  return fmt::format("{} | {} | {}{} |\n", value,
+                     number(peak.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
+                     number(peak.number("frequency_Hz"), best_frequency_goal, "{:.4f}"),
                      place_of(peak) == "range_end" ? " (end of the range)" : "");
 }
 
@@ -219,7 +228,7 @@ std::string optimum_text(const JsonEntry& optimum) {
   text += fmt::format(
       "| contact data | best {} | peak [m] | at [Hz] |\n|---|---:|---:|---:|\n| as given{} | ",
       parameter_of(optimum), is_found(optimum) ? "" : " (lowest, not found)");
-  text += optimum_cells(optimum);
+  text += optimum_cells(optimum, optimum);
   for (const JsonEntry& entry : optimum.list("bracket")) {
     const std::string objection = is_found(entry) ? "" : text_or_none(entry, "objection");
     text += fmt::format("| {} × {:g}{}{} | ", entry.text("parameter"), entry.number("factor"),
@@ -227,7 +236,7 @@ std::string optimum_text(const JsonEntry& optimum) {
                         is_found(entry)     ? ""
                         : objection.empty() ? " (lowest, not found)"
                                             : fmt::format(" (lowest: {})", objection)) +
-            optimum_cells(entry);
+            optimum_cells(entry, optimum);
   }
   for (const JsonEntry& reason : optimum.list("bracket_left_out")) {
     text += fmt::format("\nNot varied: {}.\n", reason.as_text());

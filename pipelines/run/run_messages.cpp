@@ -208,6 +208,23 @@ std::string best_text(const solver::Optimum& optimum, const std::string& unit,
                      rounded(to_hz * optimum.best.frequency, best_frequency_goal));
 }
 
+std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget) {
+  const solver::Optimum& optimum = entry.optimum;
+  if (!optimum.found) {
+    return fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum));
+  }
+  const solver::PeakOfParameter& best = optimum.best;
+  if (!budget.has_bar() || best.place != solver::PeakPlace::peak) {
+    return fmt::format("best {:.6g}, {}", best.parameter, amplitude_text(best));
+  }
+  const auto rounded = [&](double value, const char* goal) {
+    return with_digits_of(value, bar_of(budget.rows, optimum_name, goal));
+  };
+  return fmt::format("best {}, peak {} m at {} Hz", rounded(best.parameter, best_value_goal),
+                     rounded(best.amplitude, best_amplitude_goal),
+                     rounded(to_hz * best.frequency, best_frequency_goal));
+}
+
 std::string amplitude_text(const solver::PeakOfParameter& best) {
   const double frequency_hz = to_hz * best.frequency;
   switch (best.place) {

@@ -39,6 +39,9 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string best_text(const solver::Optimum& optimum, const std::string& unit,
                                     const CurveBudget& budget);
 
+/// The best value with other contact data: to the digits that the errors of the best value as given allow.
+[[nodiscard]] std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget);
+
 /// "peak … m at … Hz", or what stands in its place.
 [[nodiscard]] std::string amplitude_text(const solver::PeakOfParameter& best);
 

@@ -428,18 +428,16 @@ void RunRecord::keep_budget(const CurveBudget& budget, const CurveResult& result
 }
 
 void RunRecord::keep_bracket(OptimumBracket bracket) {
+  const std::lock_guard lock(mutex_);
+  const OptimumSummary& as_given = *summary_.optimum;
+  const CurveBudget budget{.rows = as_given.error_budget, .unknown = as_given.not_in_bar};
   for (const OptimumOfFactor& entry : bracket.entries) {
-    const solver::Optimum& optimum = entry.optimum;
-    progress_.info(fmt::format(
-        "with {} x {:g}{}: {}", entry.parameter, entry.factor, range_text(entry),
-        optimum.found
-            ? fmt::format("best {:.6g}, {}", optimum.best.parameter, amplitude_text(optimum.best))
-            : fmt::format("not found: {}{}", optimum.objection, lowest_text(optimum))));
+    progress_.info(fmt::format("with {} x {:g}{}: {}", entry.parameter, entry.factor,
+                               range_text(entry), bracket_text(entry, budget)));
   }
   for (const std::string& reason : bracket.left_out) {
     progress_.info("not varied: " + reason);
   }
-  const std::lock_guard lock(mutex_);
   summary_.optimum->bracket = std::move(bracket);
 }
 

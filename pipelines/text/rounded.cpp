@@ -14,13 +14,18 @@ std::string fixed(double value, int decimals) {
   return fmt::format("{:.{}f}", std::round(value / unit) * unit, std::max(decimals, 0));
 }
 
-}  // namespace
+struct Rounded {
+  std::string value;
+  std::string half_width;    // empty: none is known
+  std::string power_of_ten;  // "e7", of both
+};
 
-std::string with_half_width(double value, double bar) {
+Rounded rounded(double value, double bar) {
   constexpr double rounding = 1e-12;
   const double half_width = std::abs(value) * bar;
-  if (!(bar > rounding && half_width > 0.0) || !std::isfinite(half_width))
-    return fmt::format("{:.12g}", value);
+  if (!(bar > rounding && half_width > 0.0) || !std::isfinite(half_width)) {
+    return {fmt::format("{:.12g}", value), "", ""};
+  }
   const double decade = std::floor(std::log10(half_width));
   constexpr double one = 1.95;  // what is a one when rounded
   const int more = half_width / std::pow(10.0, decade) < one ? 1 : 0;
@@ -29,11 +34,25 @@ std::string with_half_width(double value, double bar) {
   constexpr int smallest = -5;
   constexpr int largest = 6;
   if (size >= smallest && size <= largest) {
-    return fmt::format("{} ± {}", fixed(value, decimals), fixed(half_width, decimals));
+    return {fixed(value, decimals), fixed(half_width, decimals), ""};
   }
   const double scale = std::pow(10.0, size);
-  return fmt::format("({} ± {})e{}", fixed(value / scale, decimals + size),
-                     fixed(half_width / scale, decimals + size), size);
+  return {fixed(value / scale, decimals + size), fixed(half_width / scale, decimals + size),
+          fmt::format("e{}", size)};
+}
+
+}  // namespace
+
+std::string with_half_width(double value, double bar) {
+  const Rounded text = rounded(value, bar);
+  if (text.half_width.empty()) return text.value;
+  if (text.power_of_ten.empty()) return fmt::format("{} ± {}", text.value, text.half_width);
+  return fmt::format("({} ± {}){}", text.value, text.half_width, text.power_of_ten);
+}
+
+std::string with_digits_of(double value, double bar) {
+  const Rounded text = rounded(value, bar);
+  return text.value + text.power_of_ten;
 }
 
 }  // namespace microslip::pipelines

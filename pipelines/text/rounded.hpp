@@ -10,4 +10,7 @@ namespace microslip::pipelines {
 /// @param bar  relative half width, > 0; below 1e-12 the value alone, in full.
 [[nodiscard]] std::string with_half_width(double value, double bar);
 
+/// "280": the value alone, with the digits it has in with_half_width().
+[[nodiscard]] std::string with_digits_of(double value, double bar);
+
 }  // namespace microslip::pipelines

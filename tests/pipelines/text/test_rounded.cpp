@@ -8,6 +8,7 @@ namespace {
 TEST(Rounded, HasTheDigitsOfItsHalfWidth) {
   EXPECT_EQ(with_half_width(278.516, 0.062), "279 ± 17");
   EXPECT_EQ(with_half_width(278.516, 0.08), "280 ± 20");
+  EXPECT_EQ(with_digits_of(278.516, 0.08), "280");
   EXPECT_EQ(with_half_width(0.000448394, 0.062), "0.00045 ± 0.00003");
   EXPECT_EQ(with_half_width(330.78, 0.0205), "331 ± 7");
   EXPECT_EQ(with_half_width(330.78, 1.3e-4), "330.78 ± 0.04");
