@@ -289,7 +289,8 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
   if (target > nearest->first && after != peaks.end()) other = after;
   const double base = other->first - nearest->first;
   const double ahead = target - nearest->first;
-  if (std::abs(base) > shortest_base * std::abs(ahead)) {
+  const bool predicted = std::abs(base) > shortest_base * std::abs(ahead);
+  if (predicted) {
     guess.x += ahead / base * (other->second.point.x - a.point.x);
     guess.parameter += ahead / base * (other->second.point.parameter - a.point.parameter);
   }
@@ -297,7 +298,7 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
   const HarmonicBalance balance(scene, first_harmonics(scene, range_));
   PeakWork work;
   std::optional<LocalPeak> peak = follow_peak(balance, a, guess, range_, work);
-  if (!peak) peak = follow_peak(balance, a, a.point, range_, work);
+  if (!peak && predicted) peak = follow_peak(balance, a, a.point, range_, work);
   result_.iterations += work.iterations;
   result_.contact_evaluations += work.contact_evaluations;
   return peak;
