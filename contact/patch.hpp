@@ -36,15 +36,15 @@ struct PatchSamples {
   ModalShapes shapes;       ///< n × n_modes
   Eigen::MatrixX3d stiffness;  ///< along p, q, r [N/m³], flexibility of omitted modes included, n
   Eigen::VectorXd friction;  ///< coefficient μ, that at rest where it depends on the speed [-], n
-  Eigen::VectorXd
-      preload;  ///< [Pa] at unit load: total 1 N, or as given where the load is a scale, n
+  /// Rest load of each place at a curve load of one [Pa]: 1 N in all, or as given where loads are scales, n.
+  Eigen::VectorXd preload_field;
   Eigen::MatrixX3d
       compliance;  ///< of omitted modes along p, q, r [m³/N], n; without rows where there is none
 
   [[nodiscard]] Eigen::Index size() const { return friction.size(); }
 };
 
-/// What the load of a curve is: a factor on the preload of the points, or the total normal force [N].
+/// What the load of a curve is: a factor on the preload field as it is given, or the preload [N].
 enum class LoadMeasure { scale, force };
 
 /// Points of two plane stiff bodies that are pressed together by a force and moments and tilt against each

@@ -257,7 +257,7 @@ RestingLoad ContactForce::at_rest() const {
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     Eigen::VectorXd pressure(patches_[i].cells.size());
     for (Eigen::Index k = 0; k < pressure.size(); ++k) {
-      pressure[k] = points_[i][static_cast<std::size_t>(k)].preload;
+      pressure[k] = points_[i][static_cast<std::size_t>(k)].rest_load;
     }
     rest.carried += carried_force(pressure, patches_[i].cells.weights);
     rest.integral += patches_[i].cells.weights.dot(pressure);

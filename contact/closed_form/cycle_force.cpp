@@ -116,7 +116,7 @@ void set_normal(CycleForce& force, const SlipFunctions& w, const PointParameters
   const std::array<Row, 3> r = rows(contact);
   Row n{};
   for (std::size_t k = 0; k < 3; ++k) {
-    n[k] = w.mean_load * r[k][0] + k_v * m.v_sin * r[k][1] + k_v * m.v_cos * r[k][2];
+    n[k] = w.bias_load * r[k][0] + k_v * m.v_sin * r[k][1] + k_v * m.v_cos * r[k][2];
     force.normal_by_v[k] = {k_v * r[k][0], k_v * r[k][1], k_v * r[k][2]};
   }
   set(force.normal, n);
@@ -126,7 +126,7 @@ void set_normal(CycleForce& force, const SlipFunctions& w, const PointParameters
 void set_whole_normal(CycleForce& force, const SlipFunctions& w, const PointParameters& point,
                       const PointMotion& m) {
   const double k_v = point.normal_stiffness;
-  force.normal = {w.mean_load, k_v * m.v_sin, k_v * m.v_cos};
+  force.normal = {w.bias_load, k_v * m.v_sin, k_v * m.v_cos};
   for (std::size_t k = 0; k < 3; ++k) {
     force.normal_by_v[k][k] = k_v;
   }

@@ -152,7 +152,7 @@ CycleInstant at_phase(const FrictionCycle& cycle, const PointParameters& point,
   const double moving = motion.u_sin * sin + motion.u_cos * cos;
   CycleInstant now{.u = motion.u_mean + moving,
                    .v = motion.v_mean + motion.v_sin * sin + motion.v_cos * cos};
-  now.normal = std::max(0.0, point.preload + point.normal_stiffness * now.v);
+  now.normal = std::max(0.0, point.rest_load + point.normal_stiffness * now.v);
   const CycleSegment& segment = segment_at(cycle, phase);
   now.state = segment.state;
   const double limit = point.friction_coefficient * now.normal;

@@ -55,7 +55,7 @@ SlipPhase slip_towards(bool positive, const PointParameters& point, const PointM
   const Direction& e = positive ? w.end_of_positive : w.end_of_negative;
   const double k_v = point.normal_stiffness;
   return {.size = positive ? w.positive : w.negative,
-          .mean = w.mean_load,
+          .mean = w.bias_load,
           .in_phase = k_v * (m.v_sin * e.sin + m.v_cos * e.cos),
           .rate = k_v * (m.v_sin * e.cos - m.v_cos * e.sin)};
 }

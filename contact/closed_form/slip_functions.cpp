@@ -39,7 +39,7 @@ SlipFunctions refined(const PointParameters& point, const PointMotion& motion) {
   const Quad ac = ku * motion.u_cos;
   const Quad bs = mu * kv * motion.v_sin;
   const Quad bc = mu * kv * motion.v_cos;
-  const Quad n0 = point.preload + kv * motion.v_mean;
+  const Quad n0 = point.rest_load + kv * motion.v_mean;
   const Quad vs = motion.v_sin;
   const Quad vc = motion.v_cos;
   const Quad B = kv * root(vs * vs + vc * vc);
@@ -48,7 +48,7 @@ SlipFunctions refined(const PointParameters& point, const PointMotion& motion) {
   const Quad sum = L1 + L2;
 
   SlipFunctions w;
-  w.mean_load = static_cast<double>(n0);
+  w.bias_load = static_cast<double>(n0);
   w.load_amplitude = static_cast<double>(B);
   w.above_open = static_cast<double>(B + n0);
   w.below_closed = static_cast<double>(B - n0);
@@ -81,12 +81,12 @@ SlipFunctions slip_functions(const PointParameters& point, const PointMotion& mo
   const double v_amplitude = length(motion.v_sin, motion.v_cos);
 
   SlipFunctions w;
-  // Rounded once: a mean approach that nearly cancels the preload keeps all its digits.
-  w.mean_load = std::fma(kv, motion.v_mean, point.preload);
+  // Rounded once: a mean approach that nearly cancels the rest load keeps all its digits.
+  w.bias_load = std::fma(kv, motion.v_mean, point.rest_load);
   w.load_amplitude = kv * v_amplitude;
-  w.above_open = w.load_amplitude + w.mean_load;
-  w.below_closed = w.load_amplitude - w.mean_load;
-  w.limit = point.friction_coefficient * w.mean_load;
+  w.above_open = w.load_amplitude + w.bias_load;
+  w.below_closed = w.load_amplitude - w.bias_load;
+  w.limit = point.friction_coefficient * w.bias_load;
   w.positive = length(as - bs, ac - bc);
   w.negative = length(as + bs, ac + bc);
   const double sum = w.positive + w.negative;

@@ -24,7 +24,7 @@ struct Direction {
 };
 
 struct SlipFunctions {
-  double mean_load = 0.0;       ///< n₀
+  double bias_load = 0.0;       ///< n₀
   double load_amplitude = 0.0;  ///< B ≥ 0
   double above_open = 0.0;      ///< B + n₀; ≤ 0: separated for good
   double below_closed = 0.0;    ///< B − n₀; ≤ 0: never separated

@@ -29,10 +29,10 @@ RestingPoints at_rest(const ContactPatch& patch) {
     const PointParameters& point = patch.points()[static_cast<std::size_t>(i)];
     const double k_u = point.friction_coefficient > 0.0 ? point.tangential_stiffness : 0.0;
     const Eigen::Vector3d stiffness(k_u, point.normal_stiffness, 0.0);
-    points.load_at_rest[i] = std::max(point.preload, 0.0);
+    points.reference_load[i] = std::max(point.rest_load, 0.0);
     points.stuck_stiffness.row(i) = stiffness.transpose();
     points.ranges.emplace_back(
-        LinearRange{stiffness, point.preload, FrictionLaw::constant(point.friction_coefficient)});
+        LinearRange{stiffness, point.rest_load, FrictionLaw::constant(point.friction_coefficient)});
   }
   return points;
 }
@@ -64,11 +64,11 @@ struct BlockForces {
   bool any_contact = false;
   bool any_coupling = false;  // friction depends on v
 
-  void set(std::size_t i, double weight, double load_at_rest, const CycleForce& force) {
+  void set(std::size_t i, double weight, double reference_load, const CycleForce& force) {
     const ForceCoefficients& f = force.friction;
     const ForceCoefficients& n = force.normal;
     fill(friction, i, weight, {f.mean, f.sin, f.cos});
-    fill(normal, i, weight, {n.mean - load_at_rest, n.sin, n.cos});
+    fill(normal, i, weight, {n.mean - reference_load, n.sin, n.cos});
     const auto& u = force.friction_by_u;
     fill(friction_by_u, i, weight,
          {force.mean_by_u_mean, u[0][0], u[0][1], u[1][0], u[1][1], u[2][0], u[2][1]});
@@ -110,7 +110,7 @@ struct ModalSums {
 void add_block(ModalSums& sums, std::size_t n_modes, std::size_t n_points, const double* phi_u,
                const double* phi_v, const BlockForces& forces, bool derivatives) {
   const BlockKernels& kernels = block_kernels();
-  // The normal force counts even where nothing touches: a preload that is gone.
+  // The normal force counts even where nothing touches: a rest load that is gone.
   kernels.add_force(n_modes, n_points, phi_v, forces.normal[0].data(), sums.force.data());
   if (!forces.any_contact) {
     return;
@@ -191,7 +191,7 @@ ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& aske
       const SlipFunctions w = slip_functions(point, at);
       const CycleRegime regime = cycle_regime(w);
       const CyclePhases phases = cycle_phases(w, regime);
-      forces.set(i, points().weights[block[i]], points().load_at_rest[block[i]],
+      forces.set(i, points().weights[block[i]], points().reference_load[block[i]],
                  cycle_force(point, at, w, regime, phases));
       keep(block[i], cycle_states(regime, phases));
     }

@@ -12,7 +12,7 @@ RestingPoints at_rest(Eigen::VectorXd weights,
   RestingPoints points{std::move(weights), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}};
   for (Eigen::Index i = 0; i < n; ++i) {
     const PointMethod& method = *methods[static_cast<std::size_t>(i)];
-    points.load_at_rest[i] = method.load_at_rest();
+    points.reference_load[i] = method.reference_load();
     points.stuck_stiffness.row(i) = method.stuck_stiffness().transpose();
     points.ranges.push_back(method.linear_range());
   }
@@ -39,7 +39,7 @@ ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& as
     motion().copy(i, point_motion_);
     traction_.defect = 0.0;  // a method that is exact does not mention it
     method.traction(point_motion_, frequency, traction_);
-    sum_.add(i, points().weights[i], points().load_at_rest[i], traction_);
+    sum_.add(i, points().weights[i], points().reference_load[i], traction_);
     keep(i, {traction_.regime, traction_.period});
   }
   return sum_.take();
@@ -52,7 +52,7 @@ ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics
     motion().copy(i, point_motion_);
     Harmonics force =
         methods_[static_cast<std::size_t>(i)]->force_up_to(point_motion_, frequency, n_harmonics);
-    force.rows()(0, 1) -= points().load_at_rest[i];
+    force.rows()(0, 1) -= points().reference_load[i];
     for (std::size_t s = 0; s < shape_.size(); ++s) {
       result.force.rows() +=
           points().weights[i] * force.rows().col(static_cast<Eigen::Index>(s)) * shape_[s]->row(i);

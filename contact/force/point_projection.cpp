@@ -53,7 +53,7 @@ void PointProjection::start(const std::vector<const Eigen::MatrixXd*>& shapes, i
   by_frequency_sum_ = Harmonics(n_harmonics, N);
 }
 
-void PointProjection::add(Eigen::Index point, double weight, double load_at_rest,
+void PointProjection::add(Eigen::Index point, double weight, double reference_load,
                           const PointTraction& traction) {
   double shape = 0.0;
   for (std::size_t s = 0; s < size_.n_signals; ++s) {
@@ -64,7 +64,7 @@ void PointProjection::add(Eigen::Index point, double weight, double load_at_rest
     }
   }
   if (traction.defect > 0.0) defect_ += weight * traction.defect * std::sqrt(shape);
-  add_forces(weight, load_at_rest, traction);
+  add_forces(weight, reference_load, traction);
   if (size_.n_rows > 0) {
     const bool touches = traction.regime != CycleRegime::separated;
     any_jacobian_ = any_jacobian_ || touches;
@@ -79,7 +79,7 @@ void PointProjection::add(Eigen::Index point, double weight, double load_at_rest
   if (n_waiting_ == block_points * size_.n_signals) flush();
 }
 
-void PointProjection::add_forces(double weight, double load_at_rest,
+void PointProjection::add_forces(double weight, double reference_load,
                                  const PointTraction& traction) {
   const bool depends = !traction.frequency_derivative.isZero(0.0);
   if (depends && !depends_on_frequency_) std::fill(by_frequency_.begin(), by_frequency_.end(), 0.0);
@@ -88,7 +88,7 @@ void PointProjection::add_forces(double weight, double load_at_rest,
   for (std::size_t s = 0; s < size_.n_signals; ++s) {
     double* row = force_.data() + (n_waiting_ + s) * n_all_;
     for (std::size_t k = 0; k < n_all_; ++k) row[k] = weight * force[n_point_signals * k + s];
-    if (s == 1) row[0] = weight * (force[1] - load_at_rest);
+    if (s == 1) row[0] = weight * (force[1] - reference_load);
     if (!depends_on_frequency_) continue;
     double* derivative = by_frequency_.data() + (n_waiting_ + s) * n_all_;
     for (std::size_t k = 0; k < n_all_; ++k) {

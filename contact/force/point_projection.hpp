@@ -23,12 +23,12 @@ class PointProjection {
   /// @param rows    harmonic rows of the derivatives, ascending.
   void start(const std::vector<const Eigen::MatrixXd*>& shapes, int n_harmonics,
              const std::vector<Eigen::Index>& rows);
-  void add(Eigen::Index point, double weight, double load_at_rest, const PointTraction& traction);
+  void add(Eigen::Index point, double weight, double reference_load, const PointTraction& traction);
   [[nodiscard]] ForceAndJacobian take();
 
  private:
   void gather(double weight, const Eigen::MatrixXd& jacobian);
-  void add_forces(double weight, double load_at_rest, const PointTraction& traction);
+  void add_forces(double weight, double reference_load, const PointTraction& traction);
   void flush();
   [[nodiscard]] double* phi(std::size_t row) { return phi_.data() + row * size_.phi_stride; }
 

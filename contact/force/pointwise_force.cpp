@@ -13,7 +13,7 @@ namespace {
 void check(const RestingPoints& points, const ModalShapes& shapes) {
   const Eigen::Index n = points.weights.size();
   const bool whole = static_cast<Eigen::Index>(points.ranges.size()) == n &&
-                     points.load_at_rest.size() == n && points.stuck_stiffness.rows() == n;
+                     points.reference_load.size() == n && points.stuck_stiffness.rows() == n;
   if (n < 1 || !whole) {
     throw std::invalid_argument("contact force: " + std::to_string(n) + " weights for " +
                                 std::to_string(points.ranges.size()) + " points");
@@ -43,7 +43,7 @@ void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harm
 PointwiseForce::PointwiseForce(RestingPoints points, ModalShapes&& shapes)
     : ModalForce(shapes.u.cols()), points_(std::move(points)), shapes_(std::move(shapes)) {
   check(points_, shapes_);
-  sleep_ = SleepingSet(points_.weights, points_.load_at_rest, points_.ranges, shapes_);
+  sleep_ = SleepingSet(points_.weights, points_.reference_load, points_.ranges, shapes_);
   cycles_.resize(points_.ranges.size());
 }
 

@@ -20,7 +20,7 @@ namespace microslip::contact {
 /// What is known of the points of a patch before they move; n of each.
 struct RestingPoints {
   Eigen::VectorXd weights;                         ///< area [m²], ≥ 0
-  Eigen::VectorXd load_at_rest;                    ///< n_ref [Pa]
+  Eigen::VectorXd reference_load;                  ///< n_ref [Pa]
   Eigen::MatrixX3d stuck_stiffness;                ///< along p, q, r [N/m³]
   std::vector<std::optional<LinearRange>> ranges;  ///< none: always evaluated
 };

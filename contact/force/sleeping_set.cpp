@@ -41,10 +41,10 @@ void PatchMotion::copy(Eigen::Index point, Harmonics& result) const {
   if (w.size() > 0) result.rows().col(2) = w.row(point).transpose();
 }
 
-SleepingSet::SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
+SleepingSet::SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd reference_load,
                          std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes)
     : weights_(std::move(weights)),
-      load_at_rest_(std::move(load_at_rest)),
+      reference_load_(std::move(reference_load)),
       range_(std::move(ranges)) {
   const Eigen::Index n = weights_.size();
   group_ = std::max(smallest_group, (n + largest_n_groups - 1) / largest_n_groups);
@@ -106,8 +106,8 @@ void SleepingSet::add_point(Eigen::Index point, const ModalShapes& shapes, Sleep
   const auto i = static_cast<std::size_t>(point);
   const double weight = weights_[point];
   if (state_[i] == SleepState::awake || weight == 0.0) return;
-  const double load = state_[i] == SleepState::stuck ? range_[i]->gap_load : 0.0;
-  part.mean += weight * (load - load_at_rest_[point]) * shapes.v.row(point).transpose();
+  const double load = state_[i] == SleepState::stuck ? range_[i]->rest_load : 0.0;
+  part.mean += weight * (load - reference_load_[point]) * shapes.v.row(point).transpose();
   if (state_[i] == SleepState::open) return;
   const Eigen::Vector3d& k = range_[i]->stiffness;
   const auto add = [&](double stiffness, const Eigen::MatrixXd& phi) {
@@ -140,8 +140,8 @@ LinearState SleepingSet::linear_state(const ModalShapes& shapes, const Harmonics
     const LinearReserve reserve = reserve_of_ball(*range, sizes, centre.n_harmonics(), radius);
     const SleepState state = sleep_state(*range, motion.of(i), table, 0.0, reserve);
     const bool any_speed = !range->friction.is_rate_dependent();
-    stuck = stuck && any_speed && state == SleepState::stuck && range->gap_load >= 0.0;
-    open = open && state == SleepState::open && load_at_rest_[i] == 0.0;
+    stuck = stuck && any_speed && state == SleepState::stuck && range->rest_load >= 0.0;
+    open = open && state == SleepState::open && reference_load_[i] == 0.0;
   }
   if (stuck) return LinearState::stuck;
   return open ? LinearState::free : LinearState::unknown;

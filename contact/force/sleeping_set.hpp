@@ -40,14 +40,14 @@ struct PatchMotion {
 /// (1): the same linear law on every harmonic, and a constant mean.
 struct SleepingPart {
   Eigen::MatrixXd stiffness;  ///< K [1/s²], n_modes × n_modes
-  Eigen::VectorXd mean;  ///< g: of preloads that are gone, and of gaps that are closed [N/√kg]
+  Eigen::VectorXd mean;  ///< g: of rest loads that are gone, and of gaps that are closed [N/√kg]
 };
 
 class SleepingSet {
  public:
   SleepingSet() = default;
   /// All of the same size n. @param ranges  none: the point is always evaluated.
-  SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd load_at_rest,
+  SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd reference_load,
               std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
 
   /// Decides for this motion. @param shapes  those of the constructor, here and below.
@@ -62,7 +62,7 @@ class SleepingSet {
   [[nodiscard]] const SleepingPart* part() const;
 
   /// Whether the patch answers every motion of a ball like a linear spring through the origin: all points stuck with
-  /// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A preload that the mean motion takes away, or a gap that it closes,
+  /// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion takes away, or a gap that it closes,
   /// leaves a constant force: unknown. Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not
   /// count.
   /// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
@@ -75,7 +75,7 @@ class SleepingSet {
   void add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part);
 
   Eigen::VectorXd weights_;
-  Eigen::VectorXd load_at_rest_;
+  Eigen::VectorXd reference_load_;
   std::vector<std::optional<LinearRange>> range_;
   PhaseTable table_;        // for the harmonics of the motion
   Eigen::Index group_ = 0;  // points of a group

@@ -91,7 +91,7 @@ PointInstant event_instant(const PointParameters& point, const Harmonics& motion
   PointInstant now;
   now.state = segment.state;
   now.motion = motion.at(phase);
-  const double load = std::max(0.0, point.preload + point.normal_stiffness * now.motion[1]);
+  const double load = std::max(0.0, point.rest_load + point.normal_stiffness * now.motion[1]);
   const double limit = point.friction_coefficient * load;
   double friction = 0.0;
   if (segment.state == ContactState::positive_slip) {

@@ -14,8 +14,8 @@ void set_event_guards(const PointParameters& point, const Harmonics& motion, Eve
        {&guards.spring, &guards.load, &guards.positive, &guards.negative}) {
     p->reset(degree);
   }
-  // Rounded once: a mean approach that nearly cancels the preload keeps all its digits.
-  guards.load.set_mean(std::fma(k_v, rows(0, 1), point.preload));
+  // Rounded once: a mean approach that nearly cancels the rest load keeps all its digits.
+  guards.load.set_mean(std::fma(k_v, rows(0, 1), point.rest_load));
   guards.limit = point.friction_coefficient * guards.load.mean();
   guards.spring_mean = k_u * rows(0, 0);
   for (int h = 1; h <= degree; ++h) {

@@ -65,10 +65,10 @@ Eigen::Vector3d LineEvents::stuck_stiffness() const {
 }
 
 std::optional<LinearRange> LineEvents::linear_range() const {
-  return LinearRange{stuck_stiffness(), point_.preload,
+  return LinearRange{stuck_stiffness(), point_.rest_load,
                      FrictionLaw::constant(point_.friction_coefficient)};
 }
 
-double LineEvents::load_at_rest() const { return std::max(point_.preload, 0.0); }
+double LineEvents::reference_load() const { return std::max(point_.rest_load, 0.0); }
 
 }  // namespace microslip::contact

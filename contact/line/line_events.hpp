@@ -33,7 +33,7 @@ class LineEvents final : public PointMethod {
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   /// (k_u or 0, k_v, 0).
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
-  [[nodiscard]] double load_at_rest() const override;
+  [[nodiscard]] double reference_load() const override;
   [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 
  private:

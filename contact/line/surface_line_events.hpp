@@ -37,7 +37,7 @@ class SurfaceLineEvents final : public PointMethod {
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
-  [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
+  [[nodiscard]] double reference_load() const override { return law_.reference_load(); }
   /// That of the surfaces, without motion along r. Rough surfaces: only where open.
   [[nodiscard]] std::optional<LinearRange> linear_range() const override;
 

@@ -28,8 +28,8 @@ void require_valid(const PointParameters& p, double weight, std::size_t i) {
   require_not_negative("tangential_stiffness", i, p.tangential_stiffness);
   require_not_negative("normal_stiffness", i, p.normal_stiffness);
   require_not_negative("friction_coefficient", i, p.friction_coefficient);
-  if (!std::isfinite(p.preload)) {
-    refuse("preload", i, p.preload, "finite");
+  if (!std::isfinite(p.rest_load)) {
+    refuse("preload", i, p.rest_load, "finite");
   }
 }
 

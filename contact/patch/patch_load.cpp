@@ -53,8 +53,8 @@ PreloadEquilibrium equilibrium(const Patch& patch, const TiltedArea& area,
   }
 }
 
-/// What a law needs as preload to rest at an approach.
-double pressure_at(const SurfaceLaw& law, double approach) {
+/// The rest load with which a law is at rest at an approach.
+double rest_load_at(const SurfaceLaw& law, double approach) {
   const double load = law.at(approach, 0.0).load;
   return load > 0.0 ? load : law.point().normal_stiffness * approach;
 }
@@ -109,7 +109,7 @@ Eigen::VectorXd tilted_pressures(const Patch& patch, const TiltedArea& area,
   Eigen::VectorXd pressure(p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     const double approach = rest.approach + p[i] * rest.rotation_y - r[i] * rest.rotation_z;
-    pressure[i] = pressure_at(laws[static_cast<std::size_t>(i)], approach);
+    pressure[i] = rest_load_at(laws[static_cast<std::size_t>(i)], approach);
   }
   return pressure;
 }
@@ -118,16 +118,16 @@ std::vector<PointParameters> point_parameters(const Patch& patch, const PatchSam
                                               const ContactEffects& effects,
                                               const PatchLoad& load) {
   const auto& stiffness = samples.stiffness;
-  Eigen::VectorXd preload = pressures(samples.preload, stiffness.col(1), load);
+  Eigen::VectorXd pressure = pressures(samples.preload_field, stiffness.col(1), load);
   for (const TiltedArea& area : patch.tilted_areas) {
     const Eigen::VectorXd tilted = tilted_pressures(patch, area, samples, load.load);
-    preload.segment(is_points(samples) ? area.begin : 0, tilted.size()) = tilted;
+    pressure.segment(is_points(samples) ? area.begin : 0, tilted.size()) = tilted;
   }
-  std::vector<PointParameters> points(static_cast<std::size_t>(preload.size()));
-  for (Eigen::Index i = 0; i < preload.size(); ++i) {
+  std::vector<PointParameters> points(static_cast<std::size_t>(pressure.size()));
+  for (Eigen::Index i = 0; i < pressure.size(); ++i) {
     points[static_cast<std::size_t>(i)] = {stiffness(i, 0),
                                            effects.normal_stiffness(stiffness(i, 1)),
-                                           samples.friction[i], preload[i]};
+                                           samples.friction[i], pressure[i]};
   }
   return points;
 }

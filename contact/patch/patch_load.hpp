@@ -1,10 +1,10 @@
 /// @file
 /// What the load of a curve is at every place of a patch, and the constants of the points under it.
 ///
-///   load ≥ 0   presses: shared by the patches, each with the shape of its preload
+///   load ≥ 0   presses: shared by the patches, each spread as its preload field
 ///   load < 0   one uniform gap −load/Σ∬k_v dA for all patches (interfaces: [response] preload)
 ///
-/// Loads measured as a scale multiply the preload of the points, gaps included.
+/// Loads measured as a scale multiply the rest loads that are given, gaps included.
 ///
 /// Where moments act beside the load two stiff bodies tilt against each other until the points, which cannot
 /// pull, carry it (theory section 12, "Preload"): points that lift off have a gap, −k_v times the opening.

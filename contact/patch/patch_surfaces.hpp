@@ -7,9 +7,9 @@
 
 namespace microslip::contact {
 
-/// Surfaces at one place with a preload of its own. The place for a friction coefficient that depends on
+/// Surfaces at one place with a rest load of its own. The place for a friction coefficient that depends on
 /// something new: its rule is a row of SurfaceRules, this hands it to the SurfaceLaw.
-/// @param point  constants, bodies in series included; its preload is taken as it is.
+/// @param point  constants, bodies in series included; its rest load is taken as it is.
 /// @param row    of the place in the samples.
 /// @throws std::invalid_argument  as SurfaceLaw.
 [[nodiscard]] SurfaceLaw surface_at(const SurfaceRules& rules, const PatchSamples& samples,

@@ -38,7 +38,7 @@ struct NormalResponse {
 };
 
 /// N_i(u) of any cell: not negative, continuous, never falling, without upper bound, 0 (or nothing to
-/// speak of) far apart. A SurfaceLaw without preload is one.
+/// speak of) far apart. A SurfaceLaw without rest load is one.
 using NormalLaw = std::function<NormalResponse(Eigen::Index cell, double approach)>;
 
 /// max(0, k_i u).   @param stiffness  k_i per weight [N/m³], n_cells, > 0 where there is weight.

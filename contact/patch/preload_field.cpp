@@ -40,7 +40,7 @@ template <typename... Parts>
 
 }  // namespace
 
-Eigen::VectorXd uniform_preload(const Eigen::VectorXd& weights, double force) {
+Eigen::VectorXd uniform_rest_load(const Eigen::VectorXd& weights, double force) {
   return Eigen::VectorXd::Constant(weights.size(), force / area_of(weights));
 }
 
@@ -49,8 +49,8 @@ double carried_force(const Eigen::VectorXd& pressure, const Eigen::VectorXd& wei
   return weights.dot(pressure.cwiseMax(0.0));
 }
 
-Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape, const Eigen::VectorXd& weights,
-                               double force) {
+Eigen::VectorXd scaled_rest_load(const Eigen::VectorXd& shape, const Eigen::VectorXd& weights,
+                                 double force) {
   const double carried = carried_force(shape, weights);
   const double integral = weights.dot(shape);
   const double size = weights.dot(shape.cwiseAbs());

@@ -1,5 +1,5 @@
 /// @file
-/// Preload of a patch as pressure per point (theory sections 2, 12): n₀' ≥ 0 presses, n₀' < 0 is a gap of
+/// How a preload is spread over a patch: the rest load of each point (theory sections 2, 12): n₀' ≥ 0 presses, n₀' < 0 is a gap of
 /// −n₀'/k_v. Values per point (an expression, a table) are scaled to a total or checked against it. The total
 /// is the normal force that is carried at rest, n_ref = max(n₀', 0) (theory section 2; as the loads of cells
 /// that have lifted off in section 12):
@@ -17,7 +17,7 @@ namespace microslip::contact {
 
 /// F over the area [Pa], n points.
 /// @throws std::invalid_argument  the weights do not sum to a positive area.
-[[nodiscard]] Eigen::VectorXd uniform_preload(const Eigen::VectorXd& weights, double force);
+[[nodiscard]] Eigen::VectorXd uniform_rest_load(const Eigen::VectorXd& weights, double force);
 
 /// ∬ max(n, 0) dA [N].
 /// @throws std::invalid_argument  sizes differ or a value is not finite.
@@ -27,8 +27,8 @@ namespace microslip::contact {
 /// @param force  [N], ≥ 0.
 /// @throws std::invalid_argument  sizes differ, a value is not finite, the force is negative, or ∬ shape dA is not
 ///         above 0 (beyond rounding): a patch that is more gap than contact; names both integrals.
-[[nodiscard]] Eigen::VectorXd scaled_preload(const Eigen::VectorXd& shape,
-                                             const Eigen::VectorXd& weights, double force);
+[[nodiscard]] Eigen::VectorXd scaled_rest_load(const Eigen::VectorXd& shape,
+                                               const Eigen::VectorXd& weights, double force);
 
 /// (1). @param relative_tolerance  of |∬ max(n, 0) dA − force| against the force.
 /// @throws std::invalid_argument  the field carries something else; names both numbers.

@@ -39,7 +39,7 @@ class PlaneEvents final : public PointMethod {
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;
-  [[nodiscard]] double load_at_rest() const override { return law_.load_at_rest(); }
+  [[nodiscard]] double reference_load() const override { return law_.reference_load(); }
   [[nodiscard]] std::optional<LinearRange> linear_range() const override {
     return law_.linear_range();
   }

@@ -72,7 +72,7 @@ PlanarPoint::PlanarPoint(const SurfaceLaw& surface, double tangential, double no
                          bool moves_along_r)
     : law(surface),
       touch(std::numeric_limits<double>::quiet_NaN()),
-      load_size(std::max(surface.load_at_rest(), std::abs(surface.point().preload))),
+      load_size(std::max(surface.reference_load(), std::abs(surface.point().rest_load))),
       tangential_size(tangential),
       normal_size(normal),
       slides(surface.at(0.0, 0.0).friction_coefficient > 0.0) {

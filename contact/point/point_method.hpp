@@ -93,7 +93,7 @@ class PointMethod {
   /// μ = 0.
   [[nodiscard]] virtual Eigen::Vector3d stuck_stiffness() const = 0;
   /// n_ref: the load that is in balance before vibration begins [Pa].
-  [[nodiscard]] virtual double load_at_rest() const = 0;
+  [[nodiscard]] virtual double reference_load() const = 0;
   /// Where traction() is linear and need not be asked; none: unknown, evaluate.
   [[nodiscard]] virtual std::optional<LinearRange> linear_range() const { return std::nullopt; }
 };

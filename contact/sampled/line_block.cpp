@@ -40,7 +40,7 @@ void LineBlock::smooth_constants(std::span<const Eigen::Index> points) {
     simple_ = simple_ && surface.is_smooth() && !surface.is_rate_dependent();
     const PointParameters& point = surface.point();
     const bool rubs = point.tangential_stiffness > 0.0 && point.friction_coefficient > 0.0;
-    preload_[p] = point.preload;
+    rest_load_[p] = point.rest_load;
     normal_stiffness_[p] = point.normal_stiffness;
     stiffness_[p] = rubs ? point.tangential_stiffness : 0.0;
     coefficient_[p] = rubs ? point.friction_coefficient : 0.0;
@@ -59,7 +59,7 @@ bool LineBlock::touches() {
 
 void LineBlock::march_smooth() {
   const std::size_t n = instants_->size();
-  const SmoothArrays constants{preload_.data(), normal_stiffness_.data(),
+  const SmoothArrays constants{rest_load_.data(), normal_stiffness_.data(),
                                compliant_friction_.data(), stiffness_.data()};
   line_kernels().load(n, constants, v_.data(), closeness_.data(), normal_.data(),
                       half_width_.data());

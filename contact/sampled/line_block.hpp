@@ -55,7 +55,7 @@ class LineBlock {
   std::vector<double> u_, v_, rate_, closeness_, half_width_, normal_, low_, high_, turns_, landed_,
       slider_, friction_, state_;
   std::vector<double> friction_sums_, normal_sums_;
-  std::array<double, block_size> preload_{}, normal_stiffness_{}, compliant_friction_{},
+  std::array<double, block_size> rest_load_{}, normal_stiffness_{}, compliant_friction_{},
       stiffness_{}, coefficient_{}, closeness_by_approach_{};
   std::array<std::vector<InstantSlopes>, block_size> slopes_;
   std::array<std::vector<Run>, block_size> runs_;

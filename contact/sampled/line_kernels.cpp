@@ -82,12 +82,12 @@ MICROSLIP_INLINE void analyze_all(std::size_t n, std::size_t rows, std::size_t s
 MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, const double* v,
                                double* closeness, double* normal, double* half_width) {
   for (std::size_t b = 0; b < block_size; b += pack_size) {
-    const Pack preload = pack_at(constants.preload + b);
+    const Pack rest_load = pack_at(constants.rest_load + b);
     const Pack stiffness = pack_at(constants.normal_stiffness + b);
     const Pack ratio = pack_at(constants.compliant_friction + b);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = i * block_size + b;
-      const Pack r = preload + stiffness * pack_at(v + at);
+      const Pack r = rest_load + stiffness * pack_at(v + at);
       const Pack load = larger(r, Pack{});
       pack_at(closeness + at) = r;
       pack_at(normal + at) = load;

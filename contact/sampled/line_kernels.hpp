@@ -55,7 +55,7 @@ struct LineArrays {
 
 /// Constants of smooth surfaces, block_size numbers each.
 struct SmoothArrays {
-  const double* preload = nullptr;               ///< n₀'
+  const double* rest_load = nullptr;             ///< n₀'
   const double* normal_stiffness = nullptr;      ///< k_v
   const double* compliant_friction = nullptr;    ///< μ/k_u, 0 without friction
   const double* tangential_stiffness = nullptr;  ///< k_u, 0 without friction

@@ -44,7 +44,7 @@ RestingPoints at_rest(Eigen::VectorXd weights, const std::vector<SurfaceLaw>& su
     const SurfaceLaw& surface = surfaces[static_cast<std::size_t>(i)];
     LinearRange range = surface.linear_range();
     if (!planar) range.stiffness[2] = 0.0;
-    points.load_at_rest[i] = surface.load_at_rest();
+    points.reference_load[i] = surface.reference_load();
     points.stuck_stiffness.row(i) = stuck_stiffness(surface, planar);
     points.ranges.emplace_back(range);
   }
@@ -98,7 +98,7 @@ void PatchForce::sum_plane(double frequency, bool derivatives, const Grid& grid)
         }
         of_point.normal_moments = J.normal_moments();
       }
-      projection_.add(i, points().weights[i], surface.load_at_rest(),
+      projection_.add(i, points().weights[i], surface.reference_load(),
                       {plane_.sums(0) + p, plane_.sums(1) + p, plane_.sums(2) + p}, block_size,
                       derivatives ? &of_point : nullptr);
     }
@@ -122,7 +122,8 @@ void PatchForce::sum_line(double frequency, bool derivatives, const Grid& grid) 
         const auto& surface = surfaces_[static_cast<std::size_t>(i)];
         if (surface.is_rate_dependent()) of_point.by_frequency[0] = J.by_frequency();
       }
-      projection_.add(i, points().weights[i], surfaces_[static_cast<std::size_t>(i)].load_at_rest(),
+      projection_.add(i, points().weights[i],
+                      surfaces_[static_cast<std::size_t>(i)].reference_load(),
                       {line_.friction_sums() + p, line_.normal_sums() + p, nullptr}, block_size,
                       derivatives ? &of_point : nullptr);
     }

@@ -77,7 +77,7 @@ void PlaneBlock::load_constants() {
     simple_ = simple_ && surface.is_smooth() && !surface.is_rate_dependent();
     const PointParameters& constants = surface.point();
     const bool slides = surface.is_rate_dependent() || constants.friction_coefficient > 0.0;
-    preload_[p] = constants.preload;
+    rest_load_[p] = constants.rest_load;
     normal_stiffness_[p] = constants.normal_stiffness;
     coefficient_[p] = constants.friction_coefficient;
     stiffness_p_[p] = slides ? surface.first_stiffness() : 0.0;
@@ -100,7 +100,7 @@ void PlaneBlock::load_smooth() {
     smooth_slopes(p);
   }
   line_kernels().load(
-      n, {preload_.data(), normal_stiffness_.data(), compliance_p.data(), stiffness_p_.data()},
+      n, {rest_load_.data(), normal_stiffness_.data(), compliance_p.data(), stiffness_p_.data()},
       v_.data(), closeness_.data(), normal_.data(), width_p_.data());
   for (std::size_t at = 0; at < n * block_size; at += block_size) {
     for (std::size_t p = 0; p < block_size; ++p) {

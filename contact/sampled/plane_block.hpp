@@ -90,7 +90,7 @@ class PlaneBlock {
       inverse_p_, inverse_r_, slider_p_, slider_r_, pull_p_, pull_r_, force_p_, force_r_, state_,
       entry_, turns_;
   std::array<std::vector<double>, 3> sums_;
-  std::array<double, block_size> preload_{}, normal_stiffness_{}, coefficient_{}, stiffness_p_{},
+  std::array<double, block_size> rest_load_{}, normal_stiffness_{}, coefficient_{}, stiffness_p_{},
       stiffness_r_{}, closeness_by_approach_{}, defect_{};
   PlaneArrays arrays_;
   State start_{};

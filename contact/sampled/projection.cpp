@@ -54,7 +54,7 @@ void Projection::start(const ModalShapes& shapes, const Instants& of_motion,
   sum_.assign(asked_.size() * n_modes_ * size_.stride, 0.0);
 }
 
-void Projection::add(Eigen::Index point, double weight, double load_at_rest,
+void Projection::add(Eigen::Index point, double weight, double reference_load,
                      const std::array<const double*, 3>& sums, std::size_t stride,
                      const PointDerivatives* derivatives) {
   for (std::size_t m = 0; m < n_modes_; ++m) {
@@ -74,7 +74,7 @@ void Projection::add(Eigen::Index point, double weight, double load_at_rest,
   for (std::size_t m = 0; m < n_modes_; ++m) phi[m] = weight * shape_[1][m];
   double* to = normal_.data() + n_waiting_ * force_size_.stride;
   for (std::size_t k = 0; k < force_->n_rows(); ++k) to[k] = sums[1][k * stride];
-  to[0] -= load_at_rest / force_->norm(0);
+  to[0] -= reference_load / force_->norm(0);
   if (!asked_.empty()) {
     any_derivative_ = true;
     double* pair = pairs_.data() + n_waiting_ * pair_size_.phi_stride;

@@ -34,7 +34,7 @@ class Projection {
   void start(const ModalShapes& shapes, const Instants& of_motion, const Instants& of_force,
              const std::vector<Eigen::Index>& rows);
   /// @param sums  of f_p, n and f_r or null: numbers `stride` apart, Σ_i f_i T_k.
-  void add(Eigen::Index point, double weight, double load_at_rest,
+  void add(Eigen::Index point, double weight, double reference_load,
            const std::array<const double*, 3>& sums, std::size_t stride,
            const PointDerivatives* derivatives);
   [[nodiscard]] ForceAndJacobian take();

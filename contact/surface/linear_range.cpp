@@ -70,17 +70,17 @@ double least_friction(const LinearRange& range, const PointRows& x, int n_harmon
 }
 
 // What the terms of n₀ have lost by cancelling.
-double cancelled(const LinearRange& range, const PointRows& x, double mean_load) {
-  return (std::abs(range.gap_load) + std::abs(range.stiffness[1] * x.v[0])) / std::abs(mean_load);
+double cancelled(const LinearRange& range, const PointRows& x, double bias_load) {
+  return (std::abs(range.rest_load) + std::abs(range.stiffness[1] * x.v[0])) / std::abs(bias_load);
 }
 
 bool stays_open(const LinearRange& range, const PointRows& x, const PhaseTable& table,
-                double mean_load, double reserve) {
-  const double scale = range.stiffness[1] / -mean_load;
+                double bias_load, double reserve) {
+  const double scale = range.stiffness[1] / -bias_load;
   Amplitudes load;
   add_normal(x.v, scale, table.n_harmonics, load);
   const double needed =
-      reserve / -mean_load + rounding * (1.0 + load.sum + cancelled(range, x, mean_load));
+      reserve / -bias_load + rounding * (1.0 + load.sum + cancelled(range, x, bias_load));
   if (1.0 - load.sum > needed) return true;
   const double least = needed + table.rise * load.curve;
   for (Eigen::Index j = 0; j < table.basis.cols(); ++j) {
@@ -91,10 +91,10 @@ bool stays_open(const LinearRange& range, const PointRows& x, const PhaseTable& 
 }
 
 bool stays_stuck(const LinearRange& range, const PointRows& x, const PhaseTable& table,
-                 double mean_load, double friction, double reserve) {
-  const double limit = friction * mean_load;
+                 double bias_load, double friction, double reserve) {
+  const double limit = friction * bias_load;
   if (!(limit > 0.0)) return false;
-  const double normal = range.stiffness[1] / mean_load;
+  const double normal = range.stiffness[1] / bias_load;
   const double p = range.stiffness[0] / limit;
   const double r = x.w != nullptr ? range.stiffness[2] / limit : 0.0;
   Amplitudes all;
@@ -103,7 +103,7 @@ bool stays_stuck(const LinearRange& range, const PointRows& x, const PhaseTable&
   // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): r is 0 without motion along r
   const double mean = std::hypot(p * x.u[0], r > 0.0 ? r * x.w[0] : 0.0);
   const double needed =
-      reserve / limit + rounding * (1.0 + mean + all.sum + cancelled(range, x, mean_load));
+      reserve / limit + rounding * (1.0 + mean + all.sum + cancelled(range, x, bias_load));
   if (1.0 - mean - all.sum > needed) return true;
   const double least = needed + table.rise * all.curve;
   for (Eigen::Index j = 0; j < table.basis.cols(); ++j) {
@@ -147,15 +147,15 @@ LinearReserve reserve_of_ball(const LinearRange& range, const Eigen::Vector3d& s
 
 SleepState sleep_state(const LinearRange& range, const PointRows& motion, const PhaseTable& table,
                        double frequency, const LinearReserve& reserve) {
-  const double mean_load = std::fma(range.stiffness[1], motion.v[0], range.gap_load);
-  if (mean_load < 0.0) {
-    return stays_open(range, motion, table, mean_load, reserve.open) ? SleepState::open
+  const double bias_load = std::fma(range.stiffness[1], motion.v[0], range.rest_load);
+  if (bias_load < 0.0) {
+    return stays_open(range, motion, table, bias_load, reserve.open) ? SleepState::open
                                                                      : SleepState::awake;
   }
   if (!range.sticks_linearly) return SleepState::awake;
   const double friction =
       range.rubs() ? least_friction(range, motion, table.n_harmonics, frequency) : 1.0;
-  return stays_stuck(range, motion, table, mean_load, friction, reserve.stuck) ? SleepState::stuck
+  return stays_stuck(range, motion, table, bias_load, friction, reserve.stuck) ? SleepState::stuck
                                                                                : SleepState::awake;
 }
 

@@ -32,7 +32,7 @@ struct LinearRange {
   /// k_u, k_v, k_w [N/m³]; k_u = k_w = 0 where there is no friction.
   Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
   /// n₀' [Pa]. Where the point does not stick linearly its sign and that of n₀' + k_v v matter alone.
-  double gap_load = 0.0;
+  double rest_load = 0.0;
   FrictionLaw friction = FrictionLaw::constant(0.0);  ///< μ(σ), monotone
   bool sticks_linearly =
       true;  ///< false: stiffness depends on the load; only an open point is linear

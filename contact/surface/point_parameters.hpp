@@ -9,7 +9,7 @@ struct PointParameters {
   double tangential_stiffness = 0.0;  ///< k_u [N/m³], ≥ 0
   double normal_stiffness = 0.0;      ///< k_v [N/m³], ≥ 0; 0 keeps the load constant
   double friction_coefficient = 0.0;  ///< μ [-], ≥ 0
-  double preload = 0.0;               ///< n₀' [Pa]; negative is a gap of −n₀'/k_v
+  double rest_load = 0.0;             ///< n₀' [Pa]; negative is a gap of −n₀'/k_v
 };
 
 }  // namespace microslip::contact

@@ -62,12 +62,12 @@ SurfaceLaw::SurfaceLaw(const PointParameters& point, double second_stiffness,
       compliance_ratio_(compliance_ratio("c k along q", point.normal_stiffness, series.q)),
       first_ratio_(compliance_ratio("c k along p", point.tangential_stiffness, series.p)),
       second_ratio_(compliance_ratio("c k along r", second_stiffness, series.r)) {
-  if (!std::isfinite(point.preload)) refuse("preload", point.preload, "finite");
+  if (!std::isfinite(point.rest_load)) refuse("preload", point.rest_load, "finite");
   point_.normal_stiffness /= 1.0 + compliance_ratio_;
   point_.tangential_stiffness /= 1.0 + first_ratio_;
   second_stiffness_ /= 1.0 + second_ratio_;
   point_.friction_coefficient = friction.at_rest();
-  load_at_rest_ = std::max(point.preload, 0.0);
+  reference_load_ = std::max(point.rest_load, 0.0);
   if (!roughness.has_value() || roughness->height() == 0.0) return;
   if (point.normal_stiffness == 0.0) {
     refuse("normal stiffness of rough surfaces", point.normal_stiffness, "above 0");
@@ -76,14 +76,14 @@ SurfaceLaw::SurfaceLaw(const PointParameters& point, double second_stiffness,
   if (roughness_->law() == HeightLaw::gaussian) {
     first_touch_ = roughness_->mean() - farthest_height * roughness_->deviation();
   }
-  start_at_rest(point.preload);
+  start_at_rest(point.rest_load);
 }
 
 void SurfaceLaw::start_at_rest(double pressure) {
   const double compression = pressure / local_stiffness_;
   rest_ = pressure > 0.0 ? roughness_->approach(compression) + compliance_ratio_ * compression
                          : compression * (1.0 + compliance_ratio_);
-  load_at_rest_ = at(0.0, 0.0).load;  // n − n_ref is to vanish at rest to the last bit
+  reference_load_ = at(0.0, 0.0).load;  // n − n_ref is to vanish at rest to the last bit
 }
 
 // u + γδ(u) is increasing, convex for γ > 0 and concave for γ < 0. With a start above the root in
@@ -149,7 +149,7 @@ SurfaceState SurfaceLaw::at(double approach, double rate) const {
     add_rough_state(approach, state);
     return state;
   }
-  state.gap_load = point_.preload + point_.normal_stiffness * approach;
+  state.gap_load = point_.rest_load + point_.normal_stiffness * approach;
   state.load = std::max(state.gap_load, 0.0);
   state.load_by_approach = state.gap_load > 0.0 ? point_.normal_stiffness : 0.0;
   state.load_per_ratio = state.second_load_per_ratio = state.load;
@@ -165,7 +165,7 @@ LinearRange SurfaceLaw::linear_range() const {
   }
   const bool rubs = friction_.is_rate_dependent() || friction_.at_rest() > 0.0;
   return {{rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
-          point_.preload,
+          point_.rest_load,
           friction_};
 }
 
@@ -177,7 +177,7 @@ std::vector<double> SurfaceLaw::kinks() const {
     return {first_touch_ - rest_, last + compliance_ratio_ * (last - roughness_->mean()) - rest_};
   }
   if (point_.normal_stiffness == 0.0) return {};
-  return {-point_.preload / point_.normal_stiffness};
+  return {-point_.rest_load / point_.normal_stiffness};
 }
 
 }  // namespace microslip::contact

@@ -95,7 +95,7 @@ class SurfaceLaw {
   /// k_w, likewise [N/m³].
   [[nodiscard]] double second_stiffness() const { return second_stiffness_; }
   /// n_ref = N(0) [Pa]. Gaussian heights over a gap: the little they carry there, if any.
-  [[nodiscard]] double load_at_rest() const { return load_at_rest_; }
+  [[nodiscard]] double reference_load() const { return reference_load_; }
   /// Whether μ depends on σ: then forces depend on ω.
   [[nodiscard]] bool is_rate_dependent() const { return friction_.is_rate_dependent(); }
   /// Whether g is 1 and N is piecewise linear.
@@ -127,7 +127,7 @@ class SurfaceLaw {
   double second_ratio_ = 0.0;      // along r
   double rest_ = 0.0;              // v_rest of (2) [m]
   double first_touch_ = 0.0;       // v + v_rest where contact begins [m]
-  double load_at_rest_ = 0.0;
+  double reference_load_ = 0.0;
 };
 
 }  // namespace microslip::contact

@@ -12,11 +12,11 @@
 namespace microslip::contact {
 namespace {
 
-double load_at_rest(const PointParameters& point) { return std::max(point.preload, 0.0); }
+double reference_load(const PointParameters& point) { return std::max(point.rest_load, 0.0); }
 
 /// Load without its one-sidedness.
 double signed_load(const PointParameters& point, double v) {
-  return point.preload + point.normal_stiffness * v;
+  return point.rest_load + point.normal_stiffness * v;
 }
 
 struct Tractions {
@@ -101,7 +101,7 @@ Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
     const double load = std::max(0.0, signed_load(point, normal[i]));
     const double weight = patch_.weights()[i];
     friction[i] = weight * pushed(point, memory.slider[i], friction[i], normal[i]).friction;
-    normal[i] = weight * (load - load_at_rest(point));
+    normal[i] = weight * (load - reference_load(point));
   }
   return modal_force(friction, normal);
 }
@@ -130,7 +130,7 @@ Eigen::VectorXd PatchTransient::held_force(const ModalMotion& motion,
     const Tractions held =
         held_tractions(point, memory.state[index], memory.slider[i], friction[i], normal[i]);
     friction[i] = patch_.weights()[i] * held.friction;
-    normal[i] = patch_.weights()[i] * (held.normal - load_at_rest(point));
+    normal[i] = patch_.weights()[i] * (held.normal - reference_load(point));
   }
   return modal_force(friction, normal);
 }
@@ -151,7 +151,7 @@ TransientForce::Guards PatchTransient::guards_at(Eigen::Index point, const Insta
   const double mu = p.friction_coefficient;
   const double load = signed_load(p, now.v);
   const double load_size = std::max(
-      smallest, std::abs(p.preload) + p.normal_stiffness * v_size_[point] * scale.displacement);
+      smallest, std::abs(p.rest_load) + p.normal_stiffness * v_size_[point] * scale.displacement);
   if (state == ContactState::separated) return {-load / load_size, 1.0};
   if (state == ContactState::slip) return {load / load_size, 1.0};
   if (state == ContactState::stick) {

@@ -125,7 +125,7 @@ Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
     const PlanarPointInstant now = instant_of(point, all.of(i));
-    tractions(i, 1) = -point.law.load_at_rest();
+    tractions(i, 1) = -point.law.reference_load();
     if (now.load <= 0.0) continue;
     tractions(i, 1) += now.normal;
     if (!point.rubs) continue;
@@ -173,7 +173,7 @@ Eigen::VectorXd PlanarTransient::held_force(const ModalMotion& motion,
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
     const ContactState state = memory.state[static_cast<std::size_t>(i)];
-    tractions(i, 1) = -point.law.load_at_rest();
+    tractions(i, 1) = -point.law.reference_load();
     if (state == ContactState::separated) continue;
     const PlanarPointInstant now = instant_of(point, all.of(i));
     tractions(i, 1) += now.normal;

@@ -54,7 +54,7 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
   if (source == "harmonics") {
     SceneDescription checked = scene;
     checked.settings.harmonics.checked = true;
-    check_harmonics(model, checked, std::get<double>(curve.preload), curve);
+    check_harmonics(model, checked, std::get<double>(curve.load), curve);
   }
   const CurveBudget budget = error_budget(model, scene, richer, curve);
   for (const ErrorRow& row : budget.rows) {
@@ -72,7 +72,7 @@ void climb_rung(const Rung& rung, const std::string& source, const TimedStructur
   const RicherModels richer = richer_models(model, rung.scene, structure.solved.get(), {source});
   for (const CurveRequest& request : curve_requests(rung.scene)) {
     if (interrupt_requested()) throw InterruptedError("interrupted; finished ladders are kept");
-    if (std::holds_alternative<LimitName>(request.preload)) continue;
+    if (std::holds_alternative<LimitName>(request.load)) continue;
     const Stopwatch watch;
     CurveResult curve =
         trace_curve(model, rung.scene, request, [](const auto&) { return !interrupt_requested(); });

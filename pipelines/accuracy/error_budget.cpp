@@ -115,7 +115,7 @@ bool CurveBudget::has_bar() const {
 CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                          const RicherModels& richer, const CurveResult& result) {
   CurveBudget budget;
-  const auto* load = std::get_if<double>(&result.preload);
+  const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
   if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0)) {
     return budget;

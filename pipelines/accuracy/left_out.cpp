@@ -100,7 +100,7 @@ Changes changes_with(const solver::Scene& own, const solver::Scene& with,
 
 std::vector<ErrorRow> rows_left_out(const ReducedModel& model, const SceneDescription& scene,
                                     const CurveResult& result) {
-  const auto* load = std::get_if<double>(&result.preload);
+  const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
   if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0))
     return {};

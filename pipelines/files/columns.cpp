@@ -252,7 +252,7 @@ constexpr std::array sample_table{
     Fields{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>},
     Fields{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>},
     Fields{"preload", "Pa", "at unit load: 1 N over the patch, or as given; negative: a gap",
-           [](const PatchSamples& s) { return s.preload; }},
+           [](const PatchSamples& s) { return s.preload_field; }},
 };
 
 using Shapes = Dataset<PatchSamples, Eigen::MatrixXd>;

@@ -17,10 +17,10 @@ namespace microslip::pipelines {
 [[nodiscard]] ContactEffects contact_effects(const ReducedModel& model,
                                              const SceneDescription& scene);
 
-/// The contact of a model under a preload: what the solver, integration in time and maps ask.
+/// The contact of a model under the load of a curve: what the solver, integration in time and maps ask.
 /// @param model  with patches; borrowed.
 /// @param load   by the measure of the model: the total normal force [N] (negative: a uniform gap
-///               −load/∬k_v dA), or a factor on the preload of the points.
+///               −load/∬k_v dA), or a factor on the rest loads that are given.
 /// @throws RefusedError  no such load.
 [[nodiscard]] contact::ContactForce contact_of(const ReducedModel& model, double load);
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "pipelines/model/preload_of.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines {
@@ -52,8 +52,8 @@ SceneDescription with_stiffness_keys(const SceneDescription& scene, double facto
 
 ReducedModel with_point_stiffness(ReducedModel model, double factor, double load) {
   for (contact::Patch& patch : model.patches) {
-    for (double& preload : patch.cells.preload) {
-      if (load * preload < 0.0) preload *= factor;
+    for (double& rest_load : patch.cells.preload_field) {
+      if (load * rest_load < 0.0) rest_load *= factor;
     }
     multiply_local_stiffness(patch.cells, factor);
     multiply_local_stiffness(patch.vertices, factor);

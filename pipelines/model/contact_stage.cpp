@@ -10,8 +10,8 @@
 
 #include "contact/patch/modal_contact_field.hpp"
 #include "pipelines/effect_table.hpp"
+#include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/nodal_load.hpp"
-#include "pipelines/model/preload_shape.hpp"
 #include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -136,7 +136,7 @@ void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
   set(patch.vertices, sampling.to_vertices);
 }
 
-/// Friction coefficient and preload of 1 N over the patch, in p and r from its centroid.
+/// Friction coefficient and preload field over the patch, in p and r from its centroid.
 void set_fields(contact::Patch& patch, const ContactDescription& contact) {
   const Eigen::Vector3d origin = contact::centroid(patch);
   const auto centres = in_plane(patch.cells.points, origin, patch.frame);
@@ -147,9 +147,9 @@ void set_fields(contact::Patch& patch, const ContactDescription& contact) {
     patch.tilted_areas.push_back(
         {contact.key + ".preload_moment", 0, centres.p, centres.r, 1.0, contact.preload_moment});
   }
-  patch.cells.preload = unit_preload(contact, centres.p, centres.r, patch.cells.weights);
+  patch.cells.preload_field = preload_field_of(contact, centres.p, centres.r, patch.cells.weights);
   if (!contact.preload_field) {
-    patch.vertices.preload =
+    patch.vertices.preload_field =
         Eigen::VectorXd::Constant(vertices.p.size(), 1.0 / patch.cells.weights.sum());
     return;
   }
@@ -157,8 +157,8 @@ void set_fields(contact::Patch& patch, const ContactDescription& contact) {
   const Eigen::VectorXd shape = field.at(centres.p, centres.r);
   Eigen::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
-  patch.vertices.preload =
-      field.at(vertices.p, vertices.r) * (patch.cells.preload[largest] / shape[largest]);
+  patch.vertices.preload_field =
+      field.at(vertices.p, vertices.r) * (patch.cells.preload_field[largest] / shape[largest]);
 }
 
 /// Rough surfaces change their part of the stiffness alone: it must be known.
@@ -334,13 +334,13 @@ ReducedModel reduced_model(const SceneDescription& scene) {
   }
   cells.stiffness.resize(n, 3);
   cells.friction.resize(n);
-  cells.preload.resize(n);
+  cells.preload_field.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const contact::PointParameters& point = modal.points[static_cast<std::size_t>(i)];
     cells.stiffness.row(i) << point.tangential_stiffness, point.normal_stiffness,
         point.tangential_stiffness;
     cells.friction[i] = point.friction_coefficient;
-    cells.preload[i] = point.preload;
+    cells.preload_field[i] = point.rest_load;
   }
   if (modal.second_stiffness.size() == n) cells.stiffness.col(2) = modal.second_stiffness;
   return model;

@@ -100,7 +100,7 @@ bool is_one_frequency(const SceneDescription& scene) {
 double n_curves(const SceneDescription& scene) {
   return static_cast<double>(std::ranges::count_if(
       curve_requests(scene),
-      [](const CurveRequest& one) { return !std::holds_alternative<LimitName>(one.preload); }));
+      [](const CurveRequest& one) { return !std::holds_alternative<LimitName>(one.load); }));
 }
 
 /// Of the harmonics of one curve (response_stage.hpp).

@@ -94,7 +94,7 @@ EffectDecision separation(const EffectFacts& facts) {
 }
 
 EffectDecision mean_coupling(const EffectFacts& facts) {
-  return with_normal_motion(facts, "the mean approach changes the load", &ContactReach::mean_load);
+  return with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
 }
 
 bool has_both_directions(const SceneDescription& scene, double motion_ratio) {

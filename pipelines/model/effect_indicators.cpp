@@ -10,8 +10,8 @@
 
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/linear_limits.hpp"
-#include "pipelines/model/preload_of.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -140,15 +140,15 @@ std::vector<LimitMotion> limit_motions(const ReducedModel& model, const SceneDes
 }
 
 /// What one motion does at one point.
-void add_point(const contact::PatchSamples& cells, Eigen::Index i, double preload,
+void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_load,
                const LimitMotion& motion, const PointMotions& at, ContactReach& reach) {
   const Eigen::RowVector3d largest = at.amplitude.row(i) + at.mean.row(i);
   const Eigen::RowVector3d force = cells.stiffness.row(i).cwiseProduct(largest);
   // A limit without bound moves everything without bound.
   const bool bounded = force.allFinite();
   const double change = bounded ? force[1] : unlimited;
-  const double load = ratio(change, std::abs(preload));
-  const bool loaded = preload > 0.0;
+  const double load = ratio(change, std::abs(rest_load));
+  const bool loaded = rest_load > 0.0;
   if (motion.stuck == loaded) {
     reach.nearby = std::max(reach.nearby, load);
     if (motion.in_range && (load > 1.0 || !loaded)) reach.slip = std::max(reach.slip, load);
@@ -156,10 +156,10 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double preloa
   if (!motion.in_range) return;
   reach.load = std::max(reach.load, load);
   const double mean = cells.stiffness(i, 1) * at.mean(i, 1);
-  const double drift = ratio(std::isfinite(mean) ? mean : unlimited, std::abs(preload));
-  reach.mean_load = std::max(reach.mean_load, drift + std::max(0.0, load - 1.0));
+  const double drift = ratio(std::isfinite(mean) ? mean : unlimited, std::abs(rest_load));
+  reach.bias_load = std::max(reach.bias_load, drift + std::max(0.0, load - 1.0));
   if (!motion.stuck || !loaded || cells.friction[i] == 0.0) return;
-  const double held = std::max(0.0, cells.friction[i] * (preload - change));
+  const double held = std::max(0.0, cells.friction[i] * (rest_load - change));
   reach.slip =
       std::max(reach.slip, ratio(bounded ? std::hypot(force[0], force[2]) : unlimited, held));
 }
@@ -173,8 +173,8 @@ ContactReach reach_under(const ReducedModel& model, const std::vector<LimitMotio
     const auto& points = contact.points(k);
     for (const LimitMotion& motion : motions) {
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
-        add_point(cells, i, points[static_cast<std::size_t>(i)].preload, motion, motion.patches[k],
-                  reach);
+        add_point(cells, i, points[static_cast<std::size_t>(i)].rest_load, motion,
+                  motion.patches[k], reach);
       }
     }
   }
@@ -185,8 +185,8 @@ ContactReach reach_under(const ReducedModel& model, const std::vector<LimitMotio
 std::vector<double> loads_of(const ReducedModel& model, const SceneDescription& scene) {
   std::vector<double> loads;
   for (const CurveRequest& request : curve_requests(scene)) {
-    const auto preload = preload_of(request, model);
-    if (const auto* load = std::get_if<double>(&preload)) loads.push_back(*load);
+    const auto asked = load_of(request, model);
+    if (const auto* load = std::get_if<double>(&asked)) loads.push_back(*load);
   }
   const auto& optimum = scene.response->optimum;
   if (!optimum) return loads;
@@ -200,7 +200,7 @@ std::vector<double> loads_of(const ReducedModel& model, const SceneDescription& 
 }
 
 ContactReach larger(const ContactReach& a, const ContactReach& b) {
-  return {std::max(a.slip, b.slip), std::max(a.load, b.load), std::max(a.mean_load, b.mean_load),
+  return {std::max(a.slip, b.slip), std::max(a.load, b.load), std::max(a.bias_load, b.bias_load),
           std::max(a.nearby, b.nearby)};
 }
 

@@ -19,7 +19,7 @@ struct ContactReach {
   double slip = 0.0;
   /// Change of the load k_v|v| over the load, or over that which would close the gap.
   double load = 0.0;
-  double mean_load = 0.0;  ///< the same of the mean: static forces, and what opening adds to it
+  double bias_load = 0.0;  ///< the same of the mean: static forces, and what opening adds to it
   /// As `load`: of loaded points at resonances of the stuck, of open ones at those of the free structure, whose way from one
   /// limit to the other leads through the range.
   double nearby = 0.0;

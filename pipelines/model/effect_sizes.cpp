@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipelines/model/preload_of.hpp"
+#include "pipelines/model/curve_load.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -16,7 +16,7 @@ double force_at_unit_load(const ReducedModel& model) {
   if (in_newtons(model)) return 1.0;
   double force = 0.0;
   for (const contact::Patch& patch : model.patches) {
-    force += patch.cells.preload.cwiseMax(0.0).dot(patch.cells.weights);
+    force += patch.cells.preload_field.cwiseMax(0.0).dot(patch.cells.weights);
   }
   return force;
 }
@@ -25,8 +25,8 @@ double force_at_unit_load(const ReducedModel& model) {
 double smallest_force(const ReducedModel& model, const SceneDescription& scene) {
   double smallest = no_limit;
   for (const CurveRequest& request : curve_requests(scene)) {
-    if (std::holds_alternative<UniformGap>(request.preload)) continue;
-    const auto* load = std::get_if<double>(&request.preload);
+    if (std::holds_alternative<UniformGap>(request.load)) continue;
+    const auto* load = std::get_if<double>(&request.load);
     if (load != nullptr && *load > 0.0) smallest = std::min(smallest, *load);
   }
   return std::isfinite(smallest) ? smallest * force_at_unit_load(model) : 0.0;

@@ -31,7 +31,7 @@ struct ReducedModel {
   contact::MotionCoordinates coordinates;  ///< of the patches, where forces are sampled in time
 };
 
-/// Whether the loads of its curves are normal forces in newtons, not factors on the preload of the points.
+/// Whether the loads of its curves are normal forces in newtons, not factors on the rest loads that are given.
 [[nodiscard]] inline bool in_newtons(const ReducedModel& model) {
   return std::ranges::all_of(model.patches, [](const contact::Patch& patch) {
     return patch.load_measure == contact::LoadMeasure::force;

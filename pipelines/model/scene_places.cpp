@@ -12,8 +12,8 @@
 #include "mesh/surface.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/import/step_mesh.hpp"
+#include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/preload_shape.hpp"
 
 namespace microslip::pipelines {
 namespace {

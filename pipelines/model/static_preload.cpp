@@ -200,8 +200,8 @@ void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const Scene
     contact::Patch& patch = model.patches[i];
     const double k = *scene.contacts[i].normal_stiffness;
     patch.load_share = 1.0;
-    patch.cells.preload = unit * rest_load(patches[i].cells, k, patch.cells.stiffness.col(1));
-    patch.vertices.preload =
+    patch.cells.preload_field = unit * rest_load(patches[i].cells, k, patch.cells.stiffness.col(1));
+    patch.vertices.preload_field =
         unit * rest_load(patches[i].vertices, k, patch.vertices.stiffness.col(1));
   }
 }

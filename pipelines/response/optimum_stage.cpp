@@ -38,7 +38,7 @@ solver::OptimumOptions optimum_options(const SceneDescription& scene) {
   } else {
     options.lower = std::numeric_limits<double>::infinity();
     for (const CurveRequest& request : curve_requests(scene)) {
-      const auto* load = std::get_if<double>(&request.preload);
+      const auto* load = std::get_if<double>(&request.load);
       if (load == nullptr || *load <= 0.0) continue;
       options.lower = std::min(options.lower, *load);
       options.upper = std::max(options.upper, *load);

@@ -12,8 +12,8 @@
 
 #include "contact/dense.hpp"
 #include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/effect_choice.hpp"
-#include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/time_response.hpp"
@@ -166,8 +166,8 @@ void require_loads(const ReducedModel& model, const SceneDescription& scene) {
       model.patches, [](const contact::Patch& patch) { return !patch.tilted_areas.empty(); });
   if (!tilts) return;
   for (const CurveRequest& request : curve_requests(scene)) {
-    const auto preload = preload_of(request, model);
-    const auto* load = std::get_if<double>(&preload);
+    const auto asked = load_of(request, model);
+    const auto* load = std::get_if<double>(&asked);
     if (load != nullptr) static_cast<void>(contact_of(model, *load));
   }
   const auto& optimum = scene.response->optimum;
@@ -180,8 +180,8 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene) {
   require_loads(model, scene);
   const bool in_time = scene.response->method == ResponseDescription::Method::time;
   for (const CurveRequest& request : curve_requests(scene)) {
-    const auto preload = preload_of(request, model);
-    if (const auto* load = std::get_if<double>(&preload); load != nullptr && in_time) {
+    const auto asked = load_of(request, model);
+    if (const auto* load = std::get_if<double>(&asked); load != nullptr && in_time) {
       require_steps(integrated_scene(model, *scene.response, *load), *scene.response);
     }
   }
@@ -294,9 +294,9 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   solver::ContinuationOptions options = continuation_options(scene, model);
   CurveResult result;
   result.name = request.name;
-  result.preload = preload_of(request, model);
-  result.gap = gap_of(result.preload, model);
-  if (const auto* limit = std::get_if<LimitName>(&result.preload)) {
+  result.load = load_of(request, model);
+  result.gap = gap_of(result.load, model);
+  if (const auto* limit = std::get_if<LimitName>(&result.load)) {
     options.residual_tolerance =
         solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
     options.corrector = solver::ContinuationOptions::Corrector::newton;
@@ -307,7 +307,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
     add_limit_shares(model, result);
     return result;
   }
-  const double load = std::get<double>(result.preload);
+  const double load = std::get<double>(result.load);
   if (scene.response->method == ResponseDescription::Method::time) {
     const Eigen::VectorXd factors = slowing_of(model, *scene.response);
     const auto in_modes = [&](solver::ResponsePoint point) {
@@ -350,7 +350,7 @@ const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve) {
 std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescription& scene,
                                  const CurveResult& result) {
   std::vector<NamedMap> maps;
-  const auto* load = std::get_if<double>(&result.preload);
+  const auto* load = std::get_if<double>(&result.load);
   if (load == nullptr || model.patches.empty()) return maps;
   const auto add = [&](const std::string& suffix, const solver::ResponsePoint& point) {
     for (NamedMap& map : maps_of(model, scene, *load, result.name + "_" + suffix, point)) {

@@ -37,12 +37,12 @@ struct PatchShares {
 };
 
 struct CurveResult {
-  std::string name;                         ///< stem of the CSV
-  std::variant<double, LimitName> preload;  ///< [N] (modal scenes: the scale)
+  std::string name;                      ///< stem of the CSV
+  std::variant<double, LimitName> load;  ///< preload [N] (modal scenes: the factor), or a limit
   solver::ResponseCurve curve;
   std::vector<NamedMap> maps;
   std::vector<PatchShares> patch_shares{};  ///< where there are several patches, else empty
-  std::optional<double> gap{};              ///< width of the uniform gap that the preload is [m]
+  std::optional<double> gap{};              ///< width of the uniform gap that the load is [m]
   bool integrated = false;  ///< in time: to the tolerance of integration, not to rounding
   std::optional<solver::RicherPeak> richer{};  ///< the peak with more harmonics than were given
   std::optional<double> bar{};  ///< of the peak's amplitude, relative half width; none: not told

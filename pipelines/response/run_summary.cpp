@@ -43,7 +43,7 @@ CurveSummary summarise(const CurveResult& result) {
         change ? std::abs(*change) : std::numeric_limits<double>::quiet_NaN();
   }
   summary.name = result.name;
-  summary.preload = result.preload;
+  summary.preload = result.load;
   summary.gap = result.gap;
   summary.complete = result.curve.complete;
   summary.diagnosis = result.curve.diagnosis;

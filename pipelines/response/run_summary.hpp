@@ -45,7 +45,7 @@ struct CurveSummary {
   std::string name;
   std::variant<double, LimitName> preload;  ///< total [N], or a limit
   std::optional<double> gap;                ///< width of the uniform gap that the preload is [m]
-  std::optional<double> preload_scale;      ///< modal scenes: factor on the preload of the points
+  std::optional<double> preload_scale;  ///< modal scenes: factor on the rest loads that are given
   /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
   std::optional<double> preload_carried, preload_integral;
   bool complete = false;

@@ -14,10 +14,10 @@
 #include "pipelines/import/given_matrices.hpp"
 #include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/model/contact_effects.hpp"
+#include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_cost.hpp"
 #include "pipelines/model/effects.hpp"
-#include "pipelines/model/preload_shape.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/model/static_preload.hpp"
@@ -131,9 +131,9 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
   double load = 0.0;
   int n_gaps = 0;
   for (std::size_t i = 0; i < modal.points.size(); ++i) {
-    const double preload = modal.points[i].preload;
-    load += std::max(preload, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
-    if (preload < 0.0) ++n_gaps;
+    const double rest_load = modal.points[i].rest_load;
+    load += std::max(rest_load, 0.0) * modal.weights[static_cast<Eigen::Index>(i)];
+    if (rest_load < 0.0) ++n_gaps;
   }
   if (modal.load_measure == LoadMeasure::force) {
     fmt::print(out, "{} contact point{}\n", modal.points.size(),

@@ -8,7 +8,7 @@
 
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
-#include "pipelines/model/preload_of.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
@@ -47,7 +47,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   in_parallel(requests.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("points");
     const auto observe = [&](const solver::ResponsePoint& point) {
-      record.note_point(requests[i].name, preload_of(requests[i], model), point);
+      record.note_point(requests[i].name, load_of(requests[i], model), point);
       const double share = std::clamp(fraction_of(scene, point), 0.0, 1.0);
       record.progress().point(
           requests[i].name, point,

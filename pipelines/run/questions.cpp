@@ -149,8 +149,8 @@ Findings repeated_preload(const Facts& facts) {
   std::vector<CurveRequest> loads = curve_requests(facts.scene);
   while (!loads.empty()) {
     const CurveRequest first = loads.front();
-    const auto n = std::erase_if(
-        loads, [&](const CurveRequest& other) { return other.preload == first.preload; });
+    const auto n =
+        std::erase_if(loads, [&](const CurveRequest& other) { return other.load == first.load; });
     findings.push_back(
         {facts.scene.response->preload.empty() ? "response.preload_scale" : "response.preload",
          static_cast<double>(n), fmt::format("(curve {})", first.name)});
@@ -328,7 +328,7 @@ Findings motion_along_r(const Facts& facts) {
 Findings amplitude(const Facts& facts) {
   Finding largest{"excitation.forces", 0.0};
   for (const CurveResult& result : *facts.curves) {
-    if (std::holds_alternative<LimitName>(result.preload)) continue;  // no blade moves like that
+    if (std::holds_alternative<LimitName>(result.load)) continue;  // no blade moves like that
     for (const solver::ResponsePoint& point : result.curve.points) {
       const double share = percent * point.amplitude / longest_side(*facts.mesh);
       if (share <= largest.value) continue;

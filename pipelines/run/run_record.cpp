@@ -324,7 +324,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
       curve.complete || curve.diagnosis == "interrupted";  // that is the end of the whole run
   told ? progress_.info(outcome_text(result)) : progress_.warning(outcome_text(result));
   CurveSummary summary = summarise(result);
-  if (const auto* load = std::get_if<double>(&result.preload);
+  if (const auto* load = std::get_if<double>(&result.load);
       load != nullptr && !model.patches.empty()) {
     keep_preload(summary, model, *load);
   }
@@ -337,7 +337,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   if (const std::string text = left_out_text(result); !text.empty() && !refines_) {
     progress_.warning(text);
   }
-  if (const auto* scale = std::get_if<double>(&result.preload);
+  if (const auto* scale = std::get_if<double>(&result.load);
       scale != nullptr && !in_newtons(model)) {
     summary.preload_scale = *scale;
     summary.preload =
@@ -357,12 +357,12 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   show_what_is_new();
 }
 
-void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& load,
                            const solver::ResponsePoint& point) {
   const std::lock_guard lock(mutex_);
   CurveResult& result = unfinished_[curve];
   result.name = curve;
-  result.preload = preload;
+  result.load = load;
   result.curve.points.push_back(point);
   result.curve.iterations += point.iterations;
 }

@@ -80,7 +80,7 @@ class RunRecord {
   /// Mesh and modes for pictures of the moving blade.
   void keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis);
   /// A point of a curve that is being solved: kept, should the process have to end within it.
-  void note_point(const std::string& curve, const std::variant<double, LimitName>& preload,
+  void note_point(const std::string& curve, const std::variant<double, LimitName>& load,
                   const solver::ResponsePoint& point);
   /// Writes the curves that note_point() has points of and keep_curve() has not seen, as interrupted.
   void keep_unfinished();

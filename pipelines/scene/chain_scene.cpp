@@ -18,10 +18,10 @@ namespace {
 
 /// One contact of the scene before it becomes points.
 struct Contact {
-  Eigen::VectorXd slip, approach;    // u, v = slip · x, approach · x
-  contact::PointParameters whole;    // stiffness of all cells together [N/m]; preload is the share
-  int n_along = 1, n_across = 1;     // cells along p and r
-  double length = 0.0, width = 0.0;  // along p and r [m]; 0: a point
+  Eigen::VectorXd slip, approach;  // u, v = slip · x, approach · x
+  contact::PointParameters whole;  // stiffness of all cells together [N/m]; rest load is the share
+  int n_along = 1, n_across = 1;   // cells along p and r
+  double length = 0.0, width = 0.0;       // along p and r [m]; 0: a point
   double moment_p = 0.0, moment_r = 0.0;  // [N·m]
 };
 
@@ -123,12 +123,12 @@ std::vector<Contact> read_contacts(SectionReader& s, const ChainSystem& system) 
     const SectionReader point(entry.as_table(), section_spec("contact.chain.point"),
                               "contact.points", s.file(), complete);
     contacts.push_back(read_contact(point, system));
-    shares += contacts.back().whole.preload;
+    shares += contacts.back().whole.rest_load;
     completed.push_back(std::move(complete));
   }
   if (!contacts.empty() && !(shares > 0.0))
     s.fail("points", "every share of the preload is 0", &node);
-  for (Contact& contact : contacts) contact.whole.preload /= shares;
+  for (Contact& contact : contacts) contact.whole.rest_load /= shares;
   s.complete("points", std::move(completed));
   return contacts;
 }
@@ -151,7 +151,7 @@ void add_cells(ModalModel& model, const Contact& contact, const ChainSystem& sys
       contact::PointParameters cell = contact.whole;
       cell.tangential_stiffness /= n_cells;
       cell.normal_stiffness /= n_cells;
-      cell.preload /= n_cells;
+      cell.rest_load /= n_cells;
       model.points.push_back(cell);
       model.shapes.u.row(row) = contact.slip.transpose() * system.shapes;
       model.shapes.v.row(row) = contact.approach.transpose() * system.shapes;
@@ -164,7 +164,7 @@ void add_cells(ModalModel& model, const Contact& contact, const ChainSystem& sys
                                 begin,
                                 cells.col(0),
                                 cells.col(1),
-                                contact.whole.preload,
+                                contact.whole.rest_load,
                                 {contact.moment_p, contact.moment_r}});
 }
 

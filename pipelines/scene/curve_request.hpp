@@ -10,11 +10,11 @@
 
 namespace microslip::pipelines {
 
-/// What one curve is asked for: a preload, a scale of the preload (modal scenes and bars), or a linear
-/// limit.
+/// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes and bars), or a
+/// linear limit.
 struct CurveRequest {
-  std::string name;      ///< stem of the CSV
-  PreloadEntry preload;  ///< [N], or the scale
+  std::string name;   ///< stem of the CSV
+  PreloadEntry load;  ///< [N], or the factor
 };
 
 /// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.

@@ -180,8 +180,8 @@ void add_residual(ModalModel& model, const CsvTable& table) {
       model.compliance(row, axis) = table.at(i, *column);
       const double local = stiffness;
       stiffness = in_series(local, model.compliance(row, axis), table.place(i, *column));
-      // A gap is −preload over the stiffness of its row: the length stays.
-      if (axis == 1 && point.preload < 0.0 && local > 0.0) point.preload *= stiffness / local;
+      // A gap is −rest load over the stiffness of its row: the length stays.
+      if (axis == 1 && point.rest_load < 0.0 && local > 0.0) point.rest_load *= stiffness / local;
     }
   }
 }

@@ -95,7 +95,7 @@ struct ModalModel {
   contact::ModalShapes shapes;
   Eigen::VectorXd second_stiffness;  ///< along r [N/m³]; empty: that along p
   Eigen::MatrixX2d positions;        ///< (p, r) per point [m]; 0 rows when the scene gives none
-  LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the preload of the points sums to 1 N
+  LoadMeasure load_measure = LoadMeasure::scale;  ///< force: the rest loads sum to 1 N
   std::vector<TiltedArea> tilted_areas;           ///< where moments act beside the load
   ResidualKind residual = ResidualKind::none;  ///< stiffness: that of the points has it in series
   Eigen::MatrixX3d compliance;    ///< that residual along p, q, r [m³/N]; 0 rows: not known apart

@@ -301,7 +301,7 @@ TEST(ContactPointHard, AmplitudeIsOnlyAScale) {
   for (const int exponent : {-330, -200, -50, 10}) {
     const double s = std::exp2(exponent);
     PointParameters p = point;
-    p.preload *= s;
+    p.rest_load *= s;
     const FrictionCycle c = friction_cycle(
         p, {.u_sin = s, .u_cos = 0.2 * s, .v_mean = 0.05 * s, .v_sin = -0.3 * s, .v_cos = 0.9 * s});
     EXPECT_NEAR(c.friction.cos / s, whole.friction.cos, rounding * 2e3) << exponent;

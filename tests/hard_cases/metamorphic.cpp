@@ -193,7 +193,7 @@ void expect_relation(const std::function<void(Numbers&)>& change, const Factors&
 void hold_the_load(Numbers& numbers) {
   for (contact::PointParameters& point : numbers.points) {
     point.normal_stiffness = 0.0;
-    point.preload = std::abs(point.preload);
+    point.rest_load = std::abs(point.rest_load);
   }
   numbers.v.setZero();
 }
@@ -214,7 +214,7 @@ TEST(Metamorphic, UnitsDoNotMatter) {  // M1, of theory 0: 1 kg, 1 m, 1 s become
     for (contact::PointParameters& point : n.points) {
       point.tangential_stiffness *= mass / (time * time);
       point.normal_stiffness *= mass / (time * time);
-      point.preload *= mass * length / (time * time);
+      point.rest_load *= mass * length / (time * time);
     }
   };
   expect_relation(change, {1.0 / time, length});
@@ -301,7 +301,7 @@ TEST(Metamorphic, ForcesAndLoadsTogetherScaleTheResponse) {  // M9
   const double factor = 1e-5;
   const auto change = [&](Numbers& n) {
     n.excitation *= factor;
-    for (contact::PointParameters& point : n.points) point.preload *= factor;
+    for (contact::PointParameters& point : n.points) point.rest_load *= factor;
   };
   expect_relation(change, {1.0, factor});
 }
@@ -314,7 +314,7 @@ TEST(Metamorphic, FrictionCoefficientAndLoadActAsTheirProduct) {  // M10, consta
     Numbers changed = held;
     for (contact::PointParameters& point : changed.points) {
       point.friction_coefficient *= 3.0;
-      point.preload /= 3.0;
+      point.rest_load /= 3.0;
     }
     expect_same(shape_of(changed), shape_of(held));
   }
@@ -329,7 +329,7 @@ TEST(Metamorphic, ALargeLoadSticksAndALargeGapIsFree) {  // M11
       if (load < 0.0 && !moves) continue;  // a gap needs normal stiffness
       Numbers limit = numbers;
       limit.excitation.row(0).setZero();
-      for (contact::PointParameters& point : limit.points) point.preload = load;
+      for (contact::PointParameters& point : limit.points) point.rest_load = load;
       const auto kind = load > 0.0 ? solver::LinearLimit::stuck : solver::LinearLimit::free;
       const auto linear =
           places(solver::trace_linear(scene_of(limit), kind, options), PointMark::peak);
@@ -372,7 +372,7 @@ TEST(Metamorphic, TwiceTheAreaWithHalfOfEverythingOnIt) {  // M15
     for (contact::PointParameters& point : n.points) {
       point.tangential_stiffness /= 2.0;
       point.normal_stiffness /= 2.0;
-      point.preload /= 2.0;
+      point.rest_load /= 2.0;
     }
   });
 }

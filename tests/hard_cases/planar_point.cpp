@@ -162,7 +162,7 @@ TEST(PlanarPointHard, GrazingContactIsContinuous) {
     MotionCase c = ellipse(size);
     Eigen::MatrixXd before;
     for (const double aside : {-1e-6, -1e-8, -1e-12, -1e-16, 0.0, 1e-16, 1e-12, 1e-8, 1e-6}) {
-      c.point.preload = least * (1.0 + aside);
+      c.point.rest_load = least * (1.0 + aside);
       const PointTraction now = traction(PlaneEvents(SurfaceLaw(c.point, 3.0), tight), c.motion);
       // n₀ − b̄ changes by 1e-6; what the slider forgets is the force left at the least load, its
       // square root times the rate of the motion.
@@ -180,7 +180,7 @@ TEST(PlanarPointHard, ContactFadesOutWithTheGap) {
   MotionCase c = ellipse(0.5);
   double before = 1e300;
   for (const double share : {0.0, 0.5, 0.9, 1.0 - 1e-3, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-12}) {
-    c.point.preload = -share * reach;
+    c.point.rest_load = -share * reach;
     const PlaneEvents method(SurfaceLaw(c.point, 3.0), tight);
     const PointTraction now = traction(method, c.motion);
     EXPECT_EQ(now.regime, CycleRegime::separation) << share;
@@ -195,7 +195,7 @@ TEST(PlanarPointHard, ContactFadesOutWithTheGap) {
     before = load;
   }
   for (const double share : {1.0, 1.0 + 1e-15, 2.0}) {
-    c.point.preload = -share * reach;
+    c.point.rest_load = -share * reach;
     const PointTraction now = traction(PlaneEvents(SurfaceLaw(c.point, 3.0), tight), c.motion);
     EXPECT_LE(now.force.rows().norm(), share == 1.0 ? 1e-20 : 0.0) << share;
   }
@@ -238,7 +238,7 @@ TEST(PlanarPointHard, TheJacobianNextToGrazingContactIsThatOfItsSide) {
   const double least = std::hypot(0.3, 1.0);
   for (const double aside : {-1e-3, 1e-3}) {
     MotionCase c = ellipse(1.5);
-    c.point.preload = least * (1.0 + aside);
+    c.point.rest_load = least * (1.0 + aside);
     const PlaneEvents method(SurfaceLaw(c.point, 3.0), 1e-13);
     const PointTraction now = traction(method, c.motion);
     EXPECT_EQ(now.regime, aside < 0.0 ? CycleRegime::separation : CycleRegime::stick_slip);
@@ -254,7 +254,7 @@ TEST(PlanarPointHard, TheJacobianNextToGrazingContactIsThatOfItsSide) {
 
 /// Ever less friction against the same motion.
 struct LittleFriction {
-  double preload;    ///< in the unit of load
+  double rest_load;  ///< in the unit of load
   double stiffness;  ///< k_v, against an approach of amplitude 1; likewise
   double load_unit;
   double friction_unit = 1.0;
@@ -264,7 +264,7 @@ constexpr double half = 0.5;  // μ in its unit
 
 MotionCase vanishing(const LittleFriction& x) {
   const double mu = half * x.friction_unit;
-  MotionCase c{{1.0, x.stiffness * x.load_unit, mu, x.preload * x.load_unit}, Harmonics(1, 3)};
+  MotionCase c{{1.0, x.stiffness * x.load_unit, mu, x.rest_load * x.load_unit}, Harmonics(1, 3)};
   c.motion.rows() << 0.0, 0.0, 0.0,  //
       0.0, 0.0, 0.2,                 //
       1.0, 1.0, 0.3;
@@ -289,7 +289,7 @@ Memoryless memoryless(const LittleFriction& x) {
     const Eigen::Vector3d x_rate = motion.rows().transpose() * rate;
     const Eigen::Vector2d v(x_rate[0], x_rate[2]);
     const Eigen::Vector2d e = v.normalized();
-    const double load = x.preload + x.stiffness * basis[2];
+    const double load = x.rest_load + x.stiffness * basis[2];
     if (load <= 0.0) continue;
     const Eigen::Vector3d weight = basis.cwiseProduct(Eigen::Vector3d(1.0, 2.0, 2.0)) / n_samples;
     sum.force.col(0) += half * load * e[0] * weight;
@@ -334,7 +334,7 @@ TEST(PlanarPointHard, VanishingFrictionFollowsTheMotionWithoutMemory) {
       EXPECT_LE((force - exact.force.col(i)).cwiseAbs().maxCoeff(), near) << name;
     }
     ASSERT_TRUE(now.jacobian.allFinite()) << name;
-    const bool separates = x.preload < x.stiffness;
+    const bool separates = x.rest_load < x.stiffness;
     for (Eigen::Index row = 0; row < 9 && !separates; ++row) {
       if (row % 3 == 1) continue;
       const Eigen::RowVectorXd J = now.jacobian.row(row) / scale;
@@ -345,7 +345,7 @@ TEST(PlanarPointHard, VanishingFrictionFollowsTheMotionWithoutMemory) {
     EXPECT_NEAR(history.dissipated_energy / scale, exact.dissipation, near) << name;
     for (Eigen::Index i = 0; i < phases.size(); ++i) {
       const Eigen::Vector3d& f = history.instants[static_cast<std::size_t>(i)].traction;
-      const double load = std::max(0.0, x.preload + x.stiffness * std::cos(phases[i]));
+      const double load = std::max(0.0, x.rest_load + x.stiffness * std::cos(phases[i]));
       EXPECT_NEAR(std::hypot(f[0] / scale, f[2] / scale), half * load, near)
           << name << ", " << phases[i];
     }

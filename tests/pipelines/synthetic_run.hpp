@@ -98,7 +98,7 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   cells.stiffness.col(2) = Eigen::VectorXd::LinSpaced(n, 2e11, 9e11);
   cells.stiffness.col(1) = Eigen::VectorXd::LinSpaced(n, 3e11, 1e12);
   cells.friction = Eigen::VectorXd::LinSpaced(n, 0.3, 0.5);
-  cells.preload = Eigen::VectorXd::Constant(n, 1.0 / cells.weights.sum());
+  cells.preload_field = Eigen::VectorXd::Constant(n, 1.0 / cells.weights.sum());
   patch.fit_degree = 3;
   patch.fit_error = Eigen::Vector2d(1e-6, 2e-5);
   vertices.shapes = shapes_at(vertices.points);
@@ -108,7 +108,7 @@ inline ReducedModel model(Eigen::Index n_p = 6, Eigen::Index n_r = 8) {
   vertices.stiffness.col(2) = Eigen::VectorXd::LinSpaced(n_vertices, 2e11, 9e11);
   vertices.stiffness.col(1) = Eigen::VectorXd::LinSpaced(n_vertices, 3e11, 1e12);
   vertices.friction = Eigen::VectorXd::LinSpaced(n_vertices, 0.3, 0.5);
-  vertices.preload = Eigen::VectorXd::Constant(n_vertices, cells.preload[0]);
+  vertices.preload_field = Eigen::VectorXd::Constant(n_vertices, cells.preload_field[0]);
   return m;
 }
 
@@ -198,7 +198,7 @@ inline CurveResult curve(const std::string& name, double preload, double peak_hz
                          double lean) {
   CurveResult result;
   result.name = name;
-  result.preload = preload;
+  result.load = preload;
   const double width = 1.2;  // [Hz], half-power
   double last = -1.0;
   for (int i = 0; i <= 240; ++i) {

@@ -17,8 +17,8 @@ double sign(Random& random) { return uniform(random, -1.0, 1.0) < 0.0 ? -1.0 : 1
 double a(const CycleCase& c) { return std::hypot(c.motion.u_sin, c.motion.u_cos); }
 double b(const CycleCase& c) { return std::hypot(c.motion.v_sin, c.motion.v_cos); }
 double load_amplitude(const CycleCase& c) { return c.point.normal_stiffness * b(c); }
-double mean_load(const CycleCase& c) {
-  return c.point.preload + c.point.normal_stiffness * c.motion.v_mean;
+double bias_load(const CycleCase& c) {
+  return c.point.rest_load + c.point.normal_stiffness * c.motion.v_mean;
 }
 
 void set_u(CycleCase& c, double amplitude, double angle) {
@@ -29,9 +29,9 @@ void set_v(CycleCase& c, double amplitude, double angle) {
   c.motion.v_sin = amplitude * std::sin(angle);
   c.motion.v_cos = amplitude * std::cos(angle);
 }
-void set_mean_load(CycleCase& c, double load) {
+void set_bias_load(CycleCase& c, double load) {
   c.motion.v_mean = 0.0;
-  c.point.preload = load;
+  c.point.rest_load = load;
 }
 
 CycleCase drawn(Random& random, double spread) {
@@ -44,14 +44,14 @@ CycleCase drawn(Random& random, double spread) {
   c.motion.u_mean = uniform(random, -1.0, 1.0) * a(c);
   c.motion.v_mean = uniform(random, -0.2, 0.2) * b(c);
   const double slip = c.point.tangential_stiffness * a(c) / c.point.friction_coefficient;
-  c.point.preload = uniform(random, -1.2, 1.2) * load_amplitude(c) +
-                    (uniform(random, 0.0, 1.0) < 0.5 ? uniform(random, 0.0, 1.5) * slip : 0.0);
+  c.point.rest_load = uniform(random, -1.2, 1.2) * load_amplitude(c) +
+                      (uniform(random, 0.0, 1.0) < 0.5 ? uniform(random, 0.0, 1.5) * slip : 0.0);
   return c;
 }
 
 CycleCase separating(Random& random) {
   CycleCase c = drawn(random, 0.7);
-  set_mean_load(c, uniform(random, -1.0, 1.0) * load_amplitude(c));
+  set_bias_load(c, uniform(random, -1.0, 1.0) * load_amplitude(c));
   return c;
 }
 
@@ -61,7 +61,7 @@ CycleCase comparable(Random& random) {
   const double size = c.point.tangential_stiffness * a(c) /
                       (c.point.friction_coefficient * c.point.normal_stiffness);
   set_v(c, size * decades(random, -0.5, 0.5), uniform(random, -4.0, 4.0));
-  set_mean_load(c, uniform(random, -1.0, 2.0) * load_amplitude(c));
+  set_bias_load(c, uniform(random, -1.0, 2.0) * load_amplitude(c));
   return c;
 }
 
@@ -77,14 +77,14 @@ CycleCase near_full_stick(Random& random) {
   const double Nc = elastic * c.motion.u_cos + coupled * c.motion.v_cos;
   const double limit = 0.5 * (std::hypot(Ps, Pc) + std::hypot(Ns, Nc));
   const double off = 1.0 + sign(random) * decades(random, -17.0, -1.0);
-  set_mean_load(c, limit / c.point.friction_coefficient * off);
+  set_bias_load(c, limit / c.point.friction_coefficient * off);
   return c;
 }
 
 CycleCase grazing(Random& random) {
   CycleCase c = comparable(random);
   const double off = 1.0 + sign(random) * decades(random, -17.0, -1.0);
-  set_mean_load(c, sign(random) * load_amplitude(c) * off);
+  set_bias_load(c, sign(random) * load_amplitude(c) * off);
   return c;
 }
 
@@ -119,7 +119,7 @@ CycleCase vanishing_slip_function(Random& random) {  // L₁ or L₂ = 0 or near
   const double off = uniform(random, 0.0, 1.0) < 0.5 ? 0.0 : decades(random, -17.0, -2.0);
   c.motion.v_sin = ratio * c.motion.u_sin * (1.0 + off);
   c.motion.v_cos = ratio * c.motion.u_cos * (1.0 + phase_offset(random));
-  set_mean_load(c, uniform(random, -1.0, 1.5) * load_amplitude(c));
+  set_bias_load(c, uniform(random, -1.0, 1.5) * load_amplitude(c));
   return c;
 }
 
@@ -135,7 +135,7 @@ CycleCase exact_vanishing(Random& random) {  // small integers: no rounding at a
 CycleCase tie_at_touch_down(Random& random) {
   CycleCase c = comparable(random);
   const double load = uniform(random, -0.99, 0.99);
-  set_mean_load(c, load * load_amplitude(c));
+  set_bias_load(c, load * load_amplitude(c));
   const double touch = std::atan2(c.motion.v_sin, c.motion.v_cos) - std::acos(-load);
   const double v_rate = c.motion.v_sin * std::cos(touch) - c.motion.v_cos * std::sin(touch);
   const double u_rate = sign(random) * c.point.friction_coefficient * c.point.normal_stiffness /
@@ -155,7 +155,7 @@ CycleCase still_tangentially(Random& random) {
 
 CycleCase constant_load(Random& random) {
   CycleCase c = comparable(random);
-  set_mean_load(c, uniform(random, -0.1, 1.3) * c.point.tangential_stiffness * a(c) /
+  set_bias_load(c, uniform(random, -0.1, 1.3) * c.point.tangential_stiffness * a(c) /
                        c.point.friction_coefficient);
   const double amplitudes[] = {0.0, 1e-300, 1e-20};
   set_v(c, amplitudes[std::uniform_int_distribution<int>(0, 2)(random)], 2.0);
@@ -164,7 +164,7 @@ CycleCase constant_load(Random& random) {
 
 CycleCase no_normal_spring(Random& random) {
   CycleCase c = comparable(random);
-  set_mean_load(c, uniform(random, -0.1, 1.3) * c.point.tangential_stiffness * a(c) /
+  set_bias_load(c, uniform(random, -0.1, 1.3) * c.point.tangential_stiffness * a(c) /
                        c.point.friction_coefficient);
   c.point.normal_stiffness = 0.0;
   return c;
@@ -184,21 +184,21 @@ CycleCase frictionless(Random& random) {
 
 CycleCase no_preload(Random& random) {
   CycleCase c = comparable(random);
-  set_mean_load(c, 0.0);
+  set_bias_load(c, 0.0);
   return c;
 }
 
 CycleCase cancelling_preload(Random& random) {
   CycleCase c = comparable(random);
   const double load = uniform(random, -1.5, 2.0) * load_amplitude(c);
-  c.point.preload = decades(random, 2.0, 6.0) * load_amplitude(c);
-  c.motion.v_mean = (load - c.point.preload) / c.point.normal_stiffness;
+  c.point.rest_load = decades(random, 2.0, 6.0) * load_amplitude(c);
+  c.motion.v_mean = (load - c.point.rest_load) / c.point.normal_stiffness;
   return c;
 }
 
 CycleCase scaled(CycleCase c, double factor) {
   for (double* x : {&c.motion.u_mean, &c.motion.u_sin, &c.motion.u_cos, &c.motion.v_mean,
-                    &c.motion.v_sin, &c.motion.v_cos, &c.point.preload}) {
+                    &c.motion.v_sin, &c.motion.v_cos, &c.point.rest_load}) {
     *x *= factor;
   }
   return c;
@@ -221,7 +221,7 @@ CycleCase strong_friction(Random& random) {
 CycleCase grazing_in_phase(Random& random) {
   CycleCase c = sine_in_phase(random);
   const double off = uniform(random, 0.0, 1.0) < 0.5 ? 0.0 : decades(random, -17.0, -8.0);
-  set_mean_load(c, sign(random) * load_amplitude(c) * (1.0 + sign(random) * off));
+  set_bias_load(c, sign(random) * load_amplitude(c) * (1.0 + sign(random) * off));
   return c;
 }
 
@@ -243,7 +243,7 @@ CycleCase beside_lattice(Random& random) {
   CycleCase c = lattice(random);
   const double size = decades(random, -17.0, -8.0);
   for (double* x :
-       {&c.motion.u_sin, &c.motion.u_cos, &c.motion.v_sin, &c.motion.v_cos, &c.point.preload}) {
+       {&c.motion.u_sin, &c.motion.u_cos, &c.motion.v_sin, &c.motion.v_cos, &c.point.rest_load}) {
     *x += uniform(random, -1.0, 1.0) * size;
   }
   return c;
@@ -255,7 +255,7 @@ double friction_scale(const CycleCase& c) {
   return c.point.tangential_stiffness * a(c) + c.point.friction_coefficient * normal_scale(c);
 }
 
-double normal_scale(const CycleCase& c) { return std::abs(mean_load(c)) + load_amplitude(c); }
+double normal_scale(const CycleCase& c) { return std::abs(bias_load(c)) + load_amplitude(c); }
 
 CycleCase generic_case(Random& random) { return drawn(random, 1.0); }
 

@@ -75,7 +75,7 @@ class March {
         rest_(-k_u_ * static_cast<Real>(m.u_mean)),
         spring_{0.0L, k_u_ * static_cast<Real>(m.u_sin), k_u_ * static_cast<Real>(m.u_cos)} {
     const Real k_v = point.normal_stiffness;
-    load_ = {std::fma(k_v, static_cast<Real>(m.v_mean), static_cast<Real>(point.preload)),
+    load_ = {std::fma(k_v, static_cast<Real>(m.v_mean), static_cast<Real>(point.rest_load)),
              k_v * m.v_sin, k_v * m.v_cos};
     const Real load = std::abs(load_.mean) + std::hypot(load_.sin, load_.cos);
     // A guard is broken when it is below zero by more than rounding; what a tolerance moves in time

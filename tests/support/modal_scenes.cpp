@@ -118,7 +118,7 @@ solver::Scene copied_structure(const solver::Scene& scene) {
 std::unique_ptr<contact::PatchForce> copied_patch(const solver::Scene& scene, double load_factor) {
   const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
   std::vector<contact::PointParameters> points = patch.patch().points();
-  for (contact::PointParameters& point : points) point.preload *= load_factor;
+  for (contact::PointParameters& point : points) point.rest_load *= load_factor;
   return std::make_unique<contact::PatchForce>(
       contact::ContactPatch(patch.patch().weights(), std::move(points)), patch.shapes());
 }

@@ -54,9 +54,9 @@ MotionCase drawn(Random& random, int n_harmonics, double spread) {
   const double load = c.point.normal_stiffness * size(c.motion, 1);
   c.motion.rows()(0, 0) = uniform(random, -1.0, 1.0) * size(c.motion, 0);
   c.motion.rows()(0, 1) = uniform(random, -0.2, 0.2) * size(c.motion, 1);
-  c.point.preload = uniform(random, -1.0, 1.0) * load;
+  c.point.rest_load = uniform(random, -1.0, 1.0) * load;
   if (uniform(random, 0.0, 1.0) < 0.4) {
-    c.point.preload += uniform(random, 0.0, 1.5) * spring / c.point.friction_coefficient;
+    c.point.rest_load += uniform(random, 0.0, 1.5) * spring / c.point.friction_coefficient;
   }
   return c;
 }
@@ -80,16 +80,16 @@ MotionCase ripple(Random& random) {
 MotionCase gap(Random& random) {
   MotionCase c = comparable(random);
   c.motion.rows()(0, 1) = 0.0;
-  c.point.preload = -uniform(random, 0.0, 1.0) * c.point.normal_stiffness * size(c.motion, 1);
+  c.point.rest_load = -uniform(random, 0.0, 1.0) * c.point.normal_stiffness * size(c.motion, 1);
   return c;
 }
 
 MotionCase near_grazing(Random& random) {
   MotionCase c = comparable(random);
   c.motion.rows()(0, 1) = 0.0;
-  c.point.preload = 0.0;
+  c.point.rest_load = 0.0;
   const double lowest = smallest_load(c);
-  c.point.preload = -lowest * (1.0 + sign(random) * decades(random, -16.5, -1.0));
+  c.point.rest_load = -lowest * (1.0 + sign(random) * decades(random, -16.5, -1.0));
   return c;
 }
 
@@ -98,16 +98,16 @@ MotionCase barely_touching(Random& random) {
   MotionCase c = comparable(random);
   c.motion.rows()(0, 1) = 0.0;
   c.motion.rows().col(1) *= -1.0;
-  c.point.preload = 0.0;
+  c.point.rest_load = 0.0;
   const double highest = -smallest_load(c);
   c.motion.rows().col(1) *= -1.0;
-  c.point.preload = -highest * (1.0 - decades(random, -12.0, -1.0));
+  c.point.rest_load = -highest * (1.0 - decades(random, -12.0, -1.0));
   return c;
 }
 
 MotionCase constant_load(Random& random) {
   MotionCase c = comparable(random);
-  c.point.preload = std::abs(c.point.preload);
+  c.point.rest_load = std::abs(c.point.rest_load);
   if (uniform(random, 0.0, 1.0) < 0.5) {
     c.point.normal_stiffness = 0.0;
   } else {
@@ -124,7 +124,7 @@ MotionCase in_phase(Random& random) {
   const double factors[] = {1.0, -1.0, 0.5, 2.0, -0.7};
   c.motion.rows().col(1) = (one * factors[integer(random, 0, 4)] * c.motion.rows().col(0)).eval();
   c.motion.rows()(0, 1) = 0.0;
-  c.point.preload = uniform(random, -1.0, 2.0) * c.point.normal_stiffness * size(c.motion, 1);
+  c.point.rest_load = uniform(random, -1.0, 2.0) * c.point.normal_stiffness * size(c.motion, 1);
   return c;
 }
 
@@ -170,18 +170,18 @@ MotionCase tiny_and_large(Random& random) {
   MotionCase c = comparable(random);
   const double factor = decades(random, -100.0, 3.0);
   c.motion.rows() *= factor;
-  c.point.preload *= factor;
+  c.point.rest_load *= factor;
   return c;
 }
 
 MotionCase loaded(Random& random) {
   MotionCase c = comparable(random);
   c.motion.rows()(0, 1) = 0.0;
-  c.point.preload = 0.0;
+  c.point.rest_load = 0.0;
   const double lowest = smallest_load(c);
-  c.point.preload = -lowest * (1.0 + uniform(random, 0.0, 0.5)) +
-                    uniform(random, 0.0, 1.5) * c.point.tangential_stiffness * size(c.motion, 0) /
-                        c.point.friction_coefficient;
+  c.point.rest_load = -lowest * (1.0 + uniform(random, 0.0, 0.5)) +
+                      uniform(random, 0.0, 1.5) * c.point.tangential_stiffness * size(c.motion, 0) /
+                          c.point.friction_coefficient;
   return c;
 }
 
@@ -189,7 +189,7 @@ MotionCase loaded(Random& random) {
 
 double normal_scale(const MotionCase& c) {
   const double k_v = c.point.normal_stiffness;
-  return std::abs(c.point.preload + k_v * c.motion.rows()(0, 1)) + k_v * size(c.motion, 1);
+  return std::abs(c.point.rest_load + k_v * c.motion.rows()(0, 1)) + k_v * size(c.motion, 1);
 }
 
 double cycle_work(const Harmonics& motion, const Harmonics& force, Eigen::Index signal) {
@@ -213,7 +213,7 @@ double smallest_load(const MotionCase& c) {
       value += c.motion.rows()(2 * h - 1, 1) * std::sin(h * phase) +
                c.motion.rows()(2 * h, 1) * std::cos(h * phase);
     }
-    return c.point.preload + c.point.normal_stiffness * value;
+    return c.point.rest_load + c.point.normal_stiffness * value;
   };
   const int n = 64 * c.motion.n_harmonics();
   double best = 0.0;

@@ -135,7 +135,7 @@ class March {
     const Real k_v = point.normal_stiffness;
     const auto& rows = motion.rows();
     rest_ = -k_u_ * static_cast<Real>(rows(0, 0));
-    load_.mean = static_cast<Real>(point.preload) + k_v * static_cast<Real>(rows(0, 1));
+    load_.mean = static_cast<Real>(point.rest_load) + k_v * static_cast<Real>(rows(0, 1));
     for (int h = 1; h <= motion.n_harmonics(); ++h) {
       spring_.sin.push_back(k_u_ * static_cast<Real>(rows(2 * h - 1, 0)));
       spring_.cos.push_back(k_u_ * static_cast<Real>(rows(2 * h, 0)));

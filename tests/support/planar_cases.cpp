@@ -37,13 +37,13 @@ void close_contact(PlanarCase& c, double share) {
     variation += std::hypot(rows(2 * h - 1, 1), rows(2 * h, 1));
   }
   const double k = c.point.normal_stiffness;
-  c.point.preload = k * ((1.0 + share) * variation - rows(0, 1)) + 0.1 * k;
+  c.point.rest_load = k * ((1.0 + share) * variation - rows(0, 1)) + 0.1 * k;
 }
 
 /// Tangential amplitudes and means in parts of μn₀/k at the mean load.
 void scale_tangential(PlanarCase& c, double amplitude, double mean) {
   auto& rows = c.motion.rows();
-  const double load = c.point.preload + c.point.normal_stiffness * rows(0, 1);
+  const double load = c.point.rest_load + c.point.normal_stiffness * rows(0, 1);
   const double limit = c.point.friction_coefficient * load;
   const Eigen::Vector2d k(c.point.tangential_stiffness, c.second_stiffness);
   for (Eigen::Index i = 0; i < 2; ++i) {
@@ -67,7 +67,7 @@ PlanarCase grazing_planar(std::mt19937_64& random) {
   const double side = count(random, 0, 1) == 0 ? -1.0 : 1.0;
   const double aside = side * std::pow(10.0, uniform(random, -9.0, -1.0));
   const double variation = std::hypot(rows(1, 1), rows(2, 1));
-  c.point.preload = c.point.normal_stiffness * (variation * (1.0 + aside) - rows(0, 1));
+  c.point.rest_load = c.point.normal_stiffness * (variation * (1.0 + aside) - rows(0, 1));
   return c;
 }
 
@@ -99,7 +99,7 @@ PlanarCase onset_planar(std::mt19937_64& random) {
   PlanarCase c = generic_planar(random);
   c.motion = Harmonics(1, 3);
   c.point.normal_stiffness = 0.0;
-  c.point.preload = 1.0;
+  c.point.rest_load = 1.0;
   auto& rows = c.motion.rows();
   const double turn = uniform(random, 0.0, 2.0 * std::numbers::pi);
   const double phase = uniform(random, 0.0, 2.0 * std::numbers::pi);

@@ -95,7 +95,7 @@ class Cycle {
       v += value(1);
       v_rate += slope(1);
     }
-    now.normal = p.preload + p.normal_stiffness * v;
+    now.normal = p.rest_load + p.normal_stiffness * v;
     now.normal_rate = p.normal_stiffness * v_rate;
     const Real speed = norm(now.rate);
     const Real falling = (p.friction_coefficient - case_.kinetic) * std::exp(-case_.rate * speed);

@@ -63,7 +63,7 @@ class March {
       const SurfaceMoment y = case_.surface(v, std::hypot(rate[0], rate[1]));
       return {x, y.gap_load, y.limit, y.stiffness};
     }
-    const Real load = case_.point.preload + case_.point.normal_stiffness * v;
+    const Real load = case_.point.rest_load + case_.point.normal_stiffness * v;
     return {x, load, case_.point.friction_coefficient * std::max(load, 0.0L), k_};
   }
 
@@ -195,7 +195,7 @@ PlanarReference planar_reference(const PlanarCase& c, int n_steps) {
 double planar_scale(const PlanarCase& c) {
   const auto& rows = c.motion.rows();
   double scale = c.point.friction_coefficient *
-                 std::abs(c.point.preload + c.point.normal_stiffness * rows(0, 1));
+                 std::abs(c.point.rest_load + c.point.normal_stiffness * rows(0, 1));
   for (int h = 1; h <= c.motion.n_harmonics(); ++h) {
     scale += c.point.tangential_stiffness * std::hypot(rows(2 * h - 1, 0), rows(2 * h, 0)) +
              c.second_stiffness * std::hypot(rows(2 * h - 1, 2), rows(2 * h, 2)) +

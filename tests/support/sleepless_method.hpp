@@ -25,7 +25,7 @@ class SleeplessMethod final : public contact::PointMethod {
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override {
     return method_->stuck_stiffness();
   }
-  [[nodiscard]] double load_at_rest() const override { return method_->load_at_rest(); }
+  [[nodiscard]] double reference_load() const override { return method_->reference_load(); }
 
  private:
   std::shared_ptr<const PointMethod> method_;

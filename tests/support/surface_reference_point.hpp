@@ -90,7 +90,7 @@ class Point {
     gamma_v_ = static_cast<Real>(law.series.q) * static_cast<Real>(law.point.normal_stiffness);
     k_u = k_T / (1.0L + gamma_u_);
     k_v_ = law.point.normal_stiffness;
-    const Real n0 = law.point.preload;
+    const Real n0 = law.point.rest_load;
     first_touch_ =
         law.heights == ReferenceHeights::gaussian ? law.mean - 9.0L * law.deviation : 0.0L;
     if (k_v_ > 0.0L) {
@@ -99,7 +99,7 @@ class Point {
   }
 
   [[nodiscard]] bool touches(Real x) const {
-    if (k_v_ == 0.0L) return law_.point.preload > 0.0;
+    if (k_v_ == 0.0L) return law_.point.rest_load > 0.0;
     return v_.at(x)[0] + rest_ > first_touch_;
   }
 
@@ -111,7 +111,7 @@ class Point {
     Real mu_rate = 0.0L;
     coefficient(sigma, y.mu, mu_rate);
     if (k_v_ == 0.0L) {
-      y.load = std::max<Real>(law_.point.preload, 0.0L);
+      y.load = std::max<Real>(law_.point.rest_load, 0.0L);
       set_reach(y, y.load, 0.0L, v[1], mu_rate, u, turns);
       return y;
     }

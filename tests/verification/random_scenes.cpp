@@ -117,7 +117,7 @@ solver::Scene with_preload(std::uint64_t seed, double factor) {
   tests::RandomScene random = tests::random_scene(seed);
   const auto& patch = dynamic_cast<const contact::PatchForce&>(*random.scene.contact);
   std::vector<contact::PointParameters> points = patch.patch().points();
-  for (contact::PointParameters& point : points) point.preload *= factor;
+  for (contact::PointParameters& point : points) point.rest_load *= factor;
   random.scene.contact = std::make_unique<contact::PatchForce>(
       contact::ContactPatch(patch.patch().weights(), std::move(points)), patch.shapes());
   return std::move(random.scene);

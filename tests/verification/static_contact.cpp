@@ -66,7 +66,7 @@ void compare(const Case& one, const mesh::Mesh& mesh) {
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(one.scene, &solved, warnings);
   const double force = *model.static_preload;
-  const Eigen::VectorXd approach = force / stiffness * model.patches[0].vertices.preload;
+  const Eigen::VectorXd approach = force / stiffness * model.patches[0].vertices.preload_field;
   const mesh::SurfaceSampling sampling =
       mesh::sample_surface(mesh.nodes(), mesh.surface("x1"), contact_points(one.scene.settings, 0));
   const Eigen::VectorXd v = sampling.to_vertices * one.calculix.displacement.col(0);

@@ -47,7 +47,7 @@ struct Referee {
         state(patch.patch().points().size(), State::stick),
         slider(state.size(), 0.0) {
     for (std::size_t i = 0; i < state.size(); ++i) {
-      if (point(i).preload <= 0.0) state[i] = State::open;
+      if (point(i).rest_load <= 0.0) state[i] = State::open;
     }
   }
   [[nodiscard]] const contact::PointParameters& point(std::size_t i) const {
@@ -79,7 +79,7 @@ struct Referee {
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto [u, v, du, dv] = motion(i, y);
       const contact::PointParameters& p = point(i);
-      double load = p.preload + p.normal_stiffness * v;
+      double load = p.rest_load + p.normal_stiffness * v;
       double f = 0.0;
       if (state[i] == State::open) load = 0.0;
       if (state[i] == State::stick) f = p.tangential_stiffness * (u - slider[i]);
@@ -89,7 +89,7 @@ struct Referee {
       const double w = patch.patch().weights()[row];
       for (Eigen::Index k = 0; k < n; ++k) {
         rate[n + k] -= w * (patch.shapes().u(row, k) * f +
-                            patch.shapes().v(row, k) * (load - std::max(p.preload, 0.0)));
+                            patch.shapes().v(row, k) * (load - std::max(p.rest_load, 0.0)));
       }
     }
   }
@@ -98,7 +98,7 @@ struct Referee {
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto [u, v, du, dv] = motion(i, y);
       const contact::PointParameters& p = point(i);
-      const double load = p.preload + p.normal_stiffness * v;
+      const double load = p.rest_load + p.normal_stiffness * v;
       const double limit = p.friction_coefficient * load;
       const double f = p.tangential_stiffness * (u - slider[i]);
       const double a = p.tangential_stiffness * du;
@@ -128,7 +128,7 @@ struct Referee {
     const double b = p.friction_coefficient * p.normal_stiffness * dv;
     const double a = p.tangential_stiffness * du;
     const double g =
-        p.friction_coefficient * (p.preload + p.normal_stiffness * v) / p.tangential_stiffness;
+        p.friction_coefficient * (p.rest_load + p.normal_stiffness * v) / p.tangential_stiffness;
     ++n_events;
     switch (state[i]) {
       case State::stick:

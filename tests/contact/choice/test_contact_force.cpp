@@ -22,7 +22,7 @@ PatchSamples samples(double begin, Eigen::Index n) {
   s.weights = Eigen::VectorXd::Constant(n, 0.5);
   s.stiffness.resize(n, 3);
   s.friction.resize(n);
-  s.preload = Eigen::VectorXd::Constant(n, 1.0 / (0.5 * static_cast<double>(n)));
+  s.preload_field = Eigen::VectorXd::Constant(n, 1.0 / (0.5 * static_cast<double>(n)));
   s.shapes = {Eigen::MatrixXd(n, n_modes), Eigen::MatrixXd(n, n_modes),
               Eigen::MatrixXd(n, n_modes)};
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -205,7 +205,7 @@ TEST(ContactForce, ALoadThatPressesIsSharedAndAGapIsNot) {
   const ContactForce pressed(patches, {}, 8.0);
   const auto carried = [&](std::size_t patch) {
     double sum = 0.0;
-    for (const PointParameters& point : pressed.points(patch)) sum += 0.5 * point.preload;
+    for (const PointParameters& point : pressed.points(patch)) sum += 0.5 * point.rest_load;
     return sum;
   };
   EXPECT_NEAR(carried(0), 6.0, 1e-14);
@@ -216,7 +216,7 @@ TEST(ContactForce, ALoadThatPressesIsSharedAndAGapIsNot) {
   const ContactForce open(patches, {}, -3.0);
   for (const std::size_t patch : {0U, 1U}) {
     for (const PointParameters& point : open.points(patch)) {
-      EXPECT_NEAR(-point.preload / point.normal_stiffness, 3.0 / total, 1e-15);
+      EXPECT_NEAR(-point.rest_load / point.normal_stiffness, 3.0 / total, 1e-15);
     }
   }
   for (Patch& patch : patches) patch.cells.stiffness.col(1).setZero();

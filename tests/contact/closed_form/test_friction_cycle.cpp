@@ -103,7 +103,7 @@ TEST(FrictionCycle, BothSlipPhasesCoverTheSameDistanceWithoutSeparation) {
       if (s.state == ContactState::positive_slip || s.state == ContactState::negative_slip) {
         const auto slider = [&](double phase) {
           const double n =
-              c.point.preload +
+              c.point.rest_load +
               c.point.normal_stiffness * (c.motion.v_mean + c.motion.v_sin * std::sin(phase) +
                                           c.motion.v_cos * std::cos(phase));
           const double sign = s.state == ContactState::positive_slip ? 1.0 : -1.0;
@@ -194,7 +194,7 @@ TEST(FrictionCycle, ReversalOfTheTangentialMotionReversesFriction) {
 }
 
 CycleCase scaled(CycleCase c, double factor) {
-  for (double* x : {&c.point.preload, &c.motion.u_mean, &c.motion.u_sin, &c.motion.u_cos,
+  for (double* x : {&c.point.rest_load, &c.motion.u_mean, &c.motion.u_sin, &c.motion.u_cos,
                     &c.motion.v_mean, &c.motion.v_sin, &c.motion.v_cos}) {
     *x *= factor;
   }
@@ -223,7 +223,7 @@ RC_GTEST_PROP(FrictionCycleProperty, FrictionKnowsOnlyTheProductOfMuAndLoad, (st
   PointParameters other = c.point;
   other.friction_coefficient *= factor;
   other.normal_stiffness /= factor;
-  other.preload /= factor;
+  other.rest_load /= factor;
   const FrictionCycle a = friction_cycle(c.point, c.motion);
   const FrictionCycle b = friction_cycle(other, c.motion);
   RC_ASSERT(a.friction.mean == b.friction.mean);

@@ -27,7 +27,7 @@ void PrintTo(const PointMotion& m, std::ostream* out) {
 void PrintTo(const PointParameters& p, std::ostream* out) {
   out->precision(17);
   *out << "k_u " << p.tangential_stiffness << " k_v " << p.normal_stiffness << " mu "
-       << p.friction_coefficient << " preload " << p.preload;
+       << p.friction_coefficient << " preload " << p.rest_load;
 }
 
 }  // namespace microslip::contact
@@ -57,7 +57,7 @@ constexpr double smallest = 1e-321;
 // they vanish there.
 double touch_down_uncertainty(const CycleCase& c) {
   const double B = c.point.normal_stiffness * std::hypot(c.motion.v_sin, c.motion.v_cos);
-  const double n0 = c.point.preload + c.point.normal_stiffness * c.motion.v_mean;
+  const double n0 = c.point.rest_load + c.point.normal_stiffness * c.motion.v_mean;
   const double rate = std::sqrt(std::max(B - n0, 0.0)) * std::sqrt(std::max(B + n0, 0.0));
   return rate > 0.0 ? std::min(1e-8, 4e-17 * normal_scale(c) / rate) : 1e-8;
 }

@@ -19,7 +19,7 @@ TEST(SlipFunctions, DirectionsPointAtTheExtrema) {
   EXPECT_NEAR(u(w.end_of_positive) - 0.4 * v(w.end_of_positive), w.positive, 1e-15);
   EXPECT_NEAR(u(w.end_of_negative) + 0.4 * v(w.end_of_negative), -w.negative, 1e-15);
   EXPECT_NEAR(v(w.largest_load), w.load_amplitude, 1e-15);
-  EXPECT_NEAR(w.mean_load, 2.1, 1e-15);
+  EXPECT_NEAR(w.bias_load, 2.1, 1e-15);
   EXPECT_NEAR(w.difference, w.negative - w.positive, 1e-15);
   EXPECT_NEAR(w.excess, w.positive + w.negative - 2.0 * 0.4 * 2.1, 1e-15);
 }
@@ -57,7 +57,7 @@ TEST(SlipFunctions, PreloadThatTheMeanApproachCancelsKeepsItsDigits) {
   const double k = 1e6 + 0.1;
   const double v = -1.0 + 1e-7;
   const SlipFunctions w = slip_functions({1.0, k, 0.5, 1e6}, {.u_sin = 1.0, .v_mean = v});
-  EXPECT_EQ(w.mean_load, std::fma(k, v, 1e6));
+  EXPECT_EQ(w.bias_load, std::fma(k, v, 1e6));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ ForceAndJacobian by_definition(PatchForce& patch, const Harmonics& q) {
     }
     Eigen::VectorXd f(6);
     f << c.friction.mean, c.friction.sin, c.friction.cos,
-        c.normal.mean - std::max(point.preload, 0.0), c.normal.sin, c.normal.cos;
+        c.normal.mean - std::max(point.rest_load, 0.0), c.normal.sin, c.normal.cos;
     const double w = patch.patch().weights()[i];
     sum.force.vector() += w * Phi.transpose() * f;
     sum.jacobian += w * Phi.transpose() * c.jacobian * Phi;
@@ -144,7 +144,7 @@ TEST(PatchForce, PowersOfTwoScaleBitByBit) {
   const ContactPatch patch = random_patch(n, 0.7, 10);
   std::vector<PointParameters> points = patch.points();
   for (PointParameters& point : points) {
-    point.preload *= 0.125;
+    point.rest_load *= 0.125;
   }
   const ModalShapes shapes = random_shapes(n, 11);
   const Harmonics q = random_motion(12);

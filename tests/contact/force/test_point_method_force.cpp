@@ -72,7 +72,7 @@ class ClosedForm final : public PointMethod {
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override {
     return {point_.tangential_stiffness, point_.normal_stiffness, spring_r};
   }
-  [[nodiscard]] double load_at_rest() const override { return std::max(point_.preload, 0.0); }
+  [[nodiscard]] double reference_load() const override { return std::max(point_.rest_load, 0.0); }
 
  private:
   PointParameters point_;
@@ -128,7 +128,7 @@ class Vague final : public PointMethod {
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override {
     return exact_.stuck_stiffness();
   }
-  [[nodiscard]] double load_at_rest() const override { return exact_.load_at_rest(); }
+  [[nodiscard]] double reference_load() const override { return exact_.reference_load(); }
 
  private:
   ClosedForm exact_;
@@ -226,7 +226,7 @@ TEST(PointMethodForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
   Harmonics load(1, n_modes);
   for (Eigen::Index i = 0; i < 20; ++i) {
     load.rows().row(0) +=
-        p.weights[i] * p.methods[static_cast<std::size_t>(i)]->load_at_rest() * p.shapes.v.row(i);
+        p.weights[i] * p.methods[static_cast<std::size_t>(i)]->reference_load() * p.shapes.v.row(i);
   }
   const Eigen::VectorXd whole = at.force.vector() + load.vector();
   EXPECT_LE((at.frequency_derivative - 3.0 * whole).cwiseAbs().maxCoeff(), rounding(20) * 3.0);

@@ -133,7 +133,7 @@ TEST_P(LineEventsProperties, PowersOfTwoScaleForcesBitByBit) {
     for (const double factor : {0x1p-70, 0x1p63}) {
       MotionCase scaled = c;
       scaled.motion.rows() *= factor;
-      scaled.point.preload *= factor;
+      scaled.point.rest_load *= factor;
       const PointTraction plain = traction(c);
       const PointTraction other = traction(scaled);
       ASSERT_EQ(other.force.rows(), (factor * plain.force.rows()).eval());
@@ -170,7 +170,7 @@ TEST_P(LineEventsProperties, InstantsObeyTheLaw) {
       const double limit = c.point.friction_coefficient * now.traction[1];
       ASSERT_LE(std::abs(now.traction[0]), limit);
       ASSERT_GE(now.traction[1], 0.0);
-      const double load = c.point.preload + c.point.normal_stiffness * now.motion[1];
+      const double load = c.point.rest_load + c.point.normal_stiffness * now.motion[1];
       if (now.state != ContactState::separated) {
         ASSERT_EQ(now.traction[1], std::max(load, 0.0));
       } else {
@@ -221,7 +221,7 @@ TEST(LineEvents, HugeForcesDoNotOverflowBetween) {
   for (int i = 0; i < 200; ++i) {
     MotionCase c = test::motion_strata()[1].draw(random);
     const PointTraction plain = traction(c);
-    c.point.preload *= 0x1p990;
+    c.point.rest_load *= 0x1p990;
     c.motion.rows() *= 0x1p990;
     const PointTraction huge = traction(c);
     ASSERT_EQ(huge.force.rows(), (0x1p990 * plain.force.rows()).eval());
@@ -244,10 +244,10 @@ TEST(LineEvents, GrazingAtPhaseZeroIsNotSeparation) {
 TEST(LineEvents, StiffnessAndLoadAtRest) {
   const LineEvents method({3.0, 2.0, 0.5, 7.0});
   EXPECT_EQ(method.stuck_stiffness(), Eigen::Vector3d(3.0, 2.0, 0.0));
-  EXPECT_EQ(method.load_at_rest(), 7.0);
+  EXPECT_EQ(method.reference_load(), 7.0);
   const LineEvents frictionless_gap({3.0, 2.0, 0.0, -7.0});
   EXPECT_EQ(frictionless_gap.stuck_stiffness(), Eigen::Vector3d(0.0, 2.0, 0.0));
-  EXPECT_EQ(frictionless_gap.load_at_rest(), 0.0);
+  EXPECT_EQ(frictionless_gap.reference_load(), 0.0);
 }
 
 // ---- one harmonic: the closed form

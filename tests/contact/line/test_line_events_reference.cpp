@@ -39,7 +39,7 @@ std::string description(const MotionCase& c) {
   std::ostringstream text;
   text.precision(17);
   text << "k_u " << c.point.tangential_stiffness << " k_v " << c.point.normal_stiffness << " mu "
-       << c.point.friction_coefficient << " preload " << c.point.preload << "\n"
+       << c.point.friction_coefficient << " preload " << c.point.rest_load << "\n"
        << c.motion.rows();
   return text.str();
 }

@@ -311,7 +311,7 @@ TEST(SurfaceLineEvents, ForcesFollowTheUnitToTheLastBit) {
     for (const double factor : {0x1p-970, 0x1p-70, 0x1p63, 0x1p900}) {
       MotionCase scaled = c;
       scaled.motion.rows() *= factor;
-      scaled.point.preload *= factor;
+      scaled.point.rest_load *= factor;
       const PointTraction other =
           traction(SurfaceLineEvents(test::smooth_surface(scaled)), scaled.motion);
       ASSERT_EQ(other.force.rows(), (factor * plain.force.rows()).eval());
@@ -387,7 +387,7 @@ TEST(SurfaceLineEvents, StiffnessAndLoadAtRest) {
   const PointParameters point{3.0, 2.0, 0.5, 7.0};
   EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(point, 1.0)).stuck_stiffness(),
             Eigen::Vector3d(3.0, 2.0, 0.0));
-  EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(point, 1.0)).load_at_rest(), 7.0);
+  EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(point, 1.0)).reference_load(), 7.0);
   const PointParameters gap{3.0, 2.0, 0.0, -7.0};
   EXPECT_EQ(SurfaceLineEvents(SurfaceLaw(gap, 1.0)).stuck_stiffness(),
             Eigen::Vector3d(0.0, 2.0, 0.0));

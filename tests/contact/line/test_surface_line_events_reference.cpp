@@ -111,7 +111,7 @@ std::string description(const SurfaceDraw& d) {
   text.precision(17);
   const auto& p = d.law.point;
   text << "k_u " << p.tangential_stiffness << " k_v " << p.normal_stiffness << " mu "
-       << p.friction_coefficient << " preload " << p.preload << " at_speed " << d.law.at_speed
+       << p.friction_coefficient << " preload " << p.rest_load << " at_speed " << d.law.at_speed
        << " decay " << d.law.decay << " omega " << d.frequency << " height " << d.law.height
        << " mean " << d.law.mean << " series " << d.law.series.p << ' ' << d.law.series.q << '\n'
        << d.c.motion.rows();

@@ -41,7 +41,7 @@ TEST(ContactMap, FieldsObeyTheContactLaw) {
       const double u = map.relative_displacement(i, j);
       EXPECT_NEAR(u, s.shapes.u(i, 0) * s.q.at(map.phase[j])[0], 1e-15);  // a product or two
       EXPECT_NEAR(map.approach(i, j), s.shapes.v(i, 0) * s.q.at(map.phase[j])[0], 1e-15);
-      EXPECT_NEAR(n, std::max(0.0, point.preload + point.normal_stiffness * map.approach(i, j)),
+      EXPECT_NEAR(n, std::max(0.0, point.rest_load + point.normal_stiffness * map.approach(i, j)),
                   1e-14);  // of a load of 50
       EXPECT_LE(std::abs(f), point.friction_coefficient * n + 1e-15);
       EXPECT_NEAR(f, point.tangential_stiffness * (u - map.slip(i, j)), 1e-14);

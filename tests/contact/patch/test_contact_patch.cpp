@@ -26,7 +26,7 @@ TEST(ContactPatch, KeepsWhatItIsGiven) {
   const ContactPatch patch(Eigen::Vector2d(1.0, 0.0), {{1.0, 2.0, 0.3, -4.0}, {}});
   EXPECT_EQ(patch.n_points(), 2);
   EXPECT_EQ(patch.weights()[0], 1.0);
-  EXPECT_EQ(patch.points()[0].preload, -4.0);
+  EXPECT_EQ(patch.points()[0].rest_load, -4.0);
 }
 
 TEST(ContactPatch, RefusesValuesOutOfRangeByNameAndPoint) {
@@ -44,9 +44,9 @@ TEST(ContactPatch, RefusesValuesOutOfRangeByNameAndPoint) {
             std::string::npos);
   EXPECT_NE(with([](auto& p) { p.friction_coefficient = -0.1; }).find("friction_coefficient"),
             std::string::npos);
-  EXPECT_NE(with([](auto& p) { p.preload = infinity - infinity; }).find("preload"),
+  EXPECT_NE(with([](auto& p) { p.rest_load = infinity - infinity; }).find("preload"),
             std::string::npos);
-  EXPECT_NE(with([](auto& p) { p.preload = infinity; }).find("point 2"), std::string::npos);
+  EXPECT_NE(with([](auto& p) { p.rest_load = infinity; }).find("point 2"), std::string::npos);
   EXPECT_NE(message_of(Eigen::Vector2d(1.0, -1.0), {good, good}).find("weight = -1"),
             std::string::npos);
 }

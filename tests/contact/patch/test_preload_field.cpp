@@ -52,16 +52,16 @@ std::string refusal(const Call& call) {
 
 TEST(PreloadField, UniformPressureIsForceOverArea) {
   const PatchRule rule = l_shape();
-  const Eigen::VectorXd n = uniform_preload(rule.weights, 600.0);
+  const Eigen::VectorXd n = uniform_rest_load(rule.weights, 600.0);
   EXPECT_NEAR(n[5], 600.0 / 3e-4, 1e-8);
-  EXPECT_THROW((void)uniform_preload(Eigen::VectorXd::Zero(3), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)uniform_rest_load(Eigen::VectorXd::Zero(3), 1.0), std::invalid_argument);
 }
 
 TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
   const PatchRule rule = l_shape();
   const Eigen::VectorXd shape = (200.0 * rule.p.array()).sin() + 0.2;  // partly a gap
   EXPECT_LT(shape.minCoeff(), 0.0);
-  const Eigen::VectorXd n = scaled_preload(shape, rule.weights, 750.0);
+  const Eigen::VectorXd n = scaled_rest_load(shape, rule.weights, 750.0);
   EXPECT_NEAR(rule.weights.dot(n.cwiseMax(0.0)), 750.0, 1e-11);
   EXPECT_NEAR(carried_force(n, rule.weights), 750.0, 1e-11);
   EXPECT_LT(rule.weights.dot(n), 740.0);  // the gap counts against it in the plain integral
@@ -73,17 +73,17 @@ TEST(PreloadField, AShapeIsScaledToTheTotalItCarries) {
 // pressure.
 TEST(PreloadField, AShapeWithoutPositiveMeanIsNotScaled) {
   const PatchRule rule = square(-1.0, -1.0, 2.0, 4);
-  EXPECT_NE(refusal([&] { return scaled_preload(rule.p, rule.weights, 750.0); }).find("above 0"),
+  EXPECT_NE(refusal([&] { return scaled_rest_load(rule.p, rule.weights, 750.0); }).find("above 0"),
             std::string::npos);
   for (const double mean : {-0.5, -2.0}) {  // partly pressing, a gap everywhere
     const Eigen::VectorXd shape = rule.p.array() + mean;
-    const std::string said = refusal([&] { return scaled_preload(shape, rule.weights, 750.0); });
+    const std::string said = refusal([&] { return scaled_rest_load(shape, rule.weights, 750.0); });
     EXPECT_NE(said.find("above 0"), std::string::npos) << said;
     EXPECT_NE(said.find(mean < -1.0 ? "to -8 over" : "to -2 over"), std::string::npos) << said;
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rule.p.size());
-  EXPECT_THROW((void)scaled_preload(ones, rule.weights, -1.0), std::invalid_argument);
-  EXPECT_TRUE(scaled_preload(ones, rule.weights, 0.0).isZero(0.0));
+  EXPECT_THROW((void)scaled_rest_load(ones, rule.weights, -1.0), std::invalid_argument);
+  EXPECT_TRUE(scaled_rest_load(ones, rule.weights, 0.0).isZero(0.0));
 }
 
 TEST(PreloadField, AWrongTotalIsRefusedWithBothNumbers) {

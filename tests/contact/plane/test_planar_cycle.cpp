@@ -197,7 +197,7 @@ TEST(PlaneEvents, ForcesFollowTheUnitToTheLastBit) {
     for (const int exponent : {-330, -200, -1, 3, 200, 330}) {
       const double unit = std::ldexp(1.0, exponent);
       PointParameters scaled = point;
-      scaled.preload *= unit;
+      scaled.rest_load *= unit;
       Harmonics motion = lissajous();
       motion.rows() *= unit;
       const PlaneEvents law(SurfaceLaw(scaled, 0.7, FrictionLaw::hyperbolic(0.6, 0.2)), tight);

@@ -107,7 +107,7 @@ test::SurfaceMoment moment_of(const PointParameters& point, double second_stiffn
                               const RoughPoint& rough, long double approach, long double speed) {
   const long double R = rough.height;
   // At rest F_N = n₀: x³ − x⁴/2 = n₀/(k_v R), or beyond the heights x − ½; a gap otherwise.
-  const long double at_rest = point.preload / (point.normal_stiffness * R);
+  const long double at_rest = point.rest_load / (point.normal_stiffness * R);
   long double rest = at_rest;
   if (at_rest >= 0.5L) rest = at_rest + 0.5L;
   if (at_rest > 0.0L && at_rest < 0.5L) {

@@ -48,7 +48,7 @@ TEST(PlanarRest, TheOnsetOfSlipIsTheLargerHalfAxis) {
     force.row(1) = c.second_stiffness * c.motion.rows().col(2).tail<2>().transpose();
     const double axis = Eigen::JacobiSVD<Eigen::Matrix2d>(force).singularValues()[0];
     const double expected =
-        (axis - c.point.friction_coefficient * c.point.preload) / motion.force_scale();
+        (axis - c.point.friction_coefficient * c.point.rest_load) / motion.force_scale();
     const RestPlace place = rest_of(motion);
     // Nearly a circle: almost every phase is a window.
     undecided += place.answer == Answer::undecided;

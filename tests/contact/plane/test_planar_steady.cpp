@@ -75,7 +75,7 @@ double onset_size(const test::PlanarCase& c) {
     const double k = i == 0 ? c.point.tangential_stiffness : c.second_stiffness;
     force.row(i) = k * c.motion.rows().col(2 * i).tail<2>().transpose();
   }
-  const double limit = c.point.friction_coefficient * c.point.preload;
+  const double limit = c.point.friction_coefficient * c.point.rest_load;
   return Eigen::JacobiSVD<Eigen::Matrix2d>(force).singularValues()[0] / limit;
 }
 

@@ -43,7 +43,7 @@ std::vector<MotionCase> motions(int n) {
 PointTraction traction(const PointMethod& method, const Harmonics& motion) {
   PointTraction result;
   method.traction(motion, frequency, result);
-  result.force.rows()(0, 1) -= method.load_at_rest();
+  result.force.rows()(0, 1) -= method.reference_load();
   return result;
 }
 
@@ -291,7 +291,7 @@ TEST(SampledLine, FullStickKeepsTheConventionOfTheLineEvents) {
   int n_pushed = 0;
   for (int i = 0; i < 300; ++i) {
     MotionCase c = test::motion_strata()[5].draw(random);
-    c.point.preload *= i % 2 == 0 ? 4.0 : 2.0;
+    c.point.rest_load *= i % 2 == 0 ? 4.0 : 2.0;
     c.motion.rows()(0, 0) *= i % 2 == 0 ? 1.0 : 8.0;
     const PointTraction exact = traction(LineEvents(c.point), c.motion);
     if (exact.regime != CycleRegime::full_stick) continue;

@@ -76,9 +76,9 @@ PlanarCase straight_planar(Random& random) {
 /// Parts in every period.
 PlanarCase parting_planar(Random& random) {
   PlanarCase c = test::slipping_planar(random);
-  c.point.preload = -c.point.normal_stiffness * c.motion.rows()(0, 1) +
-                    std::uniform_real_distribution<double>(-0.6, 0.6)(random) *
-                        c.point.normal_stiffness * c.motion.rows().col(1).tail(2).norm();
+  c.point.rest_load = -c.point.normal_stiffness * c.motion.rows()(0, 1) +
+                      std::uniform_real_distribution<double>(-0.6, 0.6)(random) *
+                          c.point.normal_stiffness * c.motion.rows().col(1).tail(2).norm();
   return c;
 }
 
@@ -96,7 +96,7 @@ std::vector<PlanarCase> cases_of(int n) {
 Harmonics exact_force(const SurfaceLaw& surface, const PlanarCase& c) {
   PointTraction result;
   PlaneEvents(surface).traction(c.motion, frequency, result);
-  result.force.rows()(0, 1) -= surface.load_at_rest();
+  result.force.rows()(0, 1) -= surface.reference_load();
   return result.force;
 }
 

@@ -33,7 +33,7 @@ double worst(const LinearRange& r, const Harmonics& u, const Harmonics& v, const
   double worst = -std::numeric_limits<double>::infinity();
   for (int j = 0; j < 1000; ++j) {
     const double phase = 2.0 * std::numbers::pi * j / 1000.0;
-    const double n = r.gap_load + r.stiffness[1] * v.at(phase)[0];
+    const double n = r.rest_load + r.stiffness[1] * v.at(phase)[0];
     const double f = std::hypot(r.stiffness[0] * u.at(phase)[0], r.stiffness[2] * w.at(phase)[0]);
     worst = std::max(worst, open ? n : f - r.friction.at_rest() * n);
   }
@@ -55,7 +55,7 @@ TEST(LinearRange, ProofIsSoundAndSharp) {
     const Harmonics v = random_signal(H, 0.6, random);
     const Harmonics w = random_signal(H, 0.6, random);
     const SleepState state = state_of(range, u, v, w);
-    const bool open = range.gap_load + range.stiffness[1] * v.rows()(0, 0) < 0.0;
+    const bool open = range.rest_load + range.stiffness[1] * v.rows()(0, 0) < 0.0;
     const double excess = worst(range, u, v, w, open);
     n_stuck += state == SleepState::stuck ? 1 : 0;
     n_open += state == SleepState::open ? 1 : 0;

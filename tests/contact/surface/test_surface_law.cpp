@@ -49,7 +49,7 @@ TEST(SurfaceLaw, SmoothContactIsTheOneSidedSpring) {
   for (const double preload : {3e5, 0.0, -3e5}) {
     const SurfaceLaw law(point_with(preload), 1.5e12);
     EXPECT_TRUE(law.is_smooth());
-    EXPECT_EQ(law.load_at_rest(), std::max(preload, 0.0));
+    EXPECT_EQ(law.reference_load(), std::max(preload, 0.0));
     EXPECT_EQ(law.kinks(), std::vector<double>{-preload / 2e12});
     for (const double v : {-1e-6, -1e-7, 1e-7, 1e-6}) {
       const SurfaceState s = law.at(v, 0.0);
@@ -110,11 +110,11 @@ TEST(SurfaceLaw, RestCarriesTheAppliedPressure) {
   for (const double preload : {1e-250, 1e-3, 1e3, 3e5, 4e6, 1e9}) {
     for (const SurfaceLaw& law : rough_laws(preload)) {
       EXPECT_FALSE(law.is_smooth());
-      EXPECT_EQ(law.at(0.0, 0.0).load, law.load_at_rest());
+      EXPECT_EQ(law.at(0.0, 0.0).load, law.reference_load());
       // Conditioning: 3 for the cubic law; ζ² ≤ 1200 in the tail of the Gaussian. Soft bodies add
       // that of closure = u + cN, no more than 3 again.
       // Gaussian heights begin to carry with 1e-20 of k_v times their deviation.
-      EXPECT_NEAR(law.load_at_rest(), preload,
+      EXPECT_NEAR(law.reference_load(), preload,
                   (preload < 1.0 ? 5000.0 * eps : 200.0 * eps) * preload + 2e-20 * 2e12 * R)
           << preload;
     }
@@ -125,7 +125,7 @@ TEST(SurfaceLaw, AGapIsClosedWhereSmoothSurfacesWouldTouch) {
   for (const SeriesCompliance& series : {SeriesCompliance{}, SeriesCompliance{0.0, 5e-13, 0.0}}) {
     const SurfaceLaw law = rough_law(-3e5, RoughSurface::cubic(R), series);
     const double gap = 3e5 * (1.0 / 2e12 + series.q);
-    EXPECT_EQ(law.load_at_rest(), 0.0);
+    EXPECT_EQ(law.reference_load(), 0.0);
     EXPECT_NEAR(law.kinks().front(), gap, 4.0 * eps * gap);
     EXPECT_EQ(law.at(0.999 * gap, 0.0).load, 0.0);
     EXPECT_LT(law.at(0.999 * gap, 0.0).gap_load, 0.0);

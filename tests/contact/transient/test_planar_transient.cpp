@@ -217,7 +217,7 @@ TEST(PlanarTransient, RatesAreThoseOfTheSteadyCycle) {
       const ModalMotion now{motion.at(phase),
                             omega * (sine * std::cos(phase) - cosine * std::sin(phase)),
                             -omega * omega * (sine * std::sin(phase) + cosine * std::cos(phase))};
-      EXPECT_LT((force.held_force(now, memory) + Eigen::Vector3d(0.0, law.load_at_rest(), 0.0) -
+      EXPECT_LT((force.held_force(now, memory) + Eigen::Vector3d(0.0, law.reference_load(), 0.0) -
                  at[1].traction)
                     .norm(),
                 1e-9);

@@ -217,7 +217,7 @@ TEST(CycleHarmonics, AreTheIntegralsOfTheForcesOverThePeriod) {
                                 std::to_string(point.tangential_stiffness) + "," +
                                 std::to_string(point.normal_stiffness) + "," +
                                 std::to_string(point.friction_coefficient) + "," +
-                                std::to_string(point.preload) + ",2.5,-0.7,0.1,1.5,0.4,0.2\n",
+                                std::to_string(point.rest_load) + ",2.5,-0.7,0.1,1.5,0.4,0.2\n",
                             n_harmonics)[0];
     for (std::size_t h = 1; h <= n_harmonics; ++h) {
       std::array<double, 4> sums{};
@@ -233,10 +233,10 @@ TEST(CycleHarmonics, AreTheIntegralsOfTheForcesOverThePeriod) {
       }
       const Json& friction = row["friction"];
       const Json& normal = row["normal"];
-      EXPECT_NEAR(friction["sin"][h - 1].get<double>(), sums[0], 1e-8) << point.preload << h;
-      EXPECT_NEAR(friction["cos"][h - 1].get<double>(), sums[1], 1e-8) << point.preload << h;
-      EXPECT_NEAR(normal["sin"][h - 1].get<double>(), sums[2], 1e-8) << point.preload << h;
-      EXPECT_NEAR(normal["cos"][h - 1].get<double>(), sums[3], 1e-8) << point.preload << h;
+      EXPECT_NEAR(friction["sin"][h - 1].get<double>(), sums[0], 1e-8) << point.rest_load << h;
+      EXPECT_NEAR(friction["cos"][h - 1].get<double>(), sums[1], 1e-8) << point.rest_load << h;
+      EXPECT_NEAR(normal["sin"][h - 1].get<double>(), sums[2], 1e-8) << point.rest_load << h;
+      EXPECT_NEAR(normal["cos"][h - 1].get<double>(), sums[3], 1e-8) << point.rest_load << h;
     }
   }
 }

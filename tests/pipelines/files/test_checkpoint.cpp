@@ -44,7 +44,7 @@ TEST(Checkpoint, ACurveIsReadBackBitForBit) {
   EXPECT_EQ(curve_table(read->curve, {}), curve_table(curve.curve, {}));
   EXPECT_EQ(states_table(read->curve, 2), states_table(curve.curve, 2));
   EXPECT_EQ(read->curve.points.front().seconds, std::numeric_limits<double>::denorm_min());
-  EXPECT_EQ(std::get<double>(read->preload), 100.0);
+  EXPECT_EQ(std::get<double>(read->load), 100.0);
   EXPECT_EQ(read->gap, curve.gap);
   EXPECT_EQ(read->curve.detached.at(0).points.size(), curve.curve.points.size());
   EXPECT_EQ(read->patch_shares.at(0).reports.size(), 1U);
@@ -69,11 +69,11 @@ TEST(Checkpoint, FacesUnderStaticLoadsAreReadBack) {
 TEST(Checkpoint, ALimitIsReadBackAsALimit) {
   const synthetic::Folder folder("checkpoint_limit");
   CurveResult curve = full_curve();
-  curve.preload = LimitName::stuck;
+  curve.load = LimitName::stuck;
   const Checkpoint checkpoint(folder.path(), true);
   make_folder(folder.path() / "checkpoint");
   checkpoint.keep("limit", curve);
-  EXPECT_EQ(std::get<LimitName>(checkpoint.find<CurveResult>("limit")->preload), LimitName::stuck);
+  EXPECT_EQ(std::get<LimitName>(checkpoint.find<CurveResult>("limit")->load), LimitName::stuck);
 }
 
 TEST(Checkpoint, ARunThatIsNotResumedFindsNothing) {

@@ -30,7 +30,7 @@ void expect_samples(const std::filesystem::path& file, const std::string& stem,
   EXPECT_EQ(dataset_of(file, stem + "normal_stiffness"), samples.stiffness.col(1));
   EXPECT_EQ(dataset_of(file, stem + "tangential_stiffness_r"), samples.stiffness.col(2));
   EXPECT_EQ(dataset_of(file, stem + "friction_coefficient"), samples.friction);
-  EXPECT_EQ(dataset_of(file, stem + "preload"), samples.preload);
+  EXPECT_EQ(dataset_of(file, stem + "preload"), samples.preload_field);
 }
 
 void expect_patch(const std::filesystem::path& file, const std::string& folder,

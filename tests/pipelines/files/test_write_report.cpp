@@ -39,8 +39,8 @@ void write_run(const std::filesystem::path& folder, Maps maps = Maps::none) {
                                   synthetic::curve("preload_-50", -50.0, 299.0, 8e-5, -3.0),
                                   synthetic::curve("preload_100", 100.0, 305.0, 5e-5, 8.0),
                                   synthetic::curve("stuck", 0.0, 321.0, 1e-4, 0.0)};
-  curves.front().preload = LimitName::free;
-  curves.back().preload = LimitName::stuck;
+  curves.front().load = LimitName::free;
+  curves.back().load = LimitName::stuck;
   if (maps == Maps::one) {
     curves[2].maps.push_back(synthetic::named_map(model, "preload_100_peak"));
     write_map(folder / "maps", model.patches[0], curves[2].maps[0]);

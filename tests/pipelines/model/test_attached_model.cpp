@@ -15,9 +15,9 @@
 #include "fem/surface_load.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/model_family.hpp"
 #include "pipelines/model/nodal_load.hpp"
-#include "pipelines/model/preload_of.hpp"
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
@@ -133,7 +133,7 @@ std::string modal_scene(const ReducedModel& model, double load, const std::files
   }
   for (Eigen::Index i = 0; i < cells.size(); ++i) {
     table += fmt::format("\n{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", cells.weights[i], local,
-                         local, cells.friction[i], load * cells.preload[i]);
+                         local, cells.friction[i], load * cells.preload_field[i]);
     for (Eigen::Index axis = 0; axis < (in_series ? 3 : 0); ++axis) {
       table += fmt::format(",{:.17g}", cells.compliance(i, axis));
     }
@@ -180,14 +180,14 @@ TEST(AttachedModel, AGapGivenAsALengthIsThatLengthInEveryBasis) {
     const ReducedModel model = model_with(mesh, scene);
     const std::vector<CurveRequest> requests = curve_requests(scene);
     EXPECT_EQ(requests[0].name, "gap_3um");
-    const double load = std::get<double>(preload_of(requests[0], model));
+    const double load = std::get<double>(load_of(requests[0], model));
     EXPECT_NEAR(load, -3e-6 * total_normal_stiffness(model), 1e-12 * std::abs(load));
     const contact::ContactForce force = contact_of(model, load);
     for (const contact::PointParameters& point : force.points(0)) {
-      EXPECT_NEAR(-point.preload / point.normal_stiffness, 3e-6, 1e-18);
+      EXPECT_NEAR(-point.rest_load / point.normal_stiffness, 3e-6, 1e-18);
     }
-    EXPECT_NEAR(gap_of(preload_of(requests[0], model), model).value(), 3e-6, 1e-17);
-    EXPECT_NEAR(gap_of(preload_of(requests[1], model), model).value(),
+    EXPECT_NEAR(gap_of(load_of(requests[0], model), model).value(), 3e-6, 1e-17);
+    EXPECT_NEAR(gap_of(load_of(requests[1], model), model).value(),
                 150.0 / total_normal_stiffness(model), 1e-17);
     EXPECT_FALSE(gap_of(150.0, model).has_value());
     EXPECT_FALSE(gap_of(LimitName::free, model).has_value());

@@ -152,7 +152,7 @@ TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
   const double stuck = amplitude(stiffness, 12.0);
   EXPECT_NEAR(reach.load, 2e3 * 0.5 * std::max(free, stuck) / 4.0, 1e-12);
   EXPECT_NEAR(reach.slip, 3e3 * stuck / (0.5 * (4.0 - 2e3 * 0.5 * stuck)), 1e-12);
-  EXPECT_EQ(reach.mean_load, 0.0);
+  EXPECT_EQ(reach.bias_load, 0.0);
   // The stuck resonance lies above, the free one below: contact bends both to 12 Hz.
   const double stuck_hz =
       std::sqrt(std::pow(2.0 * std::numbers::pi * 10.0, 2) + stiffness) / (2.0 * std::numbers::pi);
@@ -172,7 +172,7 @@ TEST(Effects, ADriftCountsThoughNothingVibrates) {
   const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
   const double drift = 40.0 / std::pow(2.0 * std::numbers::pi * 10.0, 2);  // free: the larger one
   EXPECT_NEAR(reach.load, 2e3 * 0.5 * drift / 4.0, 1e-6);
-  EXPECT_GT(reach.mean_load, 1.0);
+  EXPECT_GT(reach.bias_load, 1.0);
 }
 
 TEST(Effects, AResonanceWithoutDampingHasNoBound) {

@@ -13,8 +13,8 @@
 #include "contact/patch/patch_load.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
 #include "pipelines/import/named_points.hpp"
+#include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/model_family.hpp"
-#include "pipelines/model/preload_of.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -90,7 +90,7 @@ Eigen::VectorXd rest_loads(const ReducedModel& model, double load, std::size_t p
                                 contact::shared_load(model.patches, load)[patch]);
   Eigen::VectorXd preload(std::ssize(points));
   for (Eigen::Index i = 0; i < preload.size(); ++i) {
-    preload[i] = points[static_cast<std::size_t>(i)].preload;
+    preload[i] = points[static_cast<std::size_t>(i)].rest_load;
   }
   return preload;
 }
@@ -117,8 +117,7 @@ TEST(StaticPreload, APreloadInNewtonsIsThatOfScaledLoads) {
   const Solved bar = solve(
       bar_scene(R"(forces = [ { at = "x1", direction = [1, 0, 0], amplitude = 300 } ])", 1e13));
   EXPECT_LT(off(rest_loads(bar.model, 50.0), 50.0 / area), rounding);
-  EXPECT_EQ(std::get<double>(preload_of({"", StaticPreload{}}, bar.model)),
-            *bar.model.static_preload);
+  EXPECT_EQ(std::get<double>(load_of({"", StaticPreload{}}, bar.model)), *bar.model.static_preload);
 }
 
 TEST(StaticPreload, AGapIsClosedFirst) {
@@ -210,7 +209,8 @@ TEST(StaticPreload, OneOfTwoContactsMayBeOpen) {
   EXPECT_LE(open.maxCoeff(), 0.0);
   EXPECT_LT(open.minCoeff(), 0.0);
   EXPECT_LT((rest_loads(bent.model, 2.0 * total, 1) - 2.0 * open).norm(), 1e-12 * open.norm());
-  EXPECT_LT((bent.model.patches[1].vertices.preload.array()).maxCoeff(), 1e-9 * -open.minCoeff());
+  EXPECT_LT((bent.model.patches[1].vertices.preload_field.array()).maxCoeff(),
+            1e-9 * -open.minCoeff());
 }
 
 TEST(StaticPreload, IsToldWithItsOpenPart) {

@@ -90,8 +90,8 @@ TEST(BarScene, PointsLieInTheMiddleOfCellsAndCarryTheLoadThere) {
   ASSERT_EQ(bar.points.size(), 4U);
   EXPECT_EQ(bar.weights, Eigen::VectorXd::Constant(4, 0.25));
   EXPECT_EQ(bar.positions.col(0), Eigen::Vector4d(0.125, 0.375, 0.625, 0.875));
-  EXPECT_DOUBLE_EQ(bar.points[0].preload, 2000.0 * (0.2 + 0.8 * 0.75 * 0.75));
-  EXPECT_DOUBLE_EQ(bar.points[3].preload, bar.points[0].preload);
+  EXPECT_DOUBLE_EQ(bar.points[0].rest_load, 2000.0 * (0.2 + 0.8 * 0.75 * 0.75));
+  EXPECT_DOUBLE_EQ(bar.points[3].rest_load, bar.points[0].rest_load);
   EXPECT_EQ(bar.points[1].tangential_stiffness, 1e7);
   EXPECT_EQ(bar.points[1].normal_stiffness, 0.0);
 }
@@ -104,9 +104,9 @@ TEST(BarScene, IsDrivenAndToldAtItsRightEnd) {
 }
 
 TEST(BarScene, TheLoadIsAQuantityOrAFormula) {
-  EXPECT_EQ(model_of(bar_text, {"contact.load=2 kN/m"}).points[2].preload, 2000.0);
-  EXPECT_EQ(model_of(bar_text, {"contact.load=1500"}).points[2].preload, 1500.0);
-  EXPECT_EQ(model_of(bar_text, {"contact.load=\"100*x\""}).points[2].preload, 62.5);
+  EXPECT_EQ(model_of(bar_text, {"contact.load=2 kN/m"}).points[2].rest_load, 2000.0);
+  EXPECT_EQ(model_of(bar_text, {"contact.load=1500"}).points[2].rest_load, 1500.0);
+  EXPECT_EQ(model_of(bar_text, {"contact.load=\"100*x\""}).points[2].rest_load, 62.5);
   expect_complaint(bar_text, {"contact.load=\"100*y\""}, "\"y\" is not known");
   expect_complaint(bar_text, {"contact.load=\"x - 0.5\""}, "-0.375 N/m at x = 0.125 m");
   expect_complaint(bar_text, {"contact.load=\"1/(x - x)\""}, "is inf at x = 0.125 m");
@@ -159,7 +159,7 @@ TEST(ChainScene, IsReadInSi) {
   EXPECT_EQ(chain.damping_ratio, Eigen::Vector2d(0.02, 0.03));
   ASSERT_EQ(chain.points.size(), 1U);
   EXPECT_EQ(chain.points[0].tangential_stiffness, 4e4);
-  EXPECT_EQ(chain.points[0].preload, 1.0);
+  EXPECT_EQ(chain.points[0].rest_load, 1.0);
   EXPECT_EQ(chain.load_measure, LoadMeasure::force);
   // cos 90° leaves a rounding of 2 N in the sine; the masses are 1 kg, so shapes are of size one.
   EXPECT_LT((chain.force_sine - 10.0 * chain.output).norm(), 1e-15);
@@ -170,8 +170,8 @@ TEST(ChainScene, CurvesAreNamedByTheirPreload) {
   const auto requests = curve_requests(parse(chain_text));
   ASSERT_EQ(requests.size(), 4U);
   EXPECT_EQ(requests[1].name, "preload_10");
-  EXPECT_EQ(std::get<double>(requests[2].preload), 30.0);
-  EXPECT_EQ(std::get<LimitName>(requests[3].preload), LimitName::stuck);
+  EXPECT_EQ(std::get<double>(requests[2].load), 30.0);
+  EXPECT_EQ(std::get<LimitName>(requests[3].load), LimitName::stuck);
 }
 
 TEST(ChainScene, MatricesAndModesSayTheSameAsTheChain) {
@@ -201,8 +201,8 @@ TEST(ChainScene, ContactsShareThePreloadAndMayJoinTwoMasses) {
        "share = 3 }]"});
   const ReducedModel model = reduced_model(scene);
   const auto points = contact_of(model, 100.0).points(0);
-  EXPECT_EQ(points[0].preload, 25.0);
-  EXPECT_EQ(points[1].preload, 75.0);
+  EXPECT_EQ(points[0].rest_load, 25.0);
+  EXPECT_EQ(points[1].rest_load, 75.0);
   EXPECT_EQ(model.patches[0].cells.shapes.u.row(1),
             model.output.transpose() - model.patches[0].cells.shapes.u.row(0));
 }
@@ -214,8 +214,8 @@ TEST(ChainScene, ANegativePreloadIsAUniformGap) {
        "normal_stiffness = 2e4, friction_coefficient = 0.5 }, { slip = \"m1\", approach = \"m1\", "
        "tangential_stiffness = 1e4, normal_stiffness = 6e4, friction_coefficient = 0.5 }]"}));
   const auto points = contact_of(model, -8.0).points(0);
-  EXPECT_DOUBLE_EQ(points[0].preload / 2e4, -1e-4);
-  EXPECT_DOUBLE_EQ(points[1].preload / 6e4, -1e-4);
+  EXPECT_DOUBLE_EQ(points[0].rest_load / 2e4, -1e-4);
+  EXPECT_DOUBLE_EQ(points[1].rest_load / 6e4, -1e-4);
 }
 
 TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
@@ -227,11 +227,11 @@ TEST(ChainScene, AMomentLoadsTheCellsUnevenly) {
   double force = 0.0, moment_p = 0.0, moment_r = 0.0;
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(points[i].tangential_stiffness, 2500.0);
-    EXPECT_GE(points[i].preload, 0.0);
+    EXPECT_GE(points[i].rest_load, 0.0);
     const auto row = static_cast<Eigen::Index>(i);
-    force += points[i].preload;
-    moment_p -= model.patches[0].cells.points(row, 2) * points[i].preload;
-    moment_r += model.patches[0].cells.points(row, 0) * points[i].preload;
+    force += points[i].rest_load;
+    moment_p -= model.patches[0].cells.points(row, 2) * points[i].rest_load;
+    moment_r += model.patches[0].cells.points(row, 0) * points[i].rest_load;
   }
   EXPECT_NEAR(force, 50.0, 1e-13);  // sums of sixteen numbers of size ten
   EXPECT_NEAR(moment_p, 1.0, 1e-14);
@@ -248,7 +248,7 @@ TEST(ChainScene, AMomentLiftsCellsOff) {
   const auto points = contact_of(model, 30.0).points(0);
   const std::array<double, 4> rows{25.0, 5.0, -15.0, -35.0};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_NEAR(points[i].preload, rows[i / 4] / 4.0, 1e-12);  // rounding of numbers of size ten
+    EXPECT_NEAR(points[i].rest_load, rows[i / 4] / 4.0, 1e-12);  // rounding of numbers of size ten
   }
 }
 
@@ -260,9 +260,9 @@ TEST(ChainScene, AnAreaOfSeveralContactsTiltsUnderItsShare) {
        "friction_coefficient = 0.5, share = 3, cells = [2, 2], size = [0.2, 0.2], preload_moment = "
        "[0, 1] }]"}));
   const auto points = contact_of(model, 40.0).points(0);
-  EXPECT_DOUBLE_EQ(points[0].preload, 10.0);
+  EXPECT_DOUBLE_EQ(points[0].rest_load, 10.0);
   const std::array<double, 4> cells{2.5, 12.5, 2.5, 12.5};  // 30/4 ∓ 1/(4 · 0.05)
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(points[i + 1].preload, cells[i], 1e-13);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(points[i + 1].rest_load, cells[i], 1e-13);
 }
 
 TEST(ChainScene, AMomentWithoutEquilibriumIsRefused) {

@@ -188,7 +188,7 @@ TEST(BlockScene, CellsShareStiffnessAndLoadByArea) {
   for (const auto& point : points) {
     EXPECT_DOUBLE_EQ(point.tangential_stiffness, 30000.0 / 0.0036);
     EXPECT_DOUBLE_EQ(point.normal_stiffness, 40000.0 / 0.0036);
-    EXPECT_DOUBLE_EQ(point.preload, 40.0 / 0.0036);
+    EXPECT_DOUBLE_EQ(point.rest_load, 40.0 / 0.0036);
   }
 }
 
@@ -204,7 +204,7 @@ TEST(BlockScene, RoughCellsCarryForceAndMoments) {
   Eigen::MatrixX3d plane(6, 3);
   Eigen::VectorXd approach(6);
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const double n = points[static_cast<std::size_t>(i)].preload;
+    const double n = points[static_cast<std::size_t>(i)].rest_load;
     const double load = model.patches[0].cells.weights[i] * n;
     force += load;
     about_r += model.patches[0].cells.points(i, 0) * load;

@@ -129,7 +129,7 @@ TEST(SceneFile, AModalSceneIsReadWithItsPoints) {
   EXPECT_EQ(modal.damping_ratio, Eigen::Vector2d(0.01, 0.01));
   EXPECT_EQ(modal.force_static, Eigen::Vector2d::Zero());
   ASSERT_EQ(modal.points.size(), 2U);
-  EXPECT_EQ(modal.points[0].preload, -2.0);
+  EXPECT_EQ(modal.points[0].rest_load, -2.0);
   EXPECT_EQ(modal.points[1].normal_stiffness, 2e4);
   EXPECT_EQ(modal.weights, Eigen::Vector2d(1.0, 2.0));
   EXPECT_EQ(modal.shapes.u(1, 1), -0.5);

@@ -48,7 +48,7 @@ void expect_peak_of_slider(const tests::SinglePoint& single, const ResponsePoint
   const double A = peak.amplitude;
   const double omega = peak.frequency;
   const contact::PointParameters& point = single.point;
-  const Slider slider{point.tangential_stiffness, point.friction_coefficient * point.preload};
+  const Slider slider{point.tangential_stiffness, point.friction_coefficient * point.rest_load};
   const double alpha = single.frequency * single.frequency +
                        single.phi_u * single.phi_u * slider.in_phase(single.phi_u * A);
   const double damping = 2.0 * single.damping_ratio * single.frequency * A;

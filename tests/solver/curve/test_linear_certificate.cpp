@@ -55,7 +55,7 @@ TEST(LinearCertificate, HoldsForAGapThatIsNotClosed) {
   single.phi_v = 1.0;
   single.point = {2.0, 1.0, 0.5, -51.0};
   EXPECT_EQ(certificate_of(tests::single_point_scene(single), 0.5, 2.0).state, LinearState::free);
-  single.point.preload = -49.0;
+  single.point.rest_load = -49.0;
   EXPECT_EQ(certificate_of(tests::single_point_scene(single), 0.5, 2.0).state,
             LinearState::unknown);
 }

@@ -1,4 +1,4 @@
-#include "pipelines/model/preload_of.hpp"
+#include "pipelines/model/curve_load.hpp"
 
 #include <cmath>
 
@@ -7,12 +7,13 @@
 namespace microslip::pipelines {
 namespace {
 
-/// A gap is as wide as its preload over the stiffness: whether that is the same everywhere.
+/// A gap is as wide as its load over the stiffness: whether that is the same everywhere.
 bool is_one_gap(const ReducedModel& model) {
   constexpr double same = 1e-6;
   const double width = 1.0 / total_normal_stiffness(model);  // at unit load
   for (const contact::Patch& patch : model.patches) {
-    const Eigen::ArrayXd own = patch.cells.preload.array() / patch.cells.stiffness.col(1).array();
+    const Eigen::ArrayXd own =
+        patch.cells.preload_field.array() / patch.cells.stiffness.col(1).array();
     if (!((own - width).abs() <= same * std::abs(width)).all()) return false;
   }
   return true;
@@ -28,11 +29,11 @@ double total_normal_stiffness(const ReducedModel& model) {
   return total;
 }
 
-std::variant<double, LimitName> preload_of(const CurveRequest& request, const ReducedModel& model) {
-  if (const auto* limit = std::get_if<LimitName>(&request.preload)) return *limit;
-  if (std::holds_alternative<StaticPreload>(request.preload)) return model.static_preload.value();
-  const auto* gap = std::get_if<UniformGap>(&request.preload);
-  if (gap == nullptr) return std::get<double>(request.preload);
+std::variant<double, LimitName> load_of(const CurveRequest& request, const ReducedModel& model) {
+  if (const auto* limit = std::get_if<LimitName>(&request.load)) return *limit;
+  if (std::holds_alternative<StaticPreload>(request.load)) return model.static_preload.value();
+  const auto* gap = std::get_if<UniformGap>(&request.load);
+  if (gap == nullptr) return std::get<double>(request.load);
   const double total = total_normal_stiffness(model);
   if (!(total > 0.0)) {
     throw RefusedError("response.preload: a gap needs a normal contact stiffness, and it is zero");
@@ -40,12 +41,12 @@ std::variant<double, LimitName> preload_of(const CurveRequest& request, const Re
   return -gap->width * total;
 }
 
-std::optional<double> gap_of(const std::variant<double, LimitName>& preload,
+std::optional<double> gap_of(const std::variant<double, LimitName>& load,
                              const ReducedModel& model) {
-  const double* load = std::get_if<double>(&preload);
-  if (load == nullptr || !(*load < 0.0) || !in_newtons(model)) return std::nullopt;
+  const double* pull = std::get_if<double>(&load);
+  if (pull == nullptr || !(*pull < 0.0) || !in_newtons(model)) return std::nullopt;
   if (!is_one_gap(model)) return std::nullopt;
-  return -*load / total_normal_stiffness(model);
+  return -*pull / total_normal_stiffness(model);
 }
 
 }  // namespace microslip::pipelines

@@ -1,4 +1,4 @@
-#include "pipelines/model/preload_shape.hpp"
+#include "pipelines/model/contact_preload.hpp"
 
 #include <stdexcept>
 #include <variant>
@@ -47,15 +47,15 @@ void require_balance(const FacePoints& face, const ContactDescription& contact, 
 
 }  // namespace
 
-Eigen::VectorXd unit_preload(const ContactDescription& contact, const Eigen::VectorXd& p,
-                             const Eigen::VectorXd& r, const Eigen::VectorXd& weights) {
-  if (!contact.preload_field) return contact::uniform_preload(weights, 1.0);
+Eigen::VectorXd preload_field_of(const ContactDescription& contact, const Eigen::VectorXd& p,
+                                 const Eigen::VectorXd& r, const Eigen::VectorXd& weights) {
+  if (!contact.preload_field) return contact::uniform_rest_load(weights, 1.0);
   const Eigen::VectorXd shape = contact.preload_field->at(p, r);
   try {
-    Eigen::VectorXd preload = contact::scaled_preload(shape, weights, 1.0);
-    contact::require_total(preload, weights, 1.0,
+    Eigen::VectorXd field = contact::scaled_rest_load(shape, weights, 1.0);
+    contact::require_total(field, weights, 1.0,
                            1e-12);  // sums of thousands of points round to 1e-14
-    return preload;
+    return field;
   } catch (const std::invalid_argument& error) {
     throw SceneError(contact.preload_field->place + ": " + error.what());
   }
@@ -83,12 +83,12 @@ void require_preload(const mesh::Mesh& mesh, const SceneDescription& scene, std:
   if (!contact.preload_field && !turned) return;
   const FacePoints face = face_points(mesh, contact, contact_points(scene.settings, index));
   if (!turned) {
-    static_cast<void>(unit_preload(contact, face.p, face.r, face.weights));
+    static_cast<void>(preload_field_of(contact, face.p, face.r, face.weights));
     return;
   }
   if (!scene.response) return;
   for (const CurveRequest& request : curve_requests(scene)) {
-    const auto* load = std::get_if<double>(&request.preload);
+    const auto* load = std::get_if<double>(&request.load);
     if (load != nullptr) require_balance(face, contact, share * *load);
   }
 }
@@ -97,10 +97,10 @@ std::string describe_preload(const mesh::Mesh& mesh, const ContactDescription& c
                              int n_points) {
   if (!contact.preload_field) return {};
   const FacePoints face = face_points(mesh, contact, n_points);
-  const Eigen::VectorXd preload = unit_preload(contact, face.p, face.r, face.weights);
-  const double integral = face.weights.dot(preload);
-  const double pressed = face.weights.dot((preload.array() > 0.0).cast<double>().matrix());
-  if (!(preload.minCoeff() < 0.0)) return {};
+  const Eigen::VectorXd field = preload_field_of(contact, face.p, face.r, face.weights);
+  const double integral = face.weights.dot(field);
+  const double pressed = face.weights.dot((field.array() > 0.0).cast<double>().matrix());
+  if (!(field.minCoeff() < 0.0)) return {};
   return fmt::format(
       "preload field: presses on {:.1f} % of the patch, a gap on the rest; of a preload of 100 N "
       "the contact "

@@ -1,5 +1,5 @@
 /// @file
-/// The preload of a curve under a model.
+/// The load of a curve under a model: a preload, a factor on rest loads, or a limit.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace microslip::pipelines {
 
 /// A gap given as a length is −gap·Σ∬k_v dA [N].
 /// @throws RefusedError  a gap where the normal stiffness is zero.
-[[nodiscard]] std::variant<double, LimitName> preload_of(const CurveRequest& request,
-                                                         const ReducedModel& model);
+[[nodiscard]] std::variant<double, LimitName> load_of(const CurveRequest& request,
+                                                      const ReducedModel& model);
 
-/// Width of the uniform gap that a preload below 0 is [m]; none where it presses, or where loads are scales.
-[[nodiscard]] std::optional<double> gap_of(const std::variant<double, LimitName>& preload,
+/// Width of the uniform gap that a load below 0 is [m]; none where it presses, or where loads are scales.
+[[nodiscard]] std::optional<double> gap_of(const std::variant<double, LimitName>& load,
                                            const ReducedModel& model);
 
 }  // namespace microslip::pipelines
