@@ -174,8 +174,8 @@ StickRows stick_rows(const CyclePhase& phase, const Direction& end) {
           .versed = turned(e, rest, square - rest, 0.5 * versed * versed)};
 }
 
-// Adds what a stick phase has beyond the slip law it follows, ± μn: −L₁ (1 − cos x) after positive
-// slip, L₂ (1 − cos x) after negative slip; the law's own part is in the sums of the slip phases.
+// Adds what a stick phase has beyond the friction ± μn it follows: −L₁ (1 − cos x) after positive
+// slip, L₂ (1 − cos x) after negative slip; that friction is in the sums of the slip phases.
 void add_stick(CycleForce& force, Row& f, const StickRows& rows, const Direction& e, double size,
                double k_u, double mu_k_v) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -210,7 +210,7 @@ void add_stick_after_separation(CycleForce& force, Row& f, const StickRows& rows
   }
 }
 
-// Slip phases, and the slip law that a stick phase continues, by their integrals.
+// Slip phases, and the friction of slip that a stick phase continues, by their integrals.
 void set_slip(CycleForce& force, Row& f, const SlipFunctions& w, const PointMotion& m,
               double mu_k_v, const PhaseSums& sums) {
   Integrals positive = sums[PhaseKind::positive_slip];

@@ -37,7 +37,7 @@ struct PatchMotion {
   void copy(Eigen::Index point, Harmonics& result) const;
 };
 
-/// (1): the same linear law on every harmonic, and a constant mean.
+/// (1): the same linear force on every harmonic, and a constant mean.
 struct SleepingPart {
   Eigen::MatrixXd stiffness;  ///< K [1/s²], n_modes × n_modes
   Eigen::VectorXd mean;  ///< g: of rest loads that are gone, and of gaps that are closed [N/√kg]

@@ -10,7 +10,7 @@
 ///
 /// w is ignored and f_r = 0. A point that never slips nor separates has a virgin slider, pushed into its
 /// admissible band (theory section 4.2). A point without tangential stiffness carries no friction and counts
-/// as stuck; μ = 0 slips without force. With smooth surfaces and a constant coefficient this is the law of
+/// as stuck; μ = 0 slips without force. With smooth surfaces and a constant coefficient this is the cycle of
 /// line_events.hpp, which is faster.
 ///
 /// Accuracy: force coefficients within about 1e-14 of k_u |u| + μ n, where |·| sums the amplitudes of the

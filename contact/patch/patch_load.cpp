@@ -40,13 +40,13 @@ std::vector<SurfaceLaw> touching_surfaces(const SurfaceRules& rules, const Patch
 PreloadEquilibrium equilibrium(const Patch& patch, const TiltedArea& area,
                                const std::vector<SurfaceLaw>& laws, double load) {
   const ContactArea cells({area.r, area.p, patch.cells.weights.segment(area.begin, area.p.size())});
-  const auto law = [&](Eigen::Index i, double approach) {
+  const CellSprings springs = [&](Eigen::Index i, double approach) {
     const SurfaceState state = laws[static_cast<std::size_t>(i)].at(approach, 0.0);
     return NormalResponse{state.load, state.load_by_approach};
   };
   try {
     return preload_equilibrium(
-        cells, law,
+        cells, springs,
         {.force = load * area.share, .moment_y = area.moment[1], .moment_z = area.moment[0]});
   } catch (const PreloadError& error) {
     throw LoadError("preload-unbalanced: " + area.key + ": " + error.what());

@@ -20,7 +20,7 @@ namespace {
 // mean.
 struct Problem {
   const ContactArea& area;
-  const NormalLaw& law;
+  const CellSprings& springs;
   double force;
   Eigen::Vector2d middle;                               // y, z [m]
   double radius;                                        // [m]
@@ -41,7 +41,7 @@ Balance balance(const Problem& problem, const Eigen::Vector3d& tilt) {
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (weights[i] == 0.0) continue;
     const Eigen::Vector3d arm = problem.arms.col(i);
-    const NormalResponse n = problem.law(i, arm.dot(tilt));
+    const NormalResponse n = problem.springs(i, arm.dot(tilt));
     const double share = weights[i] / problem.force;
     b.residual += share * n.load * arm;
     b.slope += (share * n.stiffness) * arm * arm.transpose();
@@ -96,7 +96,8 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
 [[noreturn]] void refuse_unbalanced(const PreloadRequest& request, double imbalance) {
   std::ostringstream message;
   message << "preload of " << request.force << " N: an imbalance of " << imbalance
-          << " of it is left; normal laws must rise continuously and without bound, and the points "
+          << " of it is left; the load of a cell must rise continuously and without bound, and the "
+             "points "
              "that carry must not be lighter than the others by many orders";
   const double none = std::numeric_limits<double>::quiet_NaN();
   throw PreloadError(message.str(), {request, -request.moment_z / request.force,
@@ -123,7 +124,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> visible_directions(const Eigen::Matrix3
          (std::sqrt(loaded.sum()) * axes.singularValues().head(n).cwiseInverse()).asDiagonal();
 }
 
-Problem without_units(const ContactArea& area, const NormalLaw& law, const PlaneHull& hull,
+Problem without_units(const ContactArea& area, const CellSprings& springs, const PlaneHull& hull,
                       const PreloadRequest& request) {
   const PlanarCells& cells = area.cells();
   const Eigen::Vector2d middle(cells.y.dot(cells.weights) / cells.weights.sum(),
@@ -136,7 +137,7 @@ Problem without_units(const ContactArea& area, const NormalLaw& law, const Plane
   const Eigen::Vector3d load(1.0, (request.moment_y / request.force - middle.y()) / radius,
                              (request.moment_z / request.force + middle.x()) / radius);
   const auto directions = visible_directions(arms, cells.weights, hull.corners().cols());
-  return {area, law, request.force, middle, radius, arms, load, directions};
+  return {area, springs, request.force, middle, radius, arms, load, directions};
 }
 
 // A common approach under which the cells carry between half and twice the force: from a micrometre
@@ -160,7 +161,7 @@ double common_approach(const Problem& problem) {
       factor *= factor;
     }
     if (!(size > low && size < high)) {
-      throw std::invalid_argument("preload equilibrium: the normal law does not reach the force");
+      throw std::invalid_argument("preload equilibrium: the cells do not reach the force");
     }
   }
 }
@@ -222,7 +223,7 @@ PreloadEquilibrium with_units(const Problem& problem, const Eigen::Vector3d& til
   result.approaches = problem.arms.transpose() * tilt;
   result.pressures.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    result.pressures[i] = problem.law(i, result.approaches[i]).load;
+    result.pressures[i] = problem.springs(i, result.approaches[i]).load;
     if (result.pressures[i] > 0.0) ++result.n_loaded;
   }
   const Eigen::Vector3d left = balance(problem, tilt).residual;
@@ -233,14 +234,14 @@ PreloadEquilibrium with_units(const Problem& problem, const Eigen::Vector3d& til
 
 }  // namespace
 
-NormalLaw one_sided_springs(Eigen::VectorXd stiffness) {
+CellSprings one_sided_springs(Eigen::VectorXd stiffness) {
   return [stiffness = std::move(stiffness)](Eigen::Index cell, double approach) {
     return approach > 0.0 ? NormalResponse{stiffness[cell] * approach, stiffness[cell]}
                           : NormalResponse{};
   };
 }
 
-PreloadEquilibrium preload_equilibrium(const ContactArea& area, const NormalLaw& law,
+PreloadEquilibrium preload_equilibrium(const ContactArea& area, const CellSprings& springs,
                                        const PreloadRequest& request) {
   if (!std::isfinite(request.force) || !std::isfinite(request.moment_y) ||
       !std::isfinite(request.moment_z)) {
@@ -255,7 +256,7 @@ PreloadEquilibrium preload_equilibrium(const ContactArea& area, const NormalLaw&
   }
   const PlaneHull hull(loaded_centres(area.cells()));
   require_inside(hull, request);
-  const Problem problem = without_units(area, law, hull, request);
+  const Problem problem = without_units(area, springs, hull, request);
   PreloadEquilibrium result = with_units(problem, solve(problem));
   if (!(result.imbalance <= 1e-9)) refuse_unbalanced(request, result.imbalance);
   return result;

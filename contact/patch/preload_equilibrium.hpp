@@ -39,10 +39,10 @@ struct NormalResponse {
 
 /// N_i(u) of any cell: not negative, continuous, never falling, without upper bound, 0 (or nothing to
 /// speak of) far apart. A SurfaceLaw without rest load is one.
-using NormalLaw = std::function<NormalResponse(Eigen::Index cell, double approach)>;
+using CellSprings = std::function<NormalResponse(Eigen::Index cell, double approach)>;
 
 /// max(0, k_i u).   @param stiffness  k_i per weight [N/m³], n_cells, > 0 where there is weight.
-[[nodiscard]] NormalLaw one_sided_springs(Eigen::VectorXd stiffness);
+[[nodiscard]] CellSprings one_sided_springs(Eigen::VectorXd stiffness);
 
 struct PreloadEquilibrium {
   Eigen::VectorXd pressures;   ///< n_i per weight [Pa], n_cells, ≥ 0
@@ -79,10 +79,11 @@ class PreloadError : public std::runtime_error {
 /// Solves (2). No force and no moment leave every cell without load at approach 0.
 /// @throws PreloadError  a pull, a resultant outside or on the edge of the hull of the cell centres, or
 ///         an imbalance left above 1e-9.
-/// @throws std::invalid_argument  a value not finite; a law that does not reach the force.
+/// @throws std::invalid_argument  a value not finite; springs that do not reach the force.
 /// @note The imbalance is that of rounding, below 1e-12 as a rule and in any units; it grows where cells
 ///       of 1e-6 of the weight of the others have to carry the load alone.
-[[nodiscard]] PreloadEquilibrium preload_equilibrium(const ContactArea& area, const NormalLaw& law,
+[[nodiscard]] PreloadEquilibrium preload_equilibrium(const ContactArea& area,
+                                                     const CellSprings& springs,
                                                      const PreloadRequest& request);
 
 }  // namespace microslip::contact

@@ -1,5 +1,5 @@
 /// @file
-/// Where a contact point is known to answer like springs, or not at all, whatever law finds its cycles:
+/// Where a contact point is known to answer like springs, or not at all, whatever method finds its cycles:
 ///
 ///   open    n₀' + k_v v < 0 throughout                       force 0
 ///   stuck   |K x| ≤ μ (n₀' + k_v v) throughout               force K x, load n₀' + k_v v, means too     (1)

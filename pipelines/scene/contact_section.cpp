@@ -95,7 +95,7 @@ void read_fit(const SectionReader& s, PatchSettings& patch) {
   patch.fit_degree = static_cast<int>(*degree);
 }
 
-struct RoughLaw {
+struct HeightLawRow {
   std::string_view law;
   std::vector<std::string_view> keys;
 };
@@ -117,8 +117,8 @@ void set_friction(const SectionReader& s, const Field& friction, ModalModel& mod
 
 std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
   if (!s.given("roughness")) return std::nullopt;
-  static const std::array rough_laws{RoughLaw{"cubic", {"height"}},
-                                     RoughLaw{"gaussian", {"height"}}};
+  static const std::array height_laws{HeightLawRow{"cubic", {"height"}},
+                                      HeightLawRow{"gaussian", {"height"}}};
   const toml::node& node = *s.node("roughness");
   double height = 0.0;
   std::string_view law;
@@ -129,7 +129,7 @@ std::optional<contact::RoughSurface> read_roughness(const SectionReader& s) {
              "expected { law = \"cubic\" | \"gaussian\", height = … }, or a list of two", &entry);
     }
     const LawTable one(s, "roughness", *table);
-    const std::string_view name = one.choose(std::span<const RoughLaw>(rough_laws)).law;
+    const std::string_view name = one.choose(std::span<const HeightLawRow>(height_laws)).law;
     if (!law.empty() && name != law) {
       s.fail("roughness", "a cubic surface against a gaussian one has no law of its own", &entry);
     }

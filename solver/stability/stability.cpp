@@ -18,7 +18,7 @@ namespace {
 // below this share of ω takes over 1e9 periods to show.
 constexpr double growth_tolerance = 1e-10;
 // Slow flow holds for what is slow against the cycle. Modes far from resonance turn at |ω_n ± ω| in
-// it, and the mean at ω_n: a hysteretic force answers those by another law, so they are not judged.
+// it, and the mean at ω_n: a hysteretic force answers those in another way, so they are not judged.
 constexpr double slow_share = 0.25;  // of ω
 // Of Hill's problem: some 7 ms for its eigenvectors.
 constexpr Eigen::Index most_states = 80;
@@ -30,8 +30,8 @@ constexpr double nearby = 1e-6;
 // Of ω: a double eigenvalue splits by the root of its rounding error, some 1e-8.
 constexpr double real_tolerance = 1e-6;
 // Of a monodromy matrix, where every point is judged: three periods of 0.1 to 1 ms. Of points that
-// slide in a plane, or whose coefficient or load follows another law, two periods for each column,
-// ten times as long each: nine tenths of a curve.
+// slide in a plane, or whose coefficient or load follows a law of its own, two periods for each
+// column, ten times as long each: nine tenths of a curve.
 constexpr Eigen::Index most_multipliers = 16;
 // The same where few points are judged: sliders at rest in the period are no states of the matrix,
 // points cost time in each of its columns (10 modes: 0.3 s with 12 points, 2 s with 100).

@@ -135,15 +135,15 @@ BENCHMARK(jacobian_only);
 // ---- many harmonics: exact, event by event
 
 // Motions of H harmonics that fall as 1/h², states as in setup().
-struct LawSetup {
+struct MethodSetup {
   std::vector<PointParameters> points;
   std::vector<Harmonics> motions;
 };
 
-LawSetup law_setup(int n_harmonics) {
+MethodSetup method_setup(int n_harmonics) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  LawSetup s;
+  MethodSetup s;
   for (int i = 0; i < 1000; ++i) {
     s.points.push_back({1e12, 1e12, 0.4, 1e6 * (1.5 + uniform(random))});
     Harmonics motion(n_harmonics, n_point_signals);
@@ -159,7 +159,7 @@ LawSetup law_setup(int n_harmonics) {
 }
 
 void line_events(benchmark::State& state) {
-  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
+  const MethodSetup s = method_setup(static_cast<int>(state.range(0)));
   PointTraction result;
   for (auto _ : state) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
@@ -174,7 +174,7 @@ BENCHMARK(line_events)->Arg(1)->Arg(3)->Arg(5);
 // Surfaces without a closed form, events located exactly. Harmonics.
 void surface_line_events(benchmark::State& state, const FrictionLaw& friction,
                          const std::optional<RoughSurface>& roughness) {
-  const LawSetup s = law_setup(static_cast<int>(state.range(0)));
+  const MethodSetup s = method_setup(static_cast<int>(state.range(0)));
   PointTraction result;
   std::vector<SurfaceLaw> surfaces;
   for (const PointParameters& point : s.points) {
@@ -230,9 +230,9 @@ BENCHMARK_CAPTURE(surface_law, gaussian_in_series, RoughSurface::matching_gaussi
 void preload_equilibrium_of_area(benchmark::State& state) {
   const auto side = static_cast<int>(state.range(0));
   const ContactArea area(rectangle_cells(0.1, 0.1, side, side));
-  const NormalLaw law = one_sided_springs(Eigen::VectorXd::Constant(area.n_cells(), 1e12));
+  const CellSprings springs = one_sided_springs(Eigen::VectorXd::Constant(area.n_cells(), 1e12));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(preload_equilibrium(area, law, {1000.0, 28.0, 0.0}));
+    benchmark::DoNotOptimize(preload_equilibrium(area, springs, {1000.0, 28.0, 0.0}));
   }
   count_points(state, static_cast<std::size_t>(area.n_cells()));
 }

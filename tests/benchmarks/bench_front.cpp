@@ -121,9 +121,9 @@ struct Row {
   double microseconds = 0.0;
 };
 
-using LawMaker = std::function<std::shared_ptr<const PointMethod>(const SurfaceLaw&)>;
+using MethodMaker = std::function<std::shared_ptr<const PointMethod>(const SurfaceLaw&)>;
 
-Force by_methods(const Samples& samples, const Kind& kind, const LawMaker& make) {
+Force by_methods(const Samples& samples, const Kind& kind, const MethodMaker& make) {
   std::vector<std::shared_ptr<const PointMethod>> methods;
   for (const PointParameters& point : samples.points) methods.push_back(make(kind.surface(point)));
   return std::make_shared<PointMethodForce>(samples.weights, std::move(methods), samples.shapes);
@@ -136,13 +136,13 @@ Force in_lanes(const Samples& samples, const Kind& kind, int instants) {
                                                instants);
 }
 
-LawMaker located() {
+MethodMaker located() {
   return [](const SurfaceLaw& s) { return std::make_shared<LineEvents>(s.point()); };
 }
-LawMaker band() {
+MethodMaker band() {
   return [](const SurfaceLaw& s) { return std::make_shared<SurfaceLineEvents>(s); };
 }
-LawMaker planar(double tolerance) {
+MethodMaker planar(double tolerance) {
   return [=](const SurfaceLaw& s) { return std::make_shared<PlaneEvents>(s, tolerance); };
 }
 

@@ -26,7 +26,7 @@ ContactArea square_area() {
   return ContactArea(cells);
 }
 
-NormalLaw square_springs() { return one_sided_springs(Eigen::VectorXd::Constant(16, 40e3 / 16)); }
+CellSprings square_springs() { return one_sided_springs(Eigen::VectorXd::Constant(16, 40e3 / 16)); }
 
 PreloadEquilibrium square_preload(double force, double moment_y, double moment_z = 0.0) {
   return preload_equilibrium(square_area(), square_springs(), {force, moment_y, moment_z});
@@ -114,7 +114,7 @@ TEST(PreloadEquilibrium, BalancesForceAndMoments) {
                                                    : RoughSurface::matching_gaussian(1e-6);
     const SurfaceLaw surfaces({1e12, 1e12, 0.4, 0.0}, 1e12, FrictionLaw::constant(0.4), surface,
                               {0.0, sample % 2 == 0 ? 0.0 : 1e-12, 0.0});
-    const NormalLaw law = [&](Eigen::Index, double u) {
+    const CellSprings springs = [&](Eigen::Index, double u) {
       const SurfaceState s = surfaces.at(u, 0.0);
       return NormalResponse{s.load, s.load_by_approach};
     };
@@ -127,7 +127,7 @@ TEST(PreloadEquilibrium, BalancesForceAndMoments) {
                                towards * hull.corners().col(sample % hull.corners().cols());
     const double force = std::pow(10.0, 6.0 * uniform(random) - 3.0);
     const PreloadRequest request{force, force * at.y(), -force * at.x()};
-    const PreloadEquilibrium at_rest = preload_equilibrium(area, law, request);
+    const PreloadEquilibrium at_rest = preload_equilibrium(area, springs, request);
     lifted += at_rest.n_loaded < n ? 1 : 0;
     ASSERT_LE(imbalance(area, at_rest.pressures, request), 1e-11) << sample;  // asked for: 1e-8
     ASSERT_GE(at_rest.pressures.minCoeff(), 0.0);
@@ -164,12 +164,13 @@ TEST(PreloadEquilibrium, DoesNotDependOnUnits) {
 TEST(PreloadEquilibrium, RoughCellsUnderTheirMeanLoadComeBackToIt) {
   const RoughSurface surface = RoughSurface::matching_gaussian(1e-6);
   const ContactArea area(rectangle_cells(0.1, 0.1, 4, 4));
-  const NormalLaw law = [&](Eigen::Index, double u) {
+  const CellSprings springs = [&](Eigen::Index, double u) {
     const RoughState s = surface.at(u);
     return NormalResponse{1e12 * s.compression, 1e12 * s.share};
   };
   for (const double pressure : {1e-6, 1.0, 1e5, 1e9}) {
-    const PreloadEquilibrium at_rest = preload_equilibrium(area, law, {0.01 * pressure, 0.0, 0.0});
+    const PreloadEquilibrium at_rest =
+        preload_equilibrium(area, springs, {0.01 * pressure, 0.0, 0.0});
     const double expected = surface.approach(pressure / 1e12);
     // Both are inverses of one function; its slope against ln load is 1/|ζ| of the deviation or
     // more.
@@ -181,14 +182,15 @@ TEST(PreloadEquilibrium, RoughCellsUnderTheirMeanLoadComeBackToIt) {
 TEST(PreloadEquilibrium, CellsOnALineTakeMomentsAlongItOnly) {
   const Eigen::VectorXd along = Eigen::VectorXd::LinSpaced(5, -0.1, 0.1);
   const ContactArea area({std::cos(0.7) * along, std::sin(0.7) * along, Eigen::VectorXd::Ones(5)});
-  const NormalLaw law = one_sided_springs(Eigen::VectorXd::Constant(5, 1e6));
+  const CellSprings springs = one_sided_springs(Eigen::VectorXd::Constant(5, 1e6));
   for (const double at : {0.0, 0.03, 0.08}) {
     const PreloadRequest request{10.0, 10.0 * at * std::sin(0.7), -10.0 * at * std::cos(0.7)};
-    EXPECT_LE(imbalance(area, preload_equilibrium(area, law, request).pressures, request), 1e-12);
+    EXPECT_LE(imbalance(area, preload_equilibrium(area, springs, request).pressures, request),
+              1e-12);
   }
-  EXPECT_THROW((void)preload_equilibrium(area, law, {10.0, 0.3, 0.0}), PreloadError);
+  EXPECT_THROW((void)preload_equilibrium(area, springs, {10.0, 0.3, 0.0}), PreloadError);
   EXPECT_THROW(
-      (void)preload_equilibrium(area, law, {10.0, 1.5 * std::sin(0.7), -1.5 * std::cos(0.7)}),
+      (void)preload_equilibrium(area, springs, {10.0, 1.5 * std::sin(0.7), -1.5 * std::cos(0.7)}),
       PreloadError);
 }
 
@@ -207,9 +209,9 @@ TEST(PreloadEquilibrium, FlatAreasBalanceBothMoments) {
 TEST(PreloadEquilibrium, OneCellCarriesItAll) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   const ContactArea area({0.2 * one, 0.0 * one, 2.0 * one});
-  const NormalLaw law = one_sided_springs(1e6 * one);
-  EXPECT_NEAR(preload_equilibrium(area, law, {10.0, 0.0, -2.0}).pressures[0], 5.0, 1e-12);
-  EXPECT_THROW((void)preload_equilibrium(area, law, {10.0, 0.0, 0.0}), PreloadError);
+  const CellSprings springs = one_sided_springs(1e6 * one);
+  EXPECT_NEAR(preload_equilibrium(area, springs, {10.0, 0.0, -2.0}).pressures[0], 5.0, 1e-12);
+  EXPECT_THROW((void)preload_equilibrium(area, springs, {10.0, 0.0, 0.0}), PreloadError);
 }
 
 TEST(PreloadEquilibrium, CellsWithoutWeightHoldNothing) {
@@ -235,7 +237,7 @@ TEST(PreloadEquilibrium, WithoutForceNothingIsLoaded) {
 
 TEST(PreloadEquilibrium, RefusesALawThatEndsBelowTheForce) {
   const tests::UntrappedFloatingPoint the_search_goes_to_infinity;
-  const NormalLaw weak = [](Eigen::Index, double u) {
+  const CellSprings weak = [](Eigen::Index, double u) {
     return NormalResponse{u > 0.0 ? u / (1.0 + u) : 0.0,
                           u > 0.0 ? 1.0 / ((1.0 + u) * (1.0 + u)) : 0.0};
   };

@@ -29,7 +29,7 @@ Harmonics straight_with_mean(double amplitude, double mean) {
   return motion;
 }
 
-PlaneEvents unit_law() { return PlaneEvents(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
+PlaneEvents unit_point() { return PlaneEvents(SurfaceLaw({1.0, 0.0, 1.0, 1.0}, 1.0), tight); }
 
 // Discs of radius 1 around (±a, 0) meet at (0, ±√(1 − a²)): a mean larger than that is let slip
 // until the spring across carries just this much. With a → 1 a march would need 1/(1 − a) periods
@@ -39,7 +39,7 @@ TEST(PlanarSteady, AStuckPointKeepsAsMuchMeanAsItsCornerAllows) {
     const double a = 1.0 - gap;
     for (const double mean : {0.9, 3.0, -40.0}) {
       PointTraction traction;
-      unit_law().traction(straight_with_mean(a, mean), 1.0, traction);
+      unit_point().traction(straight_with_mean(a, mean), 1.0, traction);
       const double held = std::copysign(std::sqrt(gap * (2.0 - gap)), mean);
       EXPECT_EQ(traction.regime, CycleRegime::full_stick);
       // Rounding of the radius moves the corner by 1e-16/held.
@@ -61,7 +61,7 @@ TEST(PlanarSteady, AStuckPointKeepsAsMuchMeanAsItsCornerAllows) {
 TEST(PlanarSteady, ASlippingPointHoldsNoMeanAcrossAStraightMotion) {
   for (const double excess : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
     PointTraction traction;
-    unit_law().traction(straight_with_mean(1.0 + excess, 2.0), 1.0, traction);
+    unit_point().traction(straight_with_mean(1.0 + excess, 2.0), 1.0, traction);
     EXPECT_EQ(traction.regime, CycleRegime::stick_slip);
     EXPECT_NEAR(traction.force.mean()[2], 0.0, 2.0 * tight) << "excess " << excess;  // scale 2
     EXPECT_EQ(traction.defect, 0.0);

@@ -110,7 +110,7 @@ VectorXd Balance::answer(const MatrixXd& forces, bool excited) const {
 VectorXd Balance::residual(const VectorXd& x, double omega) {
   omega_ = omega;
   motion_ = at_points(x);
-  LawResult at = tractions(contact_, motion_);
+  TractionResult at = tractions(contact_, motion_);
   if (contact_.pressure > 0.0) at.tractions.v.array() -= contact_.pressure;
   forces_ = harmonics_of(at.tractions);
   shares_ = std::move(at.shares);

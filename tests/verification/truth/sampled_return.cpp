@@ -88,12 +88,12 @@ PointHistory zeros(Index n, Index n_points, bool planar) {
 
 }  // namespace
 
-LawResult tractions(const ContactConstants& constants, const PointHistory& motion) {
+TractionResult tractions(const ContactConstants& constants, const PointHistory& motion) {
   const Index n = motion.u.rows();
   const Index n_points = motion.u.cols();
   const bool planar = motion.w.size() > 0;
-  LawResult result{zeros(n, n_points, planar),
-                   {Eigen::VectorXd(n_points), Eigen::VectorXd(n_points)}};
+  TractionResult result{zeros(n, n_points, planar),
+                        {Eigen::VectorXd(n_points), Eigen::VectorXd(n_points)}};
   PointHistory& t = result.tractions;
   Eigen::Matrix<State, Eigen::Dynamic, 1> states(n);
   for (Index point = 0; point < n_points; ++point) {

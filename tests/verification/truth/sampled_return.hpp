@@ -32,12 +32,13 @@ struct ContactShares {
   Eigen::VectorXd contact, stick;
 };
 
-struct LawResult {
+struct TractionResult {
   PointHistory tractions;  ///< v: normal pressure ≥ 0
   ContactShares shares;
 };
 
-[[nodiscard]] LawResult tractions(const ContactConstants& constants, const PointHistory& motion);
+[[nodiscard]] TractionResult tractions(const ContactConstants& constants,
+                                       const PointHistory& motion);
 
 /// Derivative of the tractions at `motion` along `change`, through all that the sliders remember.
 [[nodiscard]] PointHistory tangent(const ContactConstants& constants, const PointHistory& motion,
