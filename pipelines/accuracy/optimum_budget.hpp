@@ -5,7 +5,7 @@
 
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/richer_models.hpp"
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 
 namespace microslip::pipelines {
 

@@ -18,7 +18,7 @@
 #include "pipelines/model/campbell.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 #include "solver/response_curve.hpp"
 
 namespace microslip::pipelines {
@@ -76,7 +76,7 @@ struct OptimumRow {
 /// @param of_preload  else the first column is `value`.
 [[nodiscard]] std::span<const Column<OptimumRow>> optimum_columns(bool of_preload);
 
-/// `at` of an optimum: peak, range_end (of the frequency range) or unsolved.
+/// `at` of a best value: peak, range_end (of the frequency range) or unsolved.
 [[nodiscard]] const char* to_string(solver::PeakPlace place);
 
 /// One array of contact maps, in .vtp and in .h5. Left out where it has no elements.

@@ -43,7 +43,7 @@ struct ModeTable {
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
 
-/// The trace of an optimum: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,at,mark`, or
+/// The trace of a best value: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,at,mark`, or
 /// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row, flat on those of a
 /// minimum that is the same for all.
 /// @throws ExhaustedError  cannot be written.

@@ -13,7 +13,7 @@
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/scene/scene_description.hpp"
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {

@@ -10,7 +10,7 @@
 #include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 
 namespace microslip::pipelines {
 

@@ -1,5 +1,5 @@
 /// @file
-/// The [response] section: frequency range, method, harmonics, preloads, search for an optimum, maps.
+/// The [response] section: frequency range, method, harmonics, preloads, search for a best value, maps.
 #pragma once
 
 #include <string_view>

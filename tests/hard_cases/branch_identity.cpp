@@ -20,7 +20,7 @@
 
 #include "contact/force/patch_force.hpp"
 #include "pipelines/run/run_messages.hpp"
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"

@@ -1,7 +1,7 @@
 /// @file
 /// The best value of one scene parameter: minimum over the parameter of the largest amplitude on the
 /// frequency range, its ends included. Peaks and ends are followed from value to value (peak_trace.hpp);
-/// the optimum itself is confirmed on a whole curve, and where that keeps failing every value is.
+/// the best value itself is confirmed on a whole curve, and where that keeps failing every value is.
 #pragma once
 
 #include <array>

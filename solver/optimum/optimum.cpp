@@ -1,4 +1,4 @@
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -164,7 +164,7 @@ class Search {
       static_cast<void>(peaks_.confirm(parameter));
       return peaks_.highest(parameter).amplitude;
     };
-    // A peak that only the curve at the optimum shows is followed from there, a valley that only
+    // A peak that only the curve at the best value shows is followed from there, a valley that only
     // its edges show is searched, and all repeated; each round finds one more.
     constexpr int rounds = 8;
     for (int i = 0; i < rounds; ++i) {
@@ -353,7 +353,7 @@ class Search {
            std::abs(here - position(options_.upper)) <= rounding;
   }
 
-  /// Why the lowest value is not the optimum; empty: it is.
+  /// Why the lowest peak is not at the best value; empty: it is.
   [[nodiscard]] std::string objection() const {
     if (is_stopped_) return out_of_time;
     if (!is_settled_) {

@@ -1,4 +1,4 @@
-#include "solver/peak.hpp"
+#include "solver/optimum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace microslip::solver::test_peak {
+namespace microslip::solver::test_optimum {
 namespace {
 
 using tests::frequency_range;
@@ -335,4 +335,4 @@ TEST(MinimisePeak, SaysWhenNothingIsSolved) {
 }
 
 }  // namespace
-}  // namespace microslip::solver::test_peak
+}  // namespace microslip::solver::test_optimum
