@@ -42,6 +42,7 @@ struct PatchSamples {
       compliance;  ///< of omitted modes along p, q, r [m³/N], n; without rows where there is none
 
   [[nodiscard]] Eigen::Index size() const { return friction.size(); }
+  [[nodiscard]] bool has_friction(Eigen::Index place) const { return friction[place] > 0.0; }
 };
 
 /// What the load of a curve is: a factor on the preload field as it is given, or the preload [N].

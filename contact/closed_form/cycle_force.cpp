@@ -267,10 +267,6 @@ void set_full_stick(CycleForce& force, const SlipFunctions& w, const PointParame
   force.friction_by_v[0] = offset.by_v;
 }
 
-bool frictionless(const PointParameters& point) {
-  return point.tangential_stiffness == 0.0 || point.friction_coefficient == 0.0;
-}
-
 }  // namespace
 
 CycleForce cycle_force(const PointParameters& point, const PointMotion& motion,
@@ -285,7 +281,7 @@ CycleForce cycle_force(const PointParameters& point, const PointMotion& motion,
   } else {
     set_whole_normal(force, w, point, motion);
   }
-  if (frictionless(point)) {
+  if (!point.rubs()) {
     return force;
   }
   if (regime == CycleRegime::full_stick) {

@@ -27,7 +27,7 @@ RestingPoints at_rest(const ContactPatch& patch) {
   RestingPoints points{patch.weights(), Eigen::VectorXd(n), Eigen::MatrixX3d(n, 3), {}};
   for (Eigen::Index i = 0; i < n; ++i) {
     const PointParameters& point = patch.points()[static_cast<std::size_t>(i)];
-    const double k_u = point.friction_coefficient > 0.0 ? point.tangential_stiffness : 0.0;
+    const double k_u = point.has_friction() ? point.tangential_stiffness : 0.0;
     const Eigen::Vector3d stiffness(k_u, point.normal_stiffness, 0.0);
     points.reference_load[i] = std::max(point.rest_load, 0.0);
     points.stuck_stiffness.row(i) = stiffness.transpose();

@@ -48,7 +48,7 @@ std::vector<CycleSegment> event_segments(const PointParameters& point, const Eve
     if (!has_spring && segment.state != ContactState::separated) {
       segment.state = ContactState::stick;
     }
-    if (segment.state != ContactState::stick || !has_spring || point.friction_coefficient == 0.0) {
+    if (segment.state != ContactState::stick || !point.rubs()) {
       segment.offset = 0.0;
     }
     segments.push_back(segment);

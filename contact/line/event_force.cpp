@@ -71,7 +71,7 @@ void set_products(const TrigonometricMoments& moments, double factor, int n_harm
 
 void EventForce::gather(const PointParameters& point, const EventGuards& guards,
                         const EventPhases& phases, int n_harmonics) {
-  has_friction_ = point.tangential_stiffness > 0.0 && point.friction_coefficient > 0.0;
+  rubs_ = point.rubs();
   n_harmonics_ = n_harmonics;
   const int highest = n_harmonics + guards.load.degree();
   const int n = 2 * n_harmonics + 1;
@@ -117,7 +117,7 @@ void EventForce::set_force(const PointParameters& point, const EventGuards& guar
            point.friction_coefficient * n_j * slip_.product(i, j);
       load += n_j * contact_.product(i, j);
     }
-    force.rows()(i, 0) = has_friction_ ? norm(i) * f : 0.0;
+    force.rows()(i, 0) = rubs_ ? norm(i) * f : 0.0;
     force.rows()(i, 1) = norm(i) * load;
     force.rows()(i, 2) = 0.0;
   }
@@ -126,7 +126,7 @@ void EventForce::set_force(const PointParameters& point, const EventGuards& guar
 void EventForce::set_springs(const PointParameters& point, Eigen::MatrixXd& jacobian) const {
   const double k_v = point.normal_stiffness;
   set_products(contact_, k_v, n_harmonics_, normal, normal, jacobian);
-  if (!has_friction_) {
+  if (!rubs_) {
     return;
   }
   set_products(stick_, point.tangential_stiffness, n_harmonics_, tangential, tangential, jacobian);
@@ -188,7 +188,7 @@ void EventForce::traction(const PointParameters& point, const EventGuards& guard
   }
   set_force(point, guards, result.force);
   set_springs(point, result.jacobian);
-  if (has_friction_) {
+  if (rubs_) {
     add_memories(point, guards, phases, result.jacobian);
   }
 }

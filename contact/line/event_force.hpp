@@ -41,7 +41,7 @@ class EventForce {
   void add_memories(const PointParameters& point, const EventGuards& guards,
                     const EventPhases& phases, Eigen::MatrixXd& jacobian);
 
-  bool has_friction_ = false;
+  bool rubs_ = false;
   int n_harmonics_ = 0;  // of the forces
   TrigonometricMoments piece_;
   TrigonometricMoments stick_;

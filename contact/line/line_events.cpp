@@ -60,8 +60,7 @@ PointHistory LineEvents::history(const Harmonics& motion, double /*frequency*/,
 }
 
 Eigen::Vector3d LineEvents::stuck_stiffness() const {
-  const bool has_friction = point_.friction_coefficient > 0.0;
-  return {has_friction ? point_.tangential_stiffness : 0.0, point_.normal_stiffness, 0.0};
+  return {point_.has_friction() ? point_.tangential_stiffness : 0.0, point_.normal_stiffness, 0.0};
 }
 
 std::optional<LinearRange> LineEvents::linear_range() const {

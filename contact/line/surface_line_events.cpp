@@ -113,9 +113,8 @@ PointHistory SurfaceLineEvents::history(const Harmonics& motion, double frequenc
 
 Eigen::Vector3d SurfaceLineEvents::stuck_stiffness() const {
   const SurfaceState rest = law_.at(0.0, 0.0);
-  const bool rubs = rest.friction_coefficient > 0.0;
   const double normal = law_.is_smooth() ? law_.point().normal_stiffness : rest.load_by_approach;
-  return {rubs ? law_.first_stiffness() * rest.stiffness_ratio : 0.0, normal, 0.0};
+  return {law_.has_friction() ? law_.first_stiffness() * rest.stiffness_ratio : 0.0, normal, 0.0};
 }
 
 std::optional<LinearRange> SurfaceLineEvents::linear_range() const {

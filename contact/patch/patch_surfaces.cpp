@@ -4,8 +4,7 @@ namespace microslip::contact {
 
 SurfaceLaw surface_at(const SurfaceRules& rules, const PatchSamples& samples, Eigen::Index row,
                       const PointParameters& point) {
-  const bool slides = point.friction_coefficient > 0.0;
-  const FrictionLaw friction = slides && rules.friction
+  const FrictionLaw friction = point.has_friction() && rules.friction
                                    ? *rules.friction
                                    : FrictionLaw::constant(point.friction_coefficient);
   if (!rules.roughness || !rules.local_normal_stiffness) {

@@ -30,7 +30,7 @@ bool slides_freely(const PlanarMotion& motion) {
   const Eigen::Index moving = x.rows().rows() - 1;
   const bool along_p = law.first_stiffness() > 0.0 && !x.rows().col(0).tail(moving).isZero(0.0);
   const bool along_r = law.second_stiffness() > 0.0 && !x.rows().col(2).tail(moving).isZero(0.0);
-  return law.point().friction_coefficient == 0.0 && (along_p || along_r);
+  return !law.has_friction() && (along_p || along_r);
 }
 
 /// An orbit without friction: the states alone.
@@ -171,11 +171,11 @@ PointHistory PlaneEvents::history(const Harmonics& motion, double frequency,
 Eigen::Vector3d PlaneEvents::stuck_stiffness() const {
   const SurfaceState rest = law_.at(0.0, 0.0);
   if (law_.is_smooth()) {
-    const bool rubs = rest.friction_coefficient > 0.0;
+    const bool rubs = law_.has_friction();
     return {rubs ? law_.first_stiffness() : 0.0, law_.point().normal_stiffness,
             rubs ? law_.second_stiffness() : 0.0};
   }
-  const double rubs = rest.friction_coefficient > 0.0 ? 1.0 : 0.0;
+  const double rubs = law_.has_friction() ? 1.0 : 0.0;
   return {rubs * rest.stiffness_ratio * law_.first_stiffness(), rest.load_by_approach,
           rubs * rest.second_stiffness_ratio * law_.second_stiffness()};
 }

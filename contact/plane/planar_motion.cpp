@@ -59,8 +59,7 @@ PlanarMotion::PlanarMotion(const SurfaceLaw& law, const Harmonics& motion, doubl
 void PlanarMotion::set_scales() {
   const Eigen::Vector2d k(law_.first_stiffness(), law_.second_stiffness());
   const double largest = k.maxCoeff();
-  const bool rubs = law_.at(0.0, 0.0).friction_coefficient > 0.0;
-  if (largest <= 0.0 || !rubs) return;
+  if (largest <= 0.0 || !law_.has_friction()) return;
   Eigen::Vector2d amplitude = Eigen::Vector2d::Zero();
   for (int h = 1; h <= n_harmonics(); ++h) {
     amplitude[0] += std::hypot(harmonics_.sine(h)[0], harmonics_.cosine(h)[0]);

@@ -74,12 +74,11 @@ PlanarPoint::PlanarPoint(const SurfaceLaw& surface, double tangential, double no
       touch(std::numeric_limits<double>::quiet_NaN()),
       load_size(std::max(surface.reference_load(), std::abs(surface.point().rest_load))),
       tangential_size(tangential),
-      normal_size(normal),
-      slides(surface.at(0.0, 0.0).friction_coefficient > 0.0) {
+      normal_size(normal) {
   const Vector2d k(surface.first_stiffness(), moves_along_r ? surface.second_stiffness() : 0.0);
   stiffness = (k.array() > 0.0).select(k, 1.0);
   active = (k.array() > 0.0).cast<double>();
-  rubs = slides && (k.array() > 0.0).any();
+  rubs = surface.has_friction() && (k.array() > 0.0).any();
   const std::vector<double> kinks = surface.kinks();
   if (kinks.empty()) return;
   touch = kinks.front();

@@ -36,8 +36,7 @@ struct PlanarPoint {
   double load_size;           ///< of the load at rest [Pa]
   double tangential_size;
   double normal_size;
-  bool slides;  ///< μ > 0
-  bool rubs;    ///< and some stiffness
+  bool rubs;  ///< friction, and some stiffness to act through
 };
 
 /// Relative motion (u, v, w) of a point [m] and its rates by time; `second` is 0 where nobody knows it.

@@ -39,7 +39,7 @@ void LineBlock::smooth_constants(std::span<const Eigen::Index> points) {
     const SurfaceLaw& surface = (*surfaces_)[i];
     simple_ = simple_ && surface.is_smooth() && !surface.is_rate_dependent();
     const PointParameters& point = surface.point();
-    const bool rubs = point.tangential_stiffness > 0.0 && point.friction_coefficient > 0.0;
+    const bool rubs = point.rubs();
     rest_load_[p] = point.rest_load;
     normal_stiffness_[p] = point.normal_stiffness;
     stiffness_[p] = rubs ? point.tangential_stiffness : 0.0;

@@ -18,8 +18,7 @@ Eigen::RowVector3d stuck_stiffness(const SurfaceLaw& surface, bool planar) {
   const SurfaceState rest = surface.at(0.0, 0.0);
   const double closed =
       surface.is_smooth() ? surface.point().normal_stiffness : rest.load_by_approach;
-  const bool rubs = surface.is_rate_dependent() || surface.friction().at_rest() > 0.0;
-  if (!rubs) return {0.0, closed, 0.0};
+  if (!surface.has_friction()) return {0.0, closed, 0.0};
   return {surface.first_stiffness() * rest.stiffness_ratio, closed,
           planar ? surface.second_stiffness() * rest.second_stiffness_ratio : 0.0};
 }

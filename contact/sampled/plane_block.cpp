@@ -76,7 +76,7 @@ void PlaneBlock::load_constants() {
     const SurfaceLaw& surface = (*surfaces_)[static_cast<std::size_t>(point(p))];
     simple_ = simple_ && surface.is_smooth() && !surface.is_rate_dependent();
     const PointParameters& constants = surface.point();
-    const bool slides = surface.is_rate_dependent() || constants.friction_coefficient > 0.0;
+    const bool slides = surface.has_friction();
     rest_load_[p] = constants.rest_load;
     normal_stiffness_[p] = constants.normal_stiffness;
     coefficient_[p] = constants.friction_coefficient;

@@ -26,8 +26,8 @@ class FrictionLaw {
   /// @param coefficient  μ₀ ≥ 0, finite.
   /// @throws std::invalid_argument  out of range; names the quantity and the value. So the others.
   [[nodiscard]] static FrictionLaw constant(double coefficient);
-  /// (1): λ = 0 keeps μ₀; λ → ∞ gives μ∞ at every speed above 0. μ∞ may exceed μ₀,
-  /// but a point with μ₀ = 0 is one that never rubs.
+  /// (1): λ = 0 keeps μ₀; λ → ∞ gives μ∞ at every speed above 0. μ∞ may exceed μ₀;
+  /// μ₀ = 0 below μ∞ is friction that never sticks: scenes refuse it.
   /// @param at_rest   μ₀ ≥ 0.   @param at_speed  μ∞ ≥ 0.   @param decay  λ ≥ 0 [s/m].
   [[nodiscard]] static FrictionLaw exponential(double at_rest, double at_speed, double decay);
   /// (2): p = 0 keeps μ₀.
@@ -43,6 +43,8 @@ class FrictionLaw {
   void grades(double fastest, std::vector<double>& speeds) const;
   /// μ₀ [-].
   [[nodiscard]] double at_rest() const { return at_rest_; }
+  /// Whether μ is above 0 at any speed.
+  [[nodiscard]] bool has_friction() const { return at_rest_ > 0.0 || is_rate_dependent(); }
   /// False where (1) or (2) is constant.
   [[nodiscard]] bool is_rate_dependent() const { return kind_ != Kind::constant; }
 

@@ -163,7 +163,7 @@ LinearRange SurfaceLaw::linear_range() const {
   if (!is_smooth()) {
     return {{0.0, k_v, 0.0}, -k_v * kinks().front(), friction_, false};
   }
-  const bool rubs = friction_.is_rate_dependent() || friction_.at_rest() > 0.0;
+  const bool rubs = has_friction();
   return {{rubs ? point_.tangential_stiffness : 0.0, k_v, rubs ? second_stiffness_ : 0.0},
           point_.rest_load,
           friction_};

@@ -96,6 +96,8 @@ class SurfaceLaw {
   [[nodiscard]] double second_stiffness() const { return second_stiffness_; }
   /// n_ref = N(0) [Pa]. Gaussian heights over a gap: the little they carry there, if any.
   [[nodiscard]] double reference_load() const { return reference_load_; }
+  /// Whether μ is above 0 at any σ.
+  [[nodiscard]] bool has_friction() const { return friction_.has_friction(); }
   /// Whether μ depends on σ: then forces depend on ω.
   [[nodiscard]] bool is_rate_dependent() const { return friction_.is_rate_dependent(); }
   /// Whether g is 1 and N is piecewise linear.

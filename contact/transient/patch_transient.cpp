@@ -29,8 +29,7 @@ Tractions held_tractions(const PointParameters& point, ContactState state, doubl
   const double normal = signed_load(point, v);
   switch (state) {
     case ContactState::stick:
-      return {point.friction_coefficient > 0.0 ? point.tangential_stiffness * (u - slider) : 0.0,
-              normal};
+      return {point.has_friction() ? point.tangential_stiffness * (u - slider) : 0.0, normal};
     case ContactState::positive_slip:
       return {point.friction_coefficient * normal, normal};
     case ContactState::negative_slip:
@@ -54,7 +53,7 @@ Pushed pushed(const PointParameters& point, double slider, double u, double v) {
   const double load = signed_load(point, v);
   const double k_u = point.tangential_stiffness;
   if (load <= 0.0) return {u, ContactState::separated, 0.0};
-  if (point.friction_coefficient == 0.0) return {u, ContactState::slip, 0.0};
+  if (!point.has_friction()) return {u, ContactState::slip, 0.0};
   const double limit = point.friction_coefficient * load;
   const double trial = k_u * (u - slider);
   if (trial > limit) return {u - limit / k_u, ContactState::positive_slip, limit};
@@ -214,7 +213,7 @@ void PatchTransient::switch_state(Eigen::Index point, const ModalMotion& motion,
     state = ContactState::stick;
   } else if (state == ContactState::separated) {
     slider = now.u;  // f = 0 where contact begins
-    if (p.friction_coefficient == 0.0) {
+    if (!p.has_friction()) {
       state = ContactState::slip;
     } else if (k_u * now.u_rate > load_rate) {
       state = ContactState::positive_slip;
@@ -261,7 +260,7 @@ Eigen::MatrixXd PatchTransient::stuck_stiffness() const {
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PointParameters& point = patch_.points()[static_cast<std::size_t>(i)];
     const double weight = patch_.weights()[i];
-    k_u[i] = point.friction_coefficient > 0.0 ? weight * point.tangential_stiffness : 0.0;
+    k_u[i] = point.has_friction() ? weight * point.tangential_stiffness : 0.0;
     k_v[i] = weight * point.normal_stiffness;
   }
   return shapes_.u.transpose() * k_u.asDiagonal() * shapes_.u +

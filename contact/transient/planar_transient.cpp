@@ -150,7 +150,7 @@ double PlanarTransient::commit(const ModalMotion& motion, TransientMemory& memor
       state = ContactState::separated;
       set_slider(memory, i, now.position);
     } else if (!point.rubs) {
-      state = point.slides ? ContactState::stick : ContactState::slip;
+      state = point.law.has_friction() ? ContactState::stick : ContactState::slip;
       set_slider(memory, i, now.position);
     } else {
       const Vector2d trial = spring_force(point, now, before);
@@ -282,7 +282,7 @@ void PlanarTransient::touch_down(Eigen::Index i, const ModalMotion& motion,
   const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
   const PlanarPointInstant now = instant_at(i, motion, just_inside(point));
   const Vector2d pull = now.stiffness.cwiseProduct(now.velocity);
-  const bool slips = !point.slides || (point.rubs && pull.norm() > now.radius_rate);
+  const bool slips = !point.law.has_friction() || (point.rubs && pull.norm() > now.radius_rate);
   memory.state[static_cast<std::size_t>(i)] = slips ? ContactState::slip : ContactState::stick;
   set_slider(memory, i, now.position);  // f = 0 where contact begins
   if (!slips || !point.rubs) return;
@@ -343,7 +343,7 @@ Eigen::MatrixXd PlanarTransient::stuck_stiffness() const {
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
     k(i, 1) = point.law.point().normal_stiffness;
-    if (!point.slides) continue;
+    if (!point.law.has_friction()) continue;
     k(i, 0) = point.law.first_stiffness();
     k(i, 2) = point.law.second_stiffness();
   }

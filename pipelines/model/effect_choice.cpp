@@ -318,9 +318,7 @@ EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* mode
   facts.both_directions = has_both_directions(scene, facts.motion_ratio);
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
     facts.has_contact = !modal->points.empty();
-    facts.has_friction = std::ranges::any_of(modal->points, [](const auto& p) {
-      return p.friction_coefficient > 0.0 && p.tangential_stiffness > 0.0;
-    });
+    facts.has_friction = std::ranges::any_of(modal->points, [](const auto& p) { return p.rubs(); });
     facts.has_normal_stiffness =
         std::ranges::any_of(modal->points, [](const auto& p) { return p.normal_stiffness > 0.0; });
   }

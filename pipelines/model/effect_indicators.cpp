@@ -158,7 +158,7 @@ void add_point(const contact::PatchSamples& cells, Eigen::Index i, double rest_l
   const double mean = cells.stiffness(i, 1) * at.mean(i, 1);
   const double drift = ratio(std::isfinite(mean) ? mean : unlimited, std::abs(rest_load));
   reach.bias_load = std::max(reach.bias_load, drift + std::max(0.0, load - 1.0));
-  if (!motion.stuck || !loaded || cells.friction[i] == 0.0) return;
+  if (!motion.stuck || !loaded || !cells.has_friction(i)) return;
   const double held = std::max(0.0, cells.friction[i] * (rest_load - change));
   reach.slip =
       std::max(reach.slip, ratio(bounded ? std::hypot(force[0], force[2]) : unlimited, held));

@@ -12,7 +12,7 @@ Eigen::MatrixXd stuck_stiffness(const contact::PatchSamples& cells, bool along_r
   Eigen::VectorXd w = cells.weights.cwiseProduct(cells.stiffness.col(2));
   const Eigen::VectorXd v = cells.weights.cwiseProduct(cells.stiffness.col(1));
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    if (cells.friction[i] == 0.0) u[i] = w[i] = 0.0;
+    if (!cells.has_friction(i)) u[i] = w[i] = 0.0;
   }
   const auto part = [](const Eigen::MatrixXd& shape, const Eigen::VectorXd& k) -> Eigen::MatrixXd {
     return shape.transpose() * k.asDiagonal() * shape;

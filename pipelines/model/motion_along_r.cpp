@@ -15,7 +15,7 @@ namespace {
 constexpr int n_sampled_frequencies = 200;
 
 bool rubs(const contact::PatchSamples& cells, Eigen::Index point) {
-  return cells.friction[point] > 0.0 &&
+  return cells.has_friction(point) &&
          (cells.stiffness(point, 0) > 0.0 || cells.stiffness(point, 2) > 0.0);
 }
 
