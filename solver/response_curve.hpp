@@ -9,6 +9,7 @@
 
 #include "contact/harmonics.hpp"
 #include "contact/modal_force.hpp"
+#include "solver/diagnosis.hpp"
 
 namespace microslip::solver {
 
@@ -52,11 +53,7 @@ using PointObserver = std::function<bool(const ResponsePoint&)>;
 /// A remedy that was needed and helped.
 struct SolverEvent {
   double frequency = 0.0;  ///< [rad/s], where it began
-  /// shorter-step, kink-turn, long-step, fixed-frequency, homotopy, other-end, other-branch, or
-  /// states-at-once: a step that changes more of the contact's states than one should;
-  /// harmonics-kept: the choice of harmonics did not settle; peak-unsolved, fold-unsolved: there is one, of which the nearest point found is
-  /// marked, within the step in which it lies
-  std::string remedy;
+  Remedy remedy = Remedy::shorter_step;
 };
 
 /// A branch that the sweep does not meet: it coexists with the curve.
@@ -77,18 +74,7 @@ struct SettledPeak {
 struct ResponseCurve {
   std::vector<ResponsePoint> points;  ///< converged points only
   bool complete = false;
-  /// Empty when complete; else what ended it, or broke it:
-  ///   no-start       no solution at the begin of the range
-  ///   newton-stall   Newton's method fails and no remedy helps
-  ///   fold-lost      the same next to a fold: the branch turns, no way on was found
-  ///   event-chatter  the same where the Jacobian jumps within the smallest step
-  ///   branch-jump    beyond such a point only another branch was found; points before and after are valid
-  ///   loop           a branch entered by a jump is closed and does not reach the end
-  ///   budget         max_points were not enough
-  ///   out-of-range   the branch turned back out of the range at its begin
-  ///   unbounded      at an undamped resonance that nothing limits
-  ///   interrupted    the observer asked to stop
-  std::string diagnosis;
+  Diagnosis diagnosis = Diagnosis::none;
   std::string message;  ///< a sentence with the numbers
   /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range, or rest.
   std::string certificate;

@@ -30,10 +30,10 @@ struct TimePoint {
 };
 
 struct TimeCurve {
-  std::vector<TimePoint> points;  ///< in the order of the frequencies; periodic or not
-  bool complete = false;          ///< every frequency was integrated
-  std::string diagnosis;          ///< empty when complete; else event-chatter, out-of-range
-  std::string message;            ///< a sentence with the numbers
+  std::vector<TimePoint> points;          ///< in the order of the frequencies; periodic or not
+  bool complete = false;                  ///< every frequency was integrated
+  Diagnosis diagnosis = Diagnosis::none;  ///< else event_chatter, out_of_range
+  std::string message;                    ///< a sentence with the numbers
   long contact_evaluations = 0;
   double seconds = 0.0;
 };

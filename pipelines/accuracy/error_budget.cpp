@@ -65,8 +65,9 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
 
 /// The choice of harmonics was cut short, or did not end.
 bool is_unsettled(const solver::ResponseCurve& curve) {
-  return std::ranges::any_of(
-      curve.log, [](const solver::SolverEvent& event) { return event.remedy == "harmonics-kept"; });
+  return std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::harmonics_kept;
+  });
 }
 
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.

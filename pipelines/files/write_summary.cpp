@@ -70,7 +70,7 @@ Json to_json(const CurveSummary& curve);
 Json to_json(const ErrorRow& row);
 Json to_json(const EffectRecord& effect);
 Json to_json(const solver::SolverEvent& event) {
-  return {{"frequency_Hz", in_hertz(event.frequency)}, {"remedy", event.remedy}};
+  return {{"frequency_Hz", in_hertz(event.frequency)}, {"remedy", solver::to_string(event.remedy)}};
 }
 Json to_json(const solver::PeakOfParameter& peak, const OptimumSummary& summary) {
   std::optional<double> load = summary.request.load;  // none: that of the static loads, which vary
@@ -183,7 +183,7 @@ Json to_json(const CurveSummary& curve) {
           {"preload_carried_N", or_null(curve.preload_carried)},
           {"preload_integral_N", or_null(curve.preload_integral)},
           {"complete", curve.complete},
-          {"diagnosis", curve.diagnosis},
+          {"diagnosis", solver::to_string(curve.diagnosis)},
           {"message", curve.message},
           {"peak", curve.peak ? to_json(*curve.peak) : Json(nullptr)},
           {"peaks", to_array(curve.peaks)},

@@ -275,7 +275,8 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   const solver::ResponseCurve& curve = result.curve;
   const int highest = harmonics_to_check(model, scene);
   if (highest == 0 || !curve.certificate.empty() || curve.points.empty()) return;
-  if (curve.diagnosis == "interrupted" || interrupt_requested() || cut_short()) return;
+  if (curve.diagnosis == solver::Diagnosis::interrupted || interrupt_requested() || cut_short())
+    return;
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;

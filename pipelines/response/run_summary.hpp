@@ -49,7 +49,7 @@ struct CurveSummary {
   /// ∬ max(n₀', 0) dA and ∬ n₀' dA over the contact points [N]; none for a limit.
   std::optional<double> preload_carried, preload_integral;
   bool complete = false;
-  std::string diagnosis;
+  solver::Diagnosis diagnosis = solver::Diagnosis::none;
   std::string message;
   /// The highest of `peaks`; of a complete curve without peaks its highest end. None: neither.
   std::optional<PeakSummary> peak;

@@ -52,7 +52,7 @@ struct Irregular {
     const auto n = static_cast<int>(curve.points.size()) + n_aperiodic;
     curve.complete = n_aperiodic == 0;
     if (n_aperiodic > 0) {
-      curve.diagnosis = "not-periodic";
+      curve.diagnosis = solver::Diagnosis::not_periodic;
       curve.message = fmt::format("{} of {} frequencies have no periodic motion within {} periods",
                                   n_aperiodic, n, options.max_periods);
     }
@@ -90,7 +90,7 @@ solver::ResponseCurve sweep(const solver::Scene& scene, const SceneDescription& 
       return curve;
     }
     if (observe && !observe(curve.points.back())) {
-      curve.diagnosis = "interrupted";
+      curve.diagnosis = solver::Diagnosis::interrupted;
       return curve;
     }
   }

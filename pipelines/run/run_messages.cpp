@@ -102,8 +102,9 @@ std::string outcome_text(const CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
   const auto* peak = highest_peak(curve);
   const std::string outcome =
-      curve.complete ? std::string("complete")
-                     : fmt::format("incomplete: {}: {}", curve.diagnosis, curve.message);
+      curve.complete
+          ? std::string("complete")
+          : fmt::format("incomplete: {}: {}", solver::to_string(curve.diagnosis), curve.message);
   return fmt::format("curve {}: {} points, {} iterations, {:.2f} s, {}{}", result.name,
                      curve.points.size(), curve.iterations, curve.seconds, outcome,
                      peak != nullptr ? fmt::format("; largest {:.6g} m at {:.6g} Hz",

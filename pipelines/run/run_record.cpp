@@ -292,15 +292,18 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
 /// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
 void RunRecord::warn_of_unsolved(const CurveResult& result) {
   for (const solver::SolverEvent& event : result.curve.log) {
-    if (event.remedy == "harmonics-kept" && !result.curve.points.empty()) {
+    if (event.remedy == solver::Remedy::harmonics_kept && !result.curve.points.empty()) {
       progress_.warning(fmt::format(
           "harmonics-kept: curve {}: the choice of its harmonics did not come to its end: it has "
           "{}",
           result.name, std::max<std::size_t>(result.curve.points.front().orders.size(), 1)));
     }
-    if (event.remedy != "peak-unsolved" && event.remedy != "fold-unsolved") continue;
+    if (event.remedy != solver::Remedy::peak_unsolved &&
+        event.remedy != solver::Remedy::fold_unsolved)
+      continue;
     progress_.warning(fmt::format("{}: curve {}: near {:.8g} Hz the nearest point found is marked",
-                                  event.remedy, result.name, hz_per_rad * event.frequency));
+                                  solver::to_string(event.remedy), result.name,
+                                  hz_per_rad * event.frequency));
   }
 }
 
@@ -321,7 +324,8 @@ void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, d
 void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model) {
   const auto& curve = result.curve;
   const bool told =
-      curve.complete || curve.diagnosis == "interrupted";  // that is the end of the whole run
+      curve.complete ||
+      curve.diagnosis == solver::Diagnosis::interrupted;  // that is the end of the whole run
   told ? progress_.info(outcome_text(result)) : progress_.warning(outcome_text(result));
   CurveSummary summary = summarise(result);
   if (const auto* load = std::get_if<double>(&result.load);
@@ -371,7 +375,7 @@ void RunRecord::keep_unfinished() {
   const std::lock_guard lock(mutex_);
   for (auto& [name, result] : unfinished_) {
     solver::ResponseCurve& curve = result.curve;
-    curve.diagnosis = "interrupted";
+    curve.diagnosis = solver::Diagnosis::interrupted;
     curve.message = fmt::format("stopped at {:.8g} Hz", hz_per_rad * curve.points.back().frequency);
     progress_.info(fmt::format("curve {}: {} points, incomplete: interrupted: {}", name,
                                curve.points.size(), curve.message));

@@ -140,12 +140,12 @@ BranchWalker::Trial BranchWalker::limited(Trial trial, double distance) {
     distance *= share;
     share = states_.next_cut(now_, trial.point, distance);
   }
-  if (states_.n_forced() > n_forced) remember("states-at-once");
+  if (states_.n_forced() > n_forced) remember(Remedy::states_at_once);
   step_ = std::min(step_, states_.next_length(distance));
   return trial;
 }
 
-void BranchWalker::remember(const char* remedy) {
+void BranchWalker::remember(Remedy remedy) {
   remedies_.push_back({now_.solution.point.parameter, remedy});
 }
 
@@ -155,7 +155,7 @@ bool BranchWalker::advance() {
     Trial trial = attempt(step_, 10);
     const bool kink = step_ < kink_step && trial.correction < kink_correction;
     if (trial.converged && (smooth(trial) || kink)) {
-      if (failed) remember("shorter-step");
+      if (failed) remember(Remedy::shorter_step);
       const double distance = step_;
       choose_step(trial);
       accept(limited(std::move(trial), distance));
@@ -200,7 +200,7 @@ bool BranchWalker::turn_at_kink() {
       const bool onward = trial.converged && trial.correction < 0.7 && trial.cosine > 0.5 &&
                           trial.orientation == orientation_;
       if (!onward) continue;
-      remember("kink-turn");
+      remember(Remedy::kink_turn);
       step_ = distance;
       accept(std::move(trial));
       return true;
@@ -214,7 +214,7 @@ bool BranchWalker::leap() {
   for (double distance = 1e-5; distance < longest_leap; distance *= 3.0) {
     Trial trial = attempt(distance, 40);
     if (!trial.converged || trial.correction > 1.0) continue;
-    remember("long-step");
+    remember(Remedy::long_step);
     step_ = std::min(distance, 1e-2);
     accept(std::move(trial));
     return true;

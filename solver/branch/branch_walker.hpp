@@ -13,6 +13,7 @@
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/branch/predictor.hpp"
 #include "solver/branch/step_states.hpp"
+#include "solver/diagnosis.hpp"
 
 namespace microslip::solver {
 
@@ -25,10 +26,10 @@ struct StepPoint {
   WalkerPoint point;
 };
 
-/// What helped where Newton's method had failed.
-struct Remedy {
+/// What helped where Newton's method had failed, and where.
+struct StepRemedy {
   double parameter = 0.0;
-  const char* name = "";  ///< shorter-step, kink-turn, long-step, states-at-once
+  Remedy remedy = Remedy::shorter_step;
 };
 
 /// Why no step was possible.
@@ -71,7 +72,7 @@ class BranchWalker {
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
   [[nodiscard]] double step() const { return step_; }
-  [[nodiscard]] const std::vector<Remedy>& remedies() const { return remedies_; }
+  [[nodiscard]] const std::vector<StepRemedy>& remedies() const { return remedies_; }
   /// What the step control has seen of the contact.
   [[nodiscard]] const StepStates& states() const { return states_; }
   /// After advance() was false.
@@ -98,7 +99,7 @@ class BranchWalker {
   void choose_step(const Trial& trial);
   /// The trial, or a shorter one that changes fewer states. @param distance  of the trial.
   [[nodiscard]] Trial limited(Trial trial, double distance);
-  void remember(const char* remedy);
+  void remember(Remedy remedy);
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
@@ -121,7 +122,7 @@ class BranchWalker {
   double orientation_ = 0.0;  ///< 0: not known yet
   double before_orientation_ = 0.0;
   StepStates states_;
-  std::vector<Remedy> remedies_;
+  std::vector<StepRemedy> remedies_;
   mutable long evaluations_ = 0;
   mutable long iterations_ = 0;
 };

@@ -242,7 +242,7 @@ class Search {
     const ResponseCurve ahead = CurveTracer(scene_, options_, none).follow(start, balance_->set());
     count_work(ahead);
     DetachedBranch branch;
-    branch.closed = ahead.diagnosis == "loop";
+    branch.closed = ahead.diagnosis == Diagnosis::loop;
     if (!branch.closed) {
       const ResponseCurve back =
           CurveTracer(scene_, backward, none).follow(std::move(start), balance_->set());

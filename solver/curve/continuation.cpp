@@ -121,9 +121,9 @@ ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, doub
   options.frequency_end = resonance - std::copysign(nearest * resonance, way);
   ResponseCurve curve;
   if (std::abs(way) > nearest * resonance) curve = trace_response(linear, options);
-  if (!curve.diagnosis.empty()) return curve;
+  if (curve.diagnosis != Diagnosis::none) return curve;
   curve.complete = false;
-  curve.diagnosis = "unbounded";
+  curve.diagnosis = Diagnosis::unbounded;
   curve.message = "undamped resonance at " + std::to_string(resonance / (2.0 * std::numbers::pi)) +
                   " Hz: the linear response has no bound there";
   return curve;
@@ -164,21 +164,21 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     return trace_choosing(scene, options, observe);
   ResponseCurve curve =
       certified ? std::move(*certified) : CurveTracer(scene, options, observe).run();
-  if (!curve.complete && curve.certificate.empty() && curve.diagnosis != "interrupted") {
+  if (!curve.complete && curve.certificate.empty() && curve.diagnosis != Diagnosis::interrupted) {
     ResponseCurve other = trace_backwards(scene, options, observe);
     const long iterations = curve.iterations + other.iterations;
     const long evaluations = curve.contact_evaluations + other.contact_evaluations;
     const long readings = curve.state_readings + other.state_readings;
     const long cuts = curve.state_cuts + other.state_cuts;
     const bool two_sides =
-        curve.diagnosis == "unbounded" && other.diagnosis == "unbounded" &&
+        curve.diagnosis == Diagnosis::unbounded && other.diagnosis == Diagnosis::unbounded &&
         curve.points.front().q.n_harmonics() == other.points.front().q.n_harmonics();
     if (two_sides) {
       curve.points.insert(curve.points.end(), other.points.begin(), other.points.end());
       curve.log.insert(curve.log.end(), other.log.begin(), other.log.end());
     } else if (other.complete || other.points.size() > curve.points.size()) {
       other.log.insert(other.log.begin(), curve.log.begin(), curve.log.end());
-      other.log.push_back({options.frequency_end, "other-end"});
+      other.log.push_back({options.frequency_end, Remedy::other_end});
       curve = std::move(other);
     }
     curve.iterations = iterations;
@@ -187,7 +187,7 @@ ResponseCurve trace_response(const Scene& scene, const ContinuationOptions& opti
     curve.state_cuts = cuts;
   }
   note_boundary_peak(curve);
-  if (options.search_starts > 0 && curve.diagnosis != "interrupted") {
+  if (options.search_starts > 0 && curve.diagnosis != Diagnosis::interrupted) {
     search_branches(scene, options, curve);
   }
   curve.seconds = watch.seconds();
@@ -215,7 +215,7 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
     curve.complete = true;
     if (options.search_starts > 0) search_branches(scene, here, curve);
   } else {
-    curve.diagnosis = "no-start";
+    curve.diagnosis = Diagnosis::no_start;
     curve.message = "no solution found; tried " + start.way;
   }
   curve.seconds = watch.seconds();

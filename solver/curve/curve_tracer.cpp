@@ -42,9 +42,9 @@ std::optional<double> sign_of_determinant(const NewtonResult& at) {
   return at.tangent->orientation * (along > 0.0 ? 1.0 : (along < 0.0 ? -1.0 : 0.0));
 }
 
-const char* stall_name(Stall stall) {
-  if (stall == Stall::fold) return "fold-lost";
-  return stall == Stall::chatter ? "event-chatter" : "newton-stall";
+Diagnosis diagnosis_of(Stall stall) {
+  if (stall == Stall::fold) return Diagnosis::fold_lost;
+  return stall == Stall::chatter ? Diagnosis::event_chatter : Diagnosis::newton_stall;
 }
 
 }  // namespace
@@ -93,12 +93,12 @@ void CurveTracer::take_stock(const BranchWalker& walker) {
   walker_readings_ = walker.states().n_readings();
   walker_cuts_ = walker.states().n_cuts();
   for (; n_remedies_ < walker.remedies().size(); ++n_remedies_) {
-    const Remedy& remedy = walker.remedies()[n_remedies_];
-    curve_.log.push_back({remedy.parameter, remedy.name});
+    const StepRemedy& step = walker.remedies()[n_remedies_];
+    curve_.log.push_back({step.parameter, step.remedy});
   }
 }
 
-void CurveTracer::stop(const std::string& diagnosis, const std::string& message) {
+void CurveTracer::stop(Diagnosis diagnosis, const std::string& message) {
   curve_.diagnosis = diagnosis;
   curve_.message = message;
 }
@@ -134,31 +134,34 @@ bool CurveTracer::walk(BranchWalker& walker) {
     if (!stepped) return true;
     const double frequency = walker.now().solution.point.parameter;
     if (progress(frequency) >= 1.0) {
-      if (reach(walker, options_.frequency_end)) curve_.complete = curve_.diagnosis.empty();
+      if (reach(walker, options_.frequency_end))
+        curve_.complete = curve_.diagnosis == Diagnosis::none;
       return false;
     }
     if (progress(frequency) < -1e-9) {
       if (reach(walker, options_.frequency_begin)) {
-        stop("out-of-range",
+        stop(Diagnosis::out_of_range,
              at_hertz("the branch turned back out of the range", options_.frequency_begin));
       }
       return false;
     }
     if (!add_specials(walker, 1.0) || !add(walker.now().solution)) {
-      stop("interrupted", at_hertz("stopped", frequency));
+      stop(Diagnosis::interrupted, at_hertz("stopped", frequency));
       return false;
     }
     if (endless()) {
-      stop("unbounded", at_hertz("an undamped resonance that friction does not hold", frequency));
+      stop(Diagnosis::unbounded,
+           at_hertz("an undamped resonance that friction does not hold", frequency));
       return false;
     }
     if (closed(walker, n_steps)) {
-      stop("loop", at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
+      stop(Diagnosis::loop,
+           at_hertz("the branch is closed and was entered by a jump", entry_->frequency));
       return false;
     }
   }
-  stop("budget", "the branch did not reach the end within " + std::to_string(options_.max_points) +
-                     " points");
+  stop(Diagnosis::budget, "the branch did not reach the end within " +
+                              std::to_string(options_.max_points) + " points");
   return false;
 }
 
@@ -208,7 +211,7 @@ std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
       if (!start.solution) continue;
       corrected = std::move(*start.solution);
     }
-    curve_.log.push_back({from.parameter, plain ? "fixed-frequency" : "homotopy"});
+    curve_.log.push_back({from.parameter, plain ? Remedy::fixed_frequency : Remedy::homotopy});
     return corrected;
   }
   return std::nullopt;
@@ -230,7 +233,7 @@ ResponseCurve CurveTracer::follow(NewtonResult start, const HarmonicSet& set) {
   if (!add(start)) return finished();
   BranchWalker walker = walker_from(std::move(start));
   if (walk(walker)) {
-    stop(stall_name(walker.stall()),
+    stop(diagnosis_of(walker.stall()),
          at_hertz("Newton's method stalled", walker.now().solution.point.parameter));
   }
   return finished();
@@ -242,30 +245,32 @@ ResponseCurve CurveTracer::run() {
   curve_.iterations = start.iterations;
   curve_.contact_evaluations = start.evaluations;
   if (!start.solution) {
-    stop("no-start",
+    stop(Diagnosis::no_start,
          at_hertz("no solution found", options_.frequency_begin) + "; tried " + start.way);
     return finished();
   }
   std::optional<NewtonResult> next = std::move(start.solution);
   for (int restarts = 0; next && restarts <= most_restarts; ++restarts) {
     if (!add(*next)) {
-      stop("interrupted", at_hertz("stopped", next->point.parameter));
+      stop(Diagnosis::interrupted, at_hertz("stopped", next->point.parameter));
       return finished();
     }
     BranchWalker walker = walker_from(std::move(*next));
     if (!walk(walker)) return finished();
     const double last = walker.now().solution.point.parameter;
-    const char* name = stall_name(walker.stall());
+    const Diagnosis stall = diagnosis_of(walker.stall());
     next = restart(walker);
     if (!next) {
-      stop(name, at_hertz("Newton's method stalled and no remedy helped", last));
+      stop(stall, at_hertz("Newton's method stalled and no remedy helped", last));
     } else if (!on_the_branch(walker.now(), next->point)) {
-      stop("branch-jump", at_hertz(std::string(name) + ", and another branch beyond it", last));
-      curve_.log.push_back({last, "other-branch"});
+      stop(Diagnosis::branch_jump,
+           at_hertz(std::string(to_string(stall)) + ", and another branch beyond it", last));
+      curve_.log.push_back({last, Remedy::other_branch});
       entry_ = {balance_->harmonics(next->point.x), next->point.parameter};
     }
   }
-  if (next) stop("event-chatter", at_hertz("stalled again and again", next->point.parameter));
+  if (next)
+    stop(Diagnosis::event_chatter, at_hertz("stalled again and again", next->point.parameter));
   return finished();
 }
 

@@ -25,7 +25,7 @@ class CurveTracer {
   /// The curve; never throws for one that cannot be completed.
   [[nodiscard]] ResponseCurve run();
   /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
-  /// with the diagnosis "loop".
+  /// with the diagnosis `loop`.
   /// @param set  of the unknowns of `start`.
   [[nodiscard]] ResponseCurve follow(NewtonResult start, const HarmonicSet& set);
 
@@ -51,7 +51,7 @@ class CurveTracer {
   /// What the last step has up to an end of the range, and the point there. False: diagnosis says why.
   [[nodiscard]] bool reach(BranchWalker& walker, double edge);
   [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
-  void stop(const std::string& diagnosis, const std::string& message);
+  void stop(Diagnosis diagnosis, const std::string& message);
   [[nodiscard]] double progress(double frequency) const;  ///< 0 at the begin, 1 at the end
 
   using Clock = std::chrono::steady_clock;

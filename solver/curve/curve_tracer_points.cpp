@@ -47,7 +47,8 @@ bool CurveTracer::add(const NewtonResult& at, PointMark mark) {
 }
 
 void CurveTracer::note_unsolved(double frequency, PointMark mark) {
-  curve_.log.push_back({frequency, mark == PointMark::peak ? "peak-unsolved" : "fold-unsolved"});
+  curve_.log.push_back(
+      {frequency, mark == PointMark::peak ? Remedy::peak_unsolved : Remedy::fold_unsolved});
 }
 
 bool CurveTracer::add_specials(BranchWalker& walker, double share_of_segment) {
@@ -67,17 +68,17 @@ bool CurveTracer::reach(BranchWalker& walker, double edge) {
   if (before == edge) return true;  // a branch that was followed from there
   const double share = (edge - before) / (now - before);
   if (!add_specials(walker, share)) {
-    stop("interrupted", at_hertz("stopped", edge));
+    stop(Diagnosis::interrupted, at_hertz("stopped", edge));
     return false;
   }
   const NewtonResult last = walker.at_parameter(edge, share);
   take_stock(walker);
   if (!last.converged) {
-    stop("newton-stall", at_hertz("no solution found", edge));
+    stop(Diagnosis::newton_stall, at_hertz("no solution found", edge));
     return false;
   }
   if (!add(last)) {
-    stop("interrupted", at_hertz("stopped", edge));
+    stop(Diagnosis::interrupted, at_hertz("stopped", edge));
     return false;
   }
   return true;

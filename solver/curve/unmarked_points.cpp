@@ -32,8 +32,8 @@ bool turns(const ResponsePoint& a, const ResponsePoint& b, const ResponsePoint& 
 
 bool was_entered_anew(const ResponseCurve& curve) {
   return std::any_of(curve.log.begin(), curve.log.end(), [](const SolverEvent& event) {
-    return event.remedy == "fixed-frequency" || event.remedy == "homotopy" ||
-           event.remedy == "other-branch";
+    return event.remedy == Remedy::fixed_frequency || event.remedy == Remedy::homotopy ||
+           event.remedy == Remedy::other_branch;
   });
 }
 
@@ -56,10 +56,10 @@ void mark_unsolved(ResponseCurve& curve) {
     if (b.mark != PointMark::none) continue;
     if (!is_marked_near(curve, i, PointMark::fold) && turns(a, b, c)) {
       b.mark = PointMark::fold;
-      curve.log.push_back({b.frequency, "fold-unsolved"});
+      curve.log.push_back({b.frequency, Remedy::fold_unsolved});
     } else if (!is_marked_near(curve, i, PointMark::peak) && is_higher(b, a) && is_higher(b, c)) {
       b.mark = PointMark::peak;
-      curve.log.push_back({b.frequency, "peak-unsolved"});
+      curve.log.push_back({b.frequency, Remedy::peak_unsolved});
     }
   }
 }

@@ -198,13 +198,13 @@ ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& r
     const CurveHarmonics checked = check_harmonics(scene, range, set, chosen.known, curve);
     add(checked);
     if (!is_new) break;
-    if (checked.settled || is_stopped(range) || curve.diagnosis == "interrupted") break;
+    if (checked.settled || is_stopped(range) || curve.diagnosis == Diagnosis::interrupted) break;
   }
   curve.iterations = work.iterations;
   curve.contact_evaluations = work.contact_evaluations;
   if (!work.settled && !curve.points.empty()) {
     const auto highest = std::ranges::max_element(curve.points, {}, &ResponsePoint::amplitude);
-    curve.log.push_back({highest->frequency, "harmonics-kept"});
+    curve.log.push_back({highest->frequency, Remedy::harmonics_kept});
   }
   return curve;
 }

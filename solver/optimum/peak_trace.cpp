@@ -194,11 +194,12 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
   if (ahead.empty() && range_.stop && range_.stop()) throw SearchStopped{};
   const ResponseCurve curve = ahead.empty() ? trace_response(scene, range, until_stopped(range))
                                             : std::move(ahead.mapped());
-  if (curve.diagnosis == "interrupted") throw SearchStopped{};
+  if (curve.diagnosis == Diagnosis::interrupted) throw SearchStopped{};
   ++result_.n_curves;
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
-  if (!curve.complete) note("curve incomplete (" + curve.diagnosis + ")", position);
+  if (!curve.complete)
+    note(std::string("curve incomplete (") + to_string(curve.diagnosis) + ")", position);
   Curve kept{high_points(scene, curve, range_), curve.complete, range.search_starts};
   if (std::any_of(kept.high.begin(), kept.high.end(),
                   [](const auto& one) { return one.climbed; })) {

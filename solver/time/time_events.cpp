@@ -159,8 +159,9 @@ EventStepper::Step EventStepper::accepted_step(double time, double& length,
       return step;
     }
     if (!(length > shortest_step * system_.period())) {
-      throw TimeError("out-of-range", "the error of a step stays at " + std::to_string(step.error) +
-                                          " of the motion however short it is");
+      throw TimeError(Diagnosis::out_of_range, "the error of a step stays at " +
+                                                   std::to_string(step.error) +
+                                                   " of the motion however short it is");
     }
     length *= std::isfinite(factor) ? std::min(factor, 0.9) : 0.2;
   }
@@ -191,8 +192,8 @@ void EventStepper::count_events(std::size_t n) {
   n_events_ += static_cast<long>(n);
   period_events_ += static_cast<long>(n);
   if (period_events_ > max_events_) {
-    throw TimeError("event-chatter", "more than " + std::to_string(max_events_) +
-                                         " changes of contact state in one period");
+    throw TimeError(Diagnosis::event_chatter, "more than " + std::to_string(max_events_) +
+                                                  " changes of contact state in one period");
   }
 }
 

@@ -43,7 +43,7 @@ void TimeStepper::reach(const ModalMotion& motion) {
   const double displacement = motion.q.norm();
   const double velocity = motion.velocity.norm();
   if (!std::isfinite(displacement) || !std::isfinite(velocity)) {
-    throw TimeError("out-of-range", "the motion grows beyond all numbers");
+    throw TimeError(Diagnosis::out_of_range, "the motion grows beyond all numbers");
   }
   levels_.current.displacement = std::max(levels_.current.displacement, displacement);
   levels_.current.velocity = std::max(levels_.current.velocity, velocity);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "solver/diagnosis.hpp"
 #include "solver/time/time_segment.hpp"
 #include "solver/time/time_system.hpp"
 #include "solver/time_options.hpp"
@@ -21,12 +22,12 @@ struct TimeState {
 /// Why a period could not be integrated.
 class TimeError : public std::runtime_error {
  public:
-  TimeError(std::string diagnosis, const std::string& message)
-      : std::runtime_error(message), diagnosis_(std::move(diagnosis)) {}
-  [[nodiscard]] const std::string& diagnosis() const { return diagnosis_; }
+  TimeError(Diagnosis diagnosis, const std::string& message)
+      : std::runtime_error(message), diagnosis_(diagnosis) {}
+  [[nodiscard]] Diagnosis diagnosis() const { return diagnosis_; }
 
  private:
-  std::string diagnosis_;
+  Diagnosis diagnosis_;
 };
 
 class TimeObserver {

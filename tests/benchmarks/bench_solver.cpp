@@ -76,7 +76,7 @@ void whole_curve(benchmark::State& state) {
   for (auto _ : state) {
     const auto curve = solver::trace_response(scene, range());
     n = static_cast<double>(curve.points.size());
-    if (!curve.complete) state.SkipWithError(curve.diagnosis.c_str());
+    if (!curve.complete) state.SkipWithError(to_string(curve.diagnosis));
   }
   state.counters["points"] = n;
   state.counters["seconds_per_250"] = benchmark::Counter(
@@ -127,7 +127,7 @@ void chosen_harmonics(benchmark::State& state) {
     const double begin = processor_seconds();
     chosen = solver::trace_response(scene, options);
     spent += processor_seconds() - begin;
-    if (!chosen.complete) state.SkipWithError(chosen.diagnosis.c_str());
+    if (!chosen.complete) state.SkipWithError(to_string(chosen.diagnosis));
   }
   solver::HarmonicSet used(1);
   double n_orders = 0.0;

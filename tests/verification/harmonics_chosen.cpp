@@ -65,7 +65,8 @@ bool is_linear(const solver::ResponsePoint& point) {
 void compare(const solver::Scene& scene, const solver::ContinuationOptions& range,
              const std::string& name, Count& count) {
   const solver::ResponseCurve curve = solver::trace_response(scene, range);
-  EXPECT_TRUE(curve.complete || curve.diagnosis == "budget") << name << ": " << curve.diagnosis;
+  EXPECT_TRUE(curve.complete || curve.diagnosis == solver::Diagnosis::budget)
+      << name << ": " << curve.diagnosis;
   const auto high = solver::high_points(scene, curve, range);
   if (high.empty()) return;
   const solver::HighPoint& highest = high.front();
@@ -77,8 +78,9 @@ void compare(const solver::Scene& scene, const solver::ContinuationOptions& rang
     EXPECT_EQ(highest.point.orders.size(), 1U) << name;
     return;
   }
-  if (std::ranges::any_of(curve.log,
-                          [](const auto& event) { return event.remedy == "harmonics-kept"; })) {
+  if (std::ranges::any_of(curve.log, [](const auto& event) {
+        return event.remedy == solver::Remedy::harmonics_kept;
+      })) {
     ++count.kept;
     return;
   }

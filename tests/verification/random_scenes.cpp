@@ -41,12 +41,12 @@ class Campaign {
     const auto curve = solver::trace_response(
         random.scene, random.options,
         [&](const solver::ResponsePoint& /*point*/) { return elapsed() < time_cap; });
-    EXPECT_EQ(curve.complete, curve.diagnosis.empty()) << seed;
+    EXPECT_EQ(curve.complete, curve.diagnosis == solver::Diagnosis::none) << seed;
     slowest_ = std::max(slowest_, elapsed());
     const std::string whole = curve.certificate.empty() ? "complete" : "complete, certified";
-    ++outcomes_[curve.complete ? whole : curve.diagnosis];
+    ++outcomes_[curve.complete ? whole : to_string(curve.diagnosis)];
     if (!curve.complete) std::printf("seed %d: %s\n", seed, curve.message.c_str());
-    for (const auto& event : curve.log) ++remedies_[event.remedy];
+    for (const auto& event : curve.log) ++remedies_[to_string(event.remedy)];
     iterations_ += curve.iterations;
     evaluations_ += curve.contact_evaluations;
     n_points_ += curve.points.size();

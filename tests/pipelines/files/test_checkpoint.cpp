@@ -27,7 +27,7 @@ CurveResult full_curve() {
   curve.gap = 0.1 + 0.2;
   curve.curve.points.front().seconds = std::numeric_limits<double>::denorm_min();
   curve.curve.points.front().orders = {1, 3};
-  curve.curve.log.push_back({1.5, "kink-turn"});
+  curve.curve.log.push_back({1.5, solver::Remedy::kink_turn});
   curve.curve.detached.push_back({curve.curve.points, true});
   curve.patch_shares.push_back({"contact", {curve.curve.points.front().report}});
   curve.richer = solver::RicherPeak{1.0, 2.0, std::nullopt, 9};

@@ -140,9 +140,9 @@ TEST(StepStates, ThatChangeAtEveryStepDoNotHoldTheWalkUp) {
     EXPECT_TRUE(curve.complete) << curve.message;
     EXPECT_GT(curve.state_cuts, 0);
     EXPECT_LT(curve.points.size(), 3 * n_calm);
-    const bool at_once =
-        std::any_of(curve.log.begin(), curve.log.end(),
-                    [](const SolverEvent& event) { return event.remedy == "states-at-once"; });
+    const bool at_once = std::any_of(
+        curve.log.begin(), curve.log.end(),
+        [](const SolverEvent& event) { return event.remedy == Remedy::states_at_once; });
     EXPECT_EQ(at_once, n_points > 8);  // of a handful one at a time is no more than allowed
   }
 }

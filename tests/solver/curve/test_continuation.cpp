@@ -164,7 +164,7 @@ TEST(Continuation, StopsWhenTheObserverSaysSo) {
   const auto curve = trace_response(Duffing{}.scene(), frequency_range(0.5, 2.5),
                                     [&](const ResponsePoint&) { return ++n < 5; });
   EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.diagnosis, "interrupted");
+  EXPECT_EQ(curve.diagnosis, Diagnosis::interrupted);
   EXPECT_EQ(curve.points.size(), 5U);
 }
 
@@ -282,7 +282,7 @@ TEST(Continuation, NamesACurveThatDoesNotEnd) {
   options.max_points = 20;
   const auto curve = trace_response(Duffing{}.scene(), options);
   EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.diagnosis, "budget");
+  EXPECT_EQ(curve.diagnosis, Diagnosis::budget);
   EXPECT_FALSE(curve.message.empty());
 }
 
@@ -308,7 +308,7 @@ TEST(TraceLinear, EndsAtAnUndampedResonanceWithItsName) {
   for (const auto& c : cases) {
     const ResponseCurve curve = trace_linear(scene, c.limit, frequency_range(c.begin, c.end));
     EXPECT_FALSE(curve.complete);
-    EXPECT_EQ(curve.diagnosis, "unbounded");
+    EXPECT_EQ(curve.diagnosis, Diagnosis::unbounded);
     ASSERT_GT(curve.points.size(), 5U);
     EXPECT_LT(curve.points.size(), 500U);
     EXPECT_EQ(curve.points.front().frequency, c.begin);
@@ -337,7 +337,7 @@ TEST(Continuation, NamesAnUndampedResonanceThatFrictionDoesNotHold) {
   const ResponseCurve beyond =
       trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5));
   EXPECT_FALSE(beyond.complete);
-  EXPECT_EQ(beyond.diagnosis, "unbounded");
+  EXPECT_EQ(beyond.diagnosis, Diagnosis::unbounded);
   single.force = 0.9 * 4.0 * 0.5 / M_PI;
   EXPECT_TRUE(
       trace_response(tests::single_point_scene(single), frequency_range(0.5, 1.5)).complete);

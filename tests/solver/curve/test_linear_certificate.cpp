@@ -116,7 +116,7 @@ TEST(CertifiedCurve, IsStoppedByItsObserver) {
   int seen = 0;
   const ResponseCurve curve = trace_response(rubbing(1e6), frequency_range(0.5, 3.0),
                                              [&](const ResponsePoint&) { return ++seen < 5; });
-  EXPECT_EQ(curve.diagnosis, "interrupted");
+  EXPECT_EQ(curve.diagnosis, Diagnosis::interrupted);
   EXPECT_EQ(seen, 5);
 }
 

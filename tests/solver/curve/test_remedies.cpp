@@ -62,7 +62,7 @@ ContinuationOptions below_resonance() {
   return options;
 }
 
-bool logged(const ResponseCurve& curve, const std::string& remedy) {
+bool logged(const ResponseCurve& curve, Remedy remedy) {
   return std::any_of(curve.log.begin(), curve.log.end(),
                      [&](const SolverEvent& event) { return event.remedy == remedy; });
 }
@@ -80,8 +80,8 @@ TEST(Remedies, CrossASmallGapInTheBranch) {
   range.frequency_end = 1.05;
   const ResponseCurve curve = trace_response(jumping(0.04), range);
   EXPECT_TRUE(curve.complete) << curve.diagnosis << ": " << curve.message;
-  EXPECT_TRUE(logged(curve, "fixed-frequency") || logged(curve, "homotopy"));
-  EXPECT_FALSE(logged(curve, "other-branch"));
+  EXPECT_TRUE(logged(curve, Remedy::fixed_frequency) || logged(curve, Remedy::homotopy));
+  EXPECT_FALSE(logged(curve, Remedy::other_branch));
   ASSERT_FALSE(curve.log.empty());
   EXPECT_NEAR(curve.log.back().frequency, std::sqrt(0.8), 1e-5);
   for (const ResponsePoint& point : curve.points) {
@@ -92,7 +92,7 @@ TEST(Remedies, CrossASmallGapInTheBranch) {
 TEST(Remedies, NameTheGapThatNothingCrosses) {
   const ResponseCurve curve = trace_response(jumping(0.1), below_resonance());
   EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.diagnosis, "event-chatter") << curve.message;
+  EXPECT_EQ(curve.diagnosis, Diagnosis::event_chatter) << curve.message;
   ASSERT_FALSE(curve.points.empty());
   for (const ResponsePoint& point : curve.points) {
     EXPECT_TRUE(point.q.vector().allFinite());
@@ -104,8 +104,8 @@ TEST(Remedies, NameTheBranchThatTheyJumpTo) {
   // Beyond amplitude 1 the force helps: 1.5 times the amplitude, on another branch.
   const ResponseCurve curve = trace_response(jumping(-0.1), below_resonance());
   EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.diagnosis, "branch-jump") << curve.message;
-  EXPECT_TRUE(logged(curve, "other-branch"));
+  EXPECT_EQ(curve.diagnosis, Diagnosis::branch_jump) << curve.message;
+  EXPECT_TRUE(logged(curve, Remedy::other_branch));
   EXPECT_DOUBLE_EQ(curve.points.back().frequency, below_resonance().frequency_end);
 }
 

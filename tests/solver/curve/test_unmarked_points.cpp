@@ -30,7 +30,7 @@ TEST(UnmarkedPoints, ALargestRowWithoutAPeakIsMarkedAndLogged) {
   mark_unsolved(curve);
   EXPECT_EQ(curve.points[2].mark, PointMark::peak);
   ASSERT_EQ(curve.log.size(), 1U);
-  EXPECT_EQ(curve.log[0].remedy, "peak-unsolved");
+  EXPECT_EQ(curve.log[0].remedy, Remedy::peak_unsolved);
   EXPECT_EQ(curve.log[0].frequency, 1.2);
 }
 
@@ -39,7 +39,7 @@ TEST(UnmarkedPoints, ARowWhereTheFrequencyTurnsIsMarkedAndLogged) {
   mark_unsolved(curve);
   EXPECT_EQ(curve.points[1].mark, PointMark::fold);
   ASSERT_EQ(curve.log.size(), 1U);
-  EXPECT_EQ(curve.log[0].remedy, "fold-unsolved");
+  EXPECT_EQ(curve.log[0].remedy, Remedy::fold_unsolved);
 }
 
 TEST(UnmarkedPoints, SolvedPeaksRoundingAndBrokenCurvesAreLeftAlone) {
@@ -49,7 +49,7 @@ TEST(UnmarkedPoints, SolvedPeaksRoundingAndBrokenCurvesAreLeftAlone) {
   ResponseCurve broken = curve_of({{1.0, 1.0}, {1.1, 2.0}, {1.2, 1.0}});
   broken.complete = false;
   ResponseCurve jumped = curve_of({{1.0, 1.0}, {1.1, 2.0}, {1.2, 1.0}});
-  jumped.log.push_back({1.1, "homotopy"});
+  jumped.log.push_back({1.1, Remedy::homotopy});
   for (ResponseCurve* curve : {&solved, &rounded, &broken, &jumped}) {
     const std::size_t n_logged = curve->log.size();
     mark_unsolved(*curve);

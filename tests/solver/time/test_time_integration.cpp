@@ -171,7 +171,7 @@ TEST(Sweep, EndsWithANamedDiagnosisAndKeepsWhatItHas) {
   const TimeCurve curve = sweep(scene, {0.75, 0.5}, options);
   EXPECT_FALSE(curve.complete);
   EXPECT_EQ(curve.points.size(), 1U);
-  EXPECT_EQ(curve.diagnosis, "event-chatter");
+  EXPECT_EQ(curve.diagnosis, Diagnosis::event_chatter);
   EXPECT_FALSE(curve.message.empty());
 }
 

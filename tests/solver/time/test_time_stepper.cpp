@@ -117,7 +117,7 @@ TEST(Events, NameAStormOfEvents) {
     stepper->advance_period(state, nullptr);
     FAIL() << "more than three events went by";
   } catch (const TimeError& error) {
-    EXPECT_EQ(error.diagnosis(), "event-chatter");
+    EXPECT_EQ(error.diagnosis(), Diagnosis::event_chatter);
   }
 }
 

@@ -1,0 +1,105 @@
+/// @file
+/// What ended a curve early, and what was done where a step failed: values in code, names in files and messages.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+
+namespace microslip::solver {
+
+/// What ended a curve, or broke it.
+enum class Diagnosis : std::uint8_t {
+  none,           ///< complete
+  no_start,       ///< no solution at the begin of the range
+  newton_stall,   ///< Newton's method fails and no remedy helps
+  fold_lost,      ///< the same next to a fold: the branch turns, no way on was found
+  event_chatter,  ///< the same where the Jacobian jumps within the smallest step
+  branch_jump,  ///< beyond such a point only another branch was found; points before and after are valid
+  loop,         ///< a branch entered by a jump is closed and does not reach the end
+  budget,       ///< max_points were not enough
+  out_of_range,  ///< the branch turned back out of the range at its begin; in time: beyond all numbers
+  unbounded,     ///< at an undamped resonance that nothing limits
+  not_periodic,  ///< in time: motions that do not repeat themselves
+  interrupted    ///< the observer asked to stop
+};
+
+/// What helped where a step had failed, or was done in its place.
+enum class Remedy : std::uint8_t {
+  shorter_step,
+  kink_turn,
+  long_step,
+  states_at_once,   ///< a step that changes more of the contact's states than one should
+  fixed_frequency,  ///< the branch entered anew by the plain corrector
+  homotopy,         ///< the same from a linear limit
+  other_branch,     ///< the same, on another one
+  other_end,        ///< the curve is that from the end of the range
+  harmonics_kept,   ///< the choice of harmonics did not settle
+  peak_unsolved,  ///< there is one, of which the nearest point found is marked, within the step in which it lies
+  fold_unsolved  ///< likewise
+};
+
+namespace names {
+
+template <typename Value>
+struct Name {
+  Value value;
+  const char* text;
+};
+
+inline constexpr std::array diagnoses{
+    Name{Diagnosis::none, ""},
+    Name{Diagnosis::no_start, "no-start"},
+    Name{Diagnosis::newton_stall, "newton-stall"},
+    Name{Diagnosis::fold_lost, "fold-lost"},
+    Name{Diagnosis::event_chatter, "event-chatter"},
+    Name{Diagnosis::branch_jump, "branch-jump"},
+    Name{Diagnosis::loop, "loop"},
+    Name{Diagnosis::budget, "budget"},
+    Name{Diagnosis::out_of_range, "out-of-range"},
+    Name{Diagnosis::unbounded, "unbounded"},
+    Name{Diagnosis::not_periodic, "not-periodic"},
+    Name{Diagnosis::interrupted, "interrupted"},
+};
+
+inline constexpr std::array remedies{
+    Name{Remedy::shorter_step, "shorter-step"},
+    Name{Remedy::kink_turn, "kink-turn"},
+    Name{Remedy::long_step, "long-step"},
+    Name{Remedy::states_at_once, "states-at-once"},
+    Name{Remedy::fixed_frequency, "fixed-frequency"},
+    Name{Remedy::homotopy, "homotopy"},
+    Name{Remedy::other_branch, "other-branch"},
+    Name{Remedy::other_end, "other-end"},
+    Name{Remedy::harmonics_kept, "harmonics-kept"},
+    Name{Remedy::peak_unsolved, "peak-unsolved"},
+    Name{Remedy::fold_unsolved, "fold-unsolved"},
+};
+
+/// Whether a row is at the place of its value.
+constexpr bool is_in_order(const auto& table) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (static_cast<std::size_t>(table[i].value) != i) return false;
+  }
+  return true;
+}
+static_assert(is_in_order(diagnoses) && is_in_order(remedies));
+
+}  // namespace names
+
+[[nodiscard]] constexpr const char* to_string(Diagnosis diagnosis) {
+  return names::diagnoses.at(static_cast<std::size_t>(diagnosis)).text;
+}
+[[nodiscard]] constexpr const char* to_string(Remedy remedy) {
+  return names::remedies.at(static_cast<std::size_t>(remedy)).text;
+}
+
+inline std::ostream& operator<<(std::ostream& out, Diagnosis diagnosis) {
+  return out << to_string(diagnosis);
+}
+inline std::ostream& operator<<(std::ostream& out, Remedy remedy) {
+  return out << to_string(remedy);
+}
+
+}  // namespace microslip::solver
