@@ -47,7 +47,7 @@ BranchWalker::BranchWalker(ParametricSystem system, ScalingRule rule, NewtonResu
   before_ = now_;
 }
 
-BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) const {
+BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) {
   if (!residual_) return attempt(now_.tangent, distance, max_iterations);
   // A learned predictor is worth its steps where a Jacobian is not at hand at each iterate.
   return corrected(predictor_.point(before_, now_, distance), now_.tangent, distance,
@@ -55,14 +55,14 @@ BranchWalker::Trial BranchWalker::attempt(double distance, int max_iterations) c
 }
 
 BranchWalker::Trial BranchWalker::attempt(const BranchVector& direction, double distance,
-                                          int max_iterations) const {
+                                          int max_iterations) {
   return corrected(moved(now_.solution.point, direction, distance, now_.scaling), direction,
                    distance, max_iterations);
 }
 
 BranchWalker::Trial BranchWalker::corrected(const BranchVector& predicted,
                                             const BranchVector& direction, double distance,
-                                            int max_iterations) const {
+                                            int max_iterations) {
   Trial trial;
   const NewtonOptions options{tolerance_, max_iterations};
   NewtonResult solution = solved(predicted, direction, options);
@@ -167,7 +167,7 @@ bool BranchWalker::advance() {
   return turn_at_kink() || leap();
 }
 
-Stall BranchWalker::stall() const {
+Stall BranchWalker::stall() {
   constexpr double chattering = 1e-3;  // relative change of the Jacobian over a step of 1e-6
   constexpr double vertical = 0.1;     // share of the parameter in the tangent
   // That of the solution itself: its evaluation may have the derivatives of the guess.
@@ -236,7 +236,7 @@ double BranchWalker::resolution() const { return residual_ ? sampled_share : exa
 
 /// On the plane through the start across the chord.
 std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
-                                                   const BranchVector& chord) const {
+                                                   const BranchVector& chord) {
   const Scaling& scaling = now_.scaling;
   NewtonResult solution = solved_between(start, chord);
   evaluations_ += solution.evaluations;
@@ -255,7 +255,7 @@ std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,
 }
 
 std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoint& b,
-                                               double share) const {
+                                               double share) {
   const Scaling& scaling = now_.scaling;
   BranchVector chord = difference(now_.solution.point, before_.solution.point, scaling);
   const double size = length(chord);
@@ -271,7 +271,7 @@ std::optional<StepPoint> BranchWalker::between(const StepPoint& a, const StepPoi
   return std::nullopt;
 }
 
-NewtonResult BranchWalker::at_parameter(double parameter, double share) const {
+NewtonResult BranchWalker::at_parameter(double parameter, double share) {
   const auto& a = before_.solution.point;
   const auto& b = now_.solution.point;
   const NewtonOptions options{tolerance_, 30};

@@ -61,13 +61,13 @@ class BranchWalker {
   /// @param a, b  of the last step, on either side of the share.
   /// @return empty: Newton's method failed from all of them.
   [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,
-                                                 double share) const;
+                                                 double share);
   /// Share of a step below which places on it differ by the errors of the force alone.
   [[nodiscard]] double resolution() const;
   /// Of a force that is sampled, whose Jacobian is dear.
   [[nodiscard]] bool is_sampled() const { return static_cast<bool>(residual_); }
   /// The solution at a fixed parameter near now() and before(), from the share of the way given.
-  [[nodiscard]] NewtonResult at_parameter(double parameter, double share) const;
+  [[nodiscard]] NewtonResult at_parameter(double parameter, double share);
 
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
@@ -76,7 +76,7 @@ class BranchWalker {
   /// What the step control has seen of the contact.
   [[nodiscard]] const StepStates& states() const { return states_; }
   /// After advance() was false.
-  [[nodiscard]] Stall stall() const;
+  [[nodiscard]] Stall stall();
 
  private:
   struct Trial {
@@ -88,12 +88,11 @@ class BranchWalker {
   };
 
   /// From now() along its tangent, or along another direction that leaves a kink.
-  [[nodiscard]] Trial attempt(double length, int max_iterations) const;
-  [[nodiscard]] Trial attempt(const BranchVector& direction, double length,
-                              int max_iterations) const;
+  [[nodiscard]] Trial attempt(double length, int max_iterations);
+  [[nodiscard]] Trial attempt(const BranchVector& direction, double length, int max_iterations);
   /// On the plane across `direction` through the predicted point, `length` away.
   [[nodiscard]] Trial corrected(const BranchVector& predicted, const BranchVector& direction,
-                                double length, int max_iterations) const;
+                                double length, int max_iterations);
   [[nodiscard]] bool smooth(const Trial& trial) const;
   void accept(Trial trial);
   void choose_step(const Trial& trial);
@@ -103,7 +102,7 @@ class BranchWalker {
   [[nodiscard]] bool leap();
   [[nodiscard]] bool turn_at_kink();
   [[nodiscard]] std::optional<WalkerPoint> corrected(const BranchVector& start,
-                                                     const BranchVector& chord) const;
+                                                     const BranchVector& chord);
   [[nodiscard]] Tangent tangent_at(const NewtonResult& at, const BranchVector& previous,
                                    const Scaling& scaling) const;
   [[nodiscard]] NewtonResult solved_between(const BranchVector& start,
@@ -123,8 +122,8 @@ class BranchWalker {
   double before_orientation_ = 0.0;
   StepStates states_;
   std::vector<StepRemedy> remedies_;
-  mutable long evaluations_ = 0;
-  mutable long iterations_ = 0;
+  long evaluations_ = 0;
+  long iterations_ = 0;
 };
 
 }  // namespace microslip::solver

@@ -75,7 +75,7 @@ double angle(const BranchVector& a, const BranchVector& b) {
 
 class Segment {
  public:
-  Segment(const BranchWalker& walker, const HarmonicBalance& balance, PointMark kind)
+  Segment(BranchWalker& walker, const HarmonicBalance& balance, PointMark kind)
       : walker_(walker),
         balance_(balance),
         kind_(kind),
@@ -315,7 +315,7 @@ class Segment {
     return {nearer.at.share, nearer.at.point.solution, kind_, solved};
   }
 
-  const BranchWalker& walker_;
+  BranchWalker& walker_;  ///< counts what the search costs
   const HarmonicBalance& balance_;
   PointMark kind_;
   int most_splits_;
@@ -326,13 +326,11 @@ class Segment {
 
 }  // namespace
 
-std::vector<SpecialPoint> peaks_between(const BranchWalker& walker,
-                                        const HarmonicBalance& balance) {
+std::vector<SpecialPoint> peaks_between(BranchWalker& walker, const HarmonicBalance& balance) {
   return Segment(walker, balance, PointMark::peak).search();
 }
 
-std::vector<SpecialPoint> special_points(const BranchWalker& walker,
-                                         const HarmonicBalance& balance) {
+std::vector<SpecialPoint> special_points(BranchWalker& walker, const HarmonicBalance& balance) {
   std::vector<SpecialPoint> found = peaks_between(walker, balance);
   for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
     found.push_back(std::move(fold));
