@@ -1,12 +1,13 @@
 /// @file
-/// The whole flow, stage by stage: the page to read first. Each function is one command of the program
-/// and returns its exit code; errors are thrown (exit_code.hpp).
+/// The whole flow, stage by stage: study.cpp is the page to read first. Each function, here and in the headers of the
+/// other commands, is one command of the program and returns its exit code; errors are thrown (exit_code.hpp).
 #pragma once
 
-#include <filesystem>
-
-#include "pipelines/model/campbell.hpp"
+#include "pipelines/run/campbell_study.hpp"
 #include "pipelines/run/check_study.hpp"
+#include "pipelines/run/converge_study.hpp"
+#include "pipelines/run/mesh_study.hpp"
+#include "pipelines/run/report_study.hpp"
 #include "pipelines/run/run_options.hpp"
 #include "pipelines/scene/scene_description.hpp"
 
@@ -16,14 +17,5 @@ namespace microslip::pipelines {
 int run_study(const SceneDescription& scene, const RunOptions& options);
 /// `modes`: geometry → modes → contact model.
 int modes_study(const SceneDescription& scene, const RunOptions& options);
-/// `mesh`: geometry → mesh file.
-int mesh_study(const SceneDescription& scene, const RunOptions& options);
-/// `converge`: every ladder of the discretisation, tables in converge/ and plots.
-int converge_study(const SceneDescription& scene, const RunOptions& options);
-/// `campbell`: natural frequencies over speed, tables and plot in campbell/.
-int campbell_study(const SceneDescription& scene, const CampbellRequest& request,
-                   const RunOptions& options);
-/// `report`: plots and report from a run folder.
-int report_study(const std::filesystem::path& folder);
 
 }  // namespace microslip::pipelines

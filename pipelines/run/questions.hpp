@@ -12,6 +12,7 @@
 #include "mesh/mesh.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/run/progress.hpp"
 #include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
@@ -31,5 +32,11 @@ namespace microslip::pipelines {
 [[nodiscard]] std::vector<std::string> questions(const SceneDescription& scene,
                                                  const mesh::Mesh& mesh,
                                                  const std::vector<CurveResult>& curves);
+
+/// The same as warnings.
+template <typename... What>
+void ask(Progress& progress, const What&... what) {
+  for (const std::string& question : questions(what...)) progress.warning(question);
+}
 
 }  // namespace microslip::pipelines

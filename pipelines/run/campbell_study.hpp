@@ -1,0 +1,15 @@
+/// @file
+/// The command `campbell`.
+#pragma once
+
+#include "pipelines/model/campbell.hpp"
+#include "pipelines/run/run_options.hpp"
+#include "pipelines/scene/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// `campbell`: natural frequencies over speed, tables and plot in campbell/.
+int campbell_study(const SceneDescription& scene, const CampbellRequest& request,
+                   const RunOptions& options);
+
+}  // namespace microslip::pipelines

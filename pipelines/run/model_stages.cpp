@@ -1,0 +1,82 @@
+#include "pipelines/run/model_stages.hpp"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fem/ranks.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/effects.hpp"
+#include "pipelines/model/scene_places.hpp"
+#include "pipelines/model/scene_warnings.hpp"
+#include "pipelines/model/static_preload.hpp"
+#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/run/questions.hpp"
+#include "pipelines/scene/damping_ratios.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+void tell_ranks(Progress& progress) {
+  if (fem::n_ranks() == 1) return;
+  progress.info(fmt::format("{} MPI ranks solve for the modes together, rank 0 does the rest",
+                            fem::n_ranks()));
+  if (fem::n_ranks_here() <= fem::n_cores()) return;
+  progress.warning(fmt::format(
+      "{} MPI ranks share {} cores of this machine and wait for each other: {} would be faster",
+      fem::n_ranks_here(), fem::n_cores(), fem::n_cores()));
+}
+
+}  // namespace
+
+StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record) {
+  ask(record.progress(), scene);
+  if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
+  tell_ranks(record.progress());
+  record.stage("mesh");
+  record.keep_inputs(scene);
+  const auto finished = record.finished_mesh();
+  mesh::Mesh mesh =
+      finished ? reread_mesh(scene, *finished) : obtain_mesh(scene, record.mesh_file());
+  check_names(mesh, scene);
+  record.keep_mesh(mesh, scene.material.density);
+  record.keep_inputs(scene);
+  for (const std::string& line : describe_places(mesh, scene)) record.progress().info(line);
+  ask(record.progress(), scene, mesh);
+  record.stage("modes");
+  std::optional<StructureModes> modes = record.finished_modes();
+  if (!modes) modes = solve_structure(mesh, scene);
+  for (const std::string& warning : modes->warnings) record.progress().warning(warning);
+  if (!scene.modes.residual_note.empty()) record.progress().info(scene.modes.residual_note);
+  record.keep_modes(mesh, *modes,
+                    damping_ratios(scene.modes, modes->basis.frequency, modes->basis.n_attachment));
+  record.stage("contact");
+  return std::make_shared<const SolvedStructure>(
+      SolvedStructure{std::move(mesh), std::move(*modes)});
+}
+
+ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer& structure,
+                           RunRecord& record) {
+  std::vector<std::string> warnings = scene_warnings(scene);
+  ReducedModel model = model_of(scene, structure.get(), warnings);
+  for (const std::string& warning : warnings) record.progress().warning(warning);
+  if (model.static_preload) {
+    record.progress().info(
+        describe_static_preload(structure->mesh, scene, *structure->modes.static_face));
+  }
+  ask(record.progress(), scene, model);
+  if (model.effects.second_direction) {
+    record.progress().info(fmt::format(
+        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes "
+        "some ten times "
+        "longer than friction along p; effects.second_direction = \"off\" leaves it out",
+        100.0 * model.effects.motion_ratio));
+  }
+  record.keep_effects(effects_of(scene, &model));
+  record.keep_model(model);
+  if (structure) record.keep_structure(structure->mesh, structure->modes.basis);
+  return model;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,17 @@
+/// @file
+/// The stages mesh, modes and contact of a run: what they give is kept as soon as it is there.
+#pragma once
+
+#include "pipelines/run/run_record.hpp"
+#include "pipelines/run/solution.hpp"
+
+namespace microslip::pipelines {
+
+/// mesh → modes; what an earlier run has finished is taken from there. nullptr: a kind that gives its modes itself.
+[[nodiscard]] StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record);
+
+/// → contact: the arrays the response stage needs.
+[[nodiscard]] ReducedModel reduced_model(const SceneDescription& scene,
+                                         const StructurePointer& structure, RunRecord& record);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,25 @@
+#include "pipelines/run/report_study.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/files/write_report.hpp"
+#include "pipelines/run/run_folder.hpp"
+#include "pipelines/system/exit_code.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+
+int report_study(const std::filesystem::path& folder) {
+  const std::string summary = read_summary(folder);
+  std::optional<RunFolder> place;
+  if (RunFolder::has_list(folder)) place.emplace(folder, RunStart::resumed);
+  const std::vector<std::string> warnings =
+      write_report(folder, place ? place->staged() : folder, summary);
+  if (place) place->publish();
+  if (!warnings.empty()) throw SceneError(folder.string() + ": " + warnings.front());
+  return static_cast<int>(ExitCode::complete);
+}
+
+}  // namespace microslip::pipelines

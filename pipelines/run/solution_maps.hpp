@@ -1,0 +1,13 @@
+/// @file
+/// The stage maps of a run.
+#pragma once
+
+#include "pipelines/run/run_record.hpp"
+#include "pipelines/run/solution.hpp"
+
+namespace microslip::pipelines {
+
+/// Maps of the curves, on as many contact points as a picture wants.
+void draw_maps(const Solution& solution, RunRecord& record);
+
+}  // namespace microslip::pipelines
