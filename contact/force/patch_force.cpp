@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact/closed_form/cycle_force.hpp"
 #include "contact/closed_form/cycle_phases.hpp"
@@ -175,8 +176,8 @@ ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& aske
   require_one(motion().n_harmonics());
   require_one(std::max(asked.n_harmonics, 1));
   const auto n = static_cast<std::size_t>(n_modes());
-  phi_.resize(2 * n * block_points);
-  double* const phi_u = phi_.data();
+  std::vector<double> phi(2 * n * block_points);  // of one block: [u, v][mode][point of the block]
+  double* const phi_u = phi.data();
   double* const phi_v = phi_u + n * block_points;
   ModalSums sums(n);
   for (std::span<const Eigen::Index> rest(awake()); !rest.empty();) {

@@ -36,7 +36,6 @@ class PatchForce final : public PointwiseForce {
   [[nodiscard]] PointMotion motion_of(Eigen::Index point) const;
 
   ContactPatch patch_;
-  std::vector<double> phi_;  // of one block: [u, v][mode][point of the block]
 };
 
 }  // namespace microslip::contact

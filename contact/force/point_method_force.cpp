@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "contact/force/point_projection.hpp"
+
 namespace microslip::contact {
 namespace {
 
@@ -33,25 +35,29 @@ PointMethodForce::PointMethodForce(Eigen::VectorXd weights,
 ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& asked) {
   const int n_harmonics = motion().n_harmonics();
   if (asked.n_harmonics > n_harmonics) return wider_force(frequency, asked.n_harmonics);
-  sum_.start(shape_, n_harmonics, asked.rows);
+  PointProjection sum;
+  sum.start(shape_, n_harmonics, asked.rows);
+  Harmonics at;
+  PointTraction traction;
   for (const Eigen::Index i : awake()) {
     const PointMethod& method = *methods_[static_cast<std::size_t>(i)];
-    motion().copy(i, point_motion_);
-    traction_.defect = 0.0;  // a method that is exact does not mention it
-    method.traction(point_motion_, frequency, traction_);
-    sum_.add(i, points().weights[i], points().reference_load[i], traction_);
-    keep(i, {traction_.regime, traction_.period});
+    motion().copy(i, at);
+    traction.defect = 0.0;  // a method that is exact does not mention it
+    method.traction(at, frequency, traction);
+    sum.add(i, points().weights[i], points().reference_load[i], traction);
+    keep(i, {traction.regime, traction.period});
   }
-  return sum_.take();
+  return sum.take();
 }
 
 /// Harmonics that the motion does not have: the force alone.
 ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics) {
   ForceAndJacobian result{Harmonics(n_harmonics, n_modes()), {}, {}};
+  Harmonics at;
   for (const Eigen::Index i : awake()) {
-    motion().copy(i, point_motion_);
+    motion().copy(i, at);
     Harmonics force =
-        methods_[static_cast<std::size_t>(i)]->force_up_to(point_motion_, frequency, n_harmonics);
+        methods_[static_cast<std::size_t>(i)]->force_up_to(at, frequency, n_harmonics);
     force.rows()(0, 1) -= points().reference_load[i];
     for (std::size_t s = 0; s < shape_.size(); ++s) {
       result.force.rows() +=
@@ -63,10 +69,11 @@ ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics
 
 void PointMethodForce::add_cycles(std::span<const Eigen::Index> points, double frequency,
                                   ReportSum& sum) {
+  Harmonics at;
   for (const Eigen::Index i : points) {
-    motion().copy(i, point_motion_);
+    motion().copy(i, at);
     const PointHistory history =
-        methods_[static_cast<std::size_t>(i)]->history(point_motion_, frequency, {}, 0);
+        methods_[static_cast<std::size_t>(i)]->history(at, frequency, {}, 0);
     sum.add(history.segments, history.dissipated_energy, this->points().weights[i]);
   }
 }

@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "contact/force/point_projection.hpp"
 #include "contact/force/pointwise_force.hpp"
 #include "contact/patch.hpp"
 #include "contact/point/point_method.hpp"
@@ -35,9 +34,6 @@ class PointMethodForce final : public PointwiseForce {
 
   std::vector<std::shared_ptr<const PointMethod>> methods_;
   std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w
-  Harmonics point_motion_;
-  PointTraction traction_;
-  PointProjection sum_;
 };
 
 }  // namespace microslip::contact

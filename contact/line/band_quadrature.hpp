@@ -62,6 +62,7 @@ class PieceVisitor {
   }
 
  private:
+  /// Of one thread, so that a panel allocates nothing once it has grown; an object lives for one cycle.
   static BandPanelNodes& storage() {
     thread_local BandPanelNodes nodes;
     return nodes;

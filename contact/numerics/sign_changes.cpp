@@ -39,6 +39,7 @@ struct Grid {
 // lanes.
 constexpr int cells_per_wave = 16;
 
+// Tables of one thread: made once, and no lock is needed to read them.
 const Grid& grid(int order) {
   thread_local std::vector<std::unique_ptr<Grid>> grids;
   const auto i = static_cast<std::size_t>(order);
@@ -357,7 +358,7 @@ void find_sign_changes(const TrigonometricPolynomial& p, std::vector<SignChange>
   if (order == 0 || !std::isfinite(p.bound(4))) {
     return;
   }
-  thread_local Samples samples;
+  thread_local Samples samples;  // storage, so that a search allocates nothing once it has grown
   samples.take(p, order);
   Isolation isolation(p, changes);
   samples.mark_cells(isolation.fourth());

@@ -80,7 +80,7 @@ class Progress {
   void append_history(const std::string& curve, const solver::ResponsePoint& point);
   [[nodiscard]] StageRecord running_stage() const;
 
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  ///< of all below; those who only read lock it too
   std::ostream& out_;
   bool terminal_;
   Verbosity verbosity_;
