@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include <Eigen/Householder>
 #include <Eigen/SVD>
 
 #include "contact/numerics/plane_hull.hpp"
@@ -22,11 +22,11 @@ struct Problem {
   const ContactArea& area;
   const CellSprings& springs;
   double force;
-  Eigen::Vector2d middle;                               // y, z [m]
-  double radius;                                        // [m]
-  Eigen::Matrix3Xd arms;                                // (1, z', −y') of each cell
-  Eigen::Vector3d load;                                 // (1, M_y', M_z') asked for
-  Eigen::Matrix<double, 3, Eigen::Dynamic> directions;  // tilts the cells can tell
+  Eigen::Vector2d middle;      // y, z [m]
+  double radius;               // [m]
+  Eigen::Matrix3Xd arms;       // (1, z', −y') of each cell
+  Eigen::Vector3d load;        // (1, M_y', M_z') asked for
+  Eigen::Matrix3d directions;  // tilts the cells can tell, then columns of zeros
 };
 
 // Imbalance and its derivative by (u₀, φ_y radius, φ_z radius) at the middle [1/m].
@@ -104,24 +104,38 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
                                      request.moment_y / request.force, none, none});
 }
 
+// R of A = QR by Householder's reflections; Eigen's own class brings the code for blocks of large
+// matrices along.
+Eigen::Matrix3d triangle(Eigen::MatrixX3d A) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  Eigen::RowVector3d work;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::Index below = A.rows() - k;
+    double factor = 0.0;
+    A.col(k).tail(below).makeHouseholderInPlace(factor, R(k, k));
+    A.bottomRightCorner(below, 2 - k)
+        .applyHouseholderOnTheLeft(A.col(k).tail(below - 1), factor, work.data());
+    R.row(k).tail(2 - k) = A.row(k).tail(2 - k);
+  }
+  return R;
+}
+
 // Tilts that move the cells by one in the mean square, and no other: flat areas are as well
 // conditioned as square ones, and a tilt about a line on which all cells lie, which moves nothing,
 // is no unknown.
-Eigen::Matrix<double, 3, Eigen::Dynamic> visible_directions(const Eigen::Matrix3Xd& arms,
-                                                            const Eigen::VectorXd& weights,
-                                                            Eigen::Index n_corners) {
+Eigen::Matrix3d visible_directions(const Eigen::Matrix3Xd& arms, const Eigen::VectorXd& weights,
+                                   Eigen::Index n_corners) {
   const Eigen::VectorXd loaded = (weights.array() > 0.0).cast<double>();
   // Of the arms, not of their squares: an area may be flatter than the root of rounding.
   Eigen::MatrixX3d tall = Eigen::MatrixX3d::Zero(std::max<Eigen::Index>(arms.cols(), 3), 3);
   tall.topRows(arms.cols()) = loaded.asDiagonal() * arms.transpose();
-  const Eigen::Matrix3d R = Eigen::HouseholderQR<Eigen::MatrixX3d>(tall)
-                                .matrixQR()
-                                .topRows<3>()
-                                .triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> axes(R, Eigen::ComputeFullV);
-  const Eigen::Index n = std::min<Eigen::Index>(n_corners, 3);
-  return axes.matrixV().leftCols(n) *
-         (std::sqrt(loaded.sum()) * axes.singularValues().head(n).cwiseInverse()).asDiagonal();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> axes(triangle(std::move(tall)), Eigen::ComputeFullV);
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(n_corners, 3); ++i) {
+    directions.col(i) =
+        (std::sqrt(loaded.sum()) / axes.singularValues()[i]) * axes.matrixV().col(i);
+  }
+  return directions;
 }
 
 Problem without_units(const ContactArea& area, const CellSprings& springs, const PlaneHull& hull,
@@ -183,7 +197,7 @@ double step_length(const Problem& problem, const Eigen::Vector3d& tilt,
 }
 
 // Newton on the potential, with a multiple of the unit matrix that vanishes with the imbalance:
-// while few cells are loaded they may not resist every tilt.
+// while few cells are loaded they may not resist every tilt, and none resists those it cannot tell.
 Eigen::Vector3d solve(const Problem& problem) {
   const auto& Q = problem.directions;
   Eigen::Vector3d tilt(common_approach(problem), 0.0, 0.0);
@@ -192,7 +206,7 @@ Eigen::Vector3d solve(const Problem& problem) {
   int stalled = 0;
   for (int i = 0; i < 200 && stalled < 3; ++i) {
     const Balance now = balance(problem, tilt);
-    const Eigen::VectorXd residual = Q.transpose() * now.residual;
+    const Eigen::Vector3d residual = Q.transpose() * now.residual;
     const double size = residual.norm();
     // Rounding turns the last steps round: stop when three in a row bring nothing.
     stalled = size < smallest || size > 1e-10 ? 0 : stalled + 1;
@@ -201,7 +215,7 @@ Eigen::Vector3d solve(const Problem& problem) {
       best = tilt;
     }
     if (size == 0.0) break;
-    Eigen::MatrixXd slope = Q.transpose() * now.slope * Q;
+    Eigen::Matrix3d slope = Q.transpose() * now.slope * Q;
     const double unit = slope.trace() > 0.0 ? slope.trace() : 1.0;
     slope.diagonal().array() += 1e-4 * std::min(size, 1.0) * unit;
     const Eigen::Vector3d direction = -(Q * slope.ldlt().solve(residual));
