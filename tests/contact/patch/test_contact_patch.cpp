@@ -1,12 +1,12 @@
 #include "contact/patch/contact_patch.hpp"
 
-#include <gtest/gtest.h>
-
-#include "tests/support/floating_point_traps.hpp"
-
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::test_contact_patch {
 namespace {
