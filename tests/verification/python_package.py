@@ -314,6 +314,18 @@ class Page(Case):
         self.assertRegex(drawn, r"Hysteresis of point \d+: [\d.]+ % of the area")
 
 
+class Numbers(unittest.TestCase):
+    def test_a_value_and_its_half_width_are_those_of_the_program(self):
+        from microslip.plots.numbers import with_half_width
+        with open(os.path.join(SOURCE, "tests", "pipelines", "text", "half_widths.inc"), encoding="utf-8") as file:
+            cases = re.findall(r'^\{(\S+), (\S+), "(.+)"\},$', file.read(), re.M)
+        self.assertGreater(len(cases), 10)
+        for value, bar, text in cases:
+            raised = re.sub(r"e(-?\d+)$", lambda found: "·10" + found[1].translate(
+                str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")), text)
+            self.assertEqual(with_half_width(float(value), float(bar)), raised.replace("-", "−"))
+
+
 class OverMaps(unittest.TestCase):
     """What lies over the cells of a map: boundaries of the states, arrows of slip."""
 

@@ -26,21 +26,35 @@ def is_number(value):
     return isinstance(value, (int, float))
 
 
+def _raised(power):
+    return str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
 def plain(value):
     """20000000 as 2·10⁷, 50 as 50; a real minus sign."""
     text = f"{value:.6g}"
     if "e" in text:
         mantissa, exponent = text.split("e")
-        power = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        power = _raised(int(exponent))
         text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
     return text.replace("-", "−")
+
+
+def _rounded(value, decimals):
+    """To so many decimals, halves away from 0, as pipelines/text/rounded.cpp does; fewer than none: to tens, hundreds …"""
+    unit = 10.0**-decimals
+    return f"{math.copysign(math.floor(abs(value) / unit + 0.5) * unit, value):.{max(decimals, 0)}f}"
 
 
 def with_half_width(value, bar, digits=5):
     """A value and its half width, bar × |value|, to the digits that the bar allows; without a bar to `digits`."""
     half_width = abs(value) * (bar or 0.0)
-    if not (half_width > 0.0 and 1e-12 < bar < math.inf):
+    if not (bar and bar > 1e-12 and 0.0 < half_width < math.inf):
         return plain(float(f"{value:.{digits}g}"))
     decade = math.floor(math.log10(half_width))
-    decimals = (1 if half_width / 10**decade < 1.95 else 0) - decade  # two digits of the half width where it begins with a one
-    return " ± ".join(f"{round(number, decimals):.{max(decimals, 0)}f}" for number in (value, half_width)).replace("-", "−")
+    decimals = (1 if half_width / 10.0**decade < 1.95 else 0) - decade  # two digits of the half width where it begins with a one
+    size = math.floor(math.log10(abs(value)))
+    if -5 <= size <= 6:
+        return " ± ".join(_rounded(number, decimals) for number in (value, half_width)).replace("-", "−")
+    both = " ± ".join(_rounded(number / 10.0**size, decimals + size) for number in (value, half_width)).replace("-", "−")
+    return f"({both})·10{_raised(size)}"
