@@ -275,6 +275,10 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,one"), "deck.bdf:9", '"one"', name="deck.bdf")
         self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2\nENDDATA"), "deck.bdf:19", "CBAR", name="deck.bdf")
         self.refused(NASTRAN.replace("ENDDATA", "CFOO,3,1,1,2\nENDDATA"), "deck.bdf:19", "CFOO", name="deck.bdf")
+        self.refused(NASTRAN.replace("GRID,3,", "GRID,2,"), "deck.bdf: node 2 stands twice, at ", "deck.bdf:9 and ", "deck.bdf:13;",
+                     name="deck.bdf")
+        self.refused(NASTRAN.replace("CTETRA,9", "CTETRA,8"), "deck.bdf: element 8 stands twice, at ", "deck.bdf:14 and ",
+                     "deck.bdf:15;", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
 
     def test_a_deck_that_is_cut_off(self):
@@ -313,7 +317,9 @@ class UniversalFiles(Conversion):
                               (lambda text: text[:400], ("cut off",)),
                               (lambda text: text.replace("       118", "       199"), ("one.unv:26", "element 1", "199")),
                               (lambda text: text.replace("\ntip\n", "\nbottom\n"), ("bottom", "already")),
-                              (lambda text: text.replace("D+00", "X+00", 1), ("one.unv:4",))):
+                              (lambda text: text.replace("D+00", "X+00", 1), ("one.unv:4",)),
+                              (lambda text: text.replace("\n         2 ", "\n         1 ", 1),
+                               ("one.unv: node 1 stands twice, at ", "one.unv:3 and ", "one.unv:5;"))):
             result = self.write(change)
             self.assertEqual(result.code, 1)
             for word in words:

@@ -86,6 +86,11 @@ class _Card:
         require(self.get(key), f"{self.place}: *{self.keyword} without {key}=")
         return self.get(key)
 
+    def place_of(self, line):
+        """Of a data line."""
+        path, number = self.data[line][0]
+        return f"{path}:{number}"
+
     def rows(self):
         """Place and words of every data line."""
         for where, text in self.data:
@@ -172,7 +177,7 @@ class _Deck:
     def __init__(self, path):
         self.path = path
         self.nodes, self.coordinates, self.blocks = [], [], []
-        self.seen = {"node": {}, "element": {}}  # number → file and line
+        self.origins = {"node": [], "element": []}  # (numbers, card, data line of each)
         self.node_sets, self.element_sets = _Sets("node"), _Sets("element")
         self.surfaces = {}   # upper-case name → card
         self.instances = []
@@ -245,19 +250,15 @@ class _Deck:
             has = counts > axis + 1
             places[has, axis] = values[starts[has] + axis + 1]
         numbers = values[starts].astype(np.int64)
-        self._refuse_twice("node", numbers, [where for where, _ in card.data])
+        self.origins["node"].append((numbers, card, np.arange(len(numbers))))
         self.nodes.append(numbers)
         self.coordinates.append(places)
         if card.get("NSET"):
             self.node_sets.add(card.get("NSET"), card.place, numbers)
 
-    def _refuse_twice(self, kind, numbers, places):
-        """Of one *NODE or *ELEMENT after another. places: file and line of each number."""
-        seen = self.seen[kind]
-        for number, where in zip(numbers.tolist(), places):
-            first = seen.setdefault(number, where)
-            require(first is where, f"{self.path}: {kind} {number} stands twice, at {first[0]}:{first[1]} and "
-                                    f"{where[0]}:{where[1]}; take one out")
+    def places_of(self, kind, wanted):
+        return [card.place_of(lines[row]) for numbers, card, lines in self.origins[kind]
+                for row in np.flatnonzero(numbers == wanted)]
 
     def _take_elements(self, card):
         given = card.name("TYPE")
@@ -277,12 +278,11 @@ class _Deck:
         if len(wrong):
             begin = width * wrong[0]
             line = np.searchsorted(ends, begin, side="right")
-            where = card.data[line][0]
-            raise Refused(f"{where[0]}:{where[1]}: element {values[begin]} does not have the {width - 1} nodes of a "
+            raise Refused(f"{card.place_of(line)}: element {values[begin]} does not have the {width - 1} nodes of a "
                           f"{given}: the lines hold fewer or more")
         table = values.reshape(-1, width)
         lines = np.searchsorted(ends, np.arange(0, len(values), width), side="right")
-        self._refuse_twice("element", table[:, 0], [card.data[line][0] for line in lines])
+        self.origins["element"].append((table[:, 0], card, lines))
         self.blocks.append(Block(own, table[:, 0], table[:, 1:]))
         if card.get("ELSET"):
             self.element_sets.add(card.get("ELSET"), card.place, table[:, 0])
@@ -327,7 +327,7 @@ class _Deck:
         self._settle_parts()
         require(self.nodes, f"{self.path}: no *NODE with coordinates in it: is it a deck of Abaqus or CalculiX?")
         require(self.blocks, f"{self.path}: no *ELEMENT with data in it")
-        content = Content(np.concatenate(self.nodes), np.concatenate(self.coordinates), self.blocks)
+        content = Content(np.concatenate(self.nodes), np.concatenate(self.coordinates), self.blocks, places_of=self.places_of)
         self._refuse_loose_shells(content)
         self._refuse_names_of_other_case()
         outer = None

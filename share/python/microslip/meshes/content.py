@@ -74,6 +74,7 @@ class Content:
     length_unit: float = None                         # metres; None: the file does not say
     turned_nodes: tuple = ()   # numbers of those that tell displacements in axes of their own
     either_hand: bool = False  # whole blocks of elements may be numbered as seen in a mirror
+    places_of: object = lambda kind, number: []  # "file:line" of each "node" or "element" of a number, of files with lines
 
 
 def require(condition, message):
@@ -98,8 +99,8 @@ def check(content, source):
                               "are read")
     bad = content.node_numbers[~np.isfinite(content.coordinates).all(axis=1)]
     require(not len(bad), f"{source}: node {_first(bad)}: a coordinate is not a finite number")
-    _refuse_twice(content.node_numbers, f"{source}: node")
-    _refuse_twice(np.concatenate([block.numbers for block in content.blocks]), f"{source}: element")
+    _refuse_twice(content, source, "node", content.node_numbers)
+    _refuse_twice(content, source, "element", np.concatenate([block.numbers for block in content.blocks]))
     for block in content.blocks:
         missing = ~np.isin(block.nodes, content.node_numbers)
         for row in np.flatnonzero(missing.any(axis=1))[:1]:
@@ -116,10 +117,12 @@ def _first(numbers):
     return numbers[0] if len(numbers) else None
 
 
-def _refuse_twice(numbers, kind):
+def _refuse_twice(content, source, kind, numbers):
     unique, counts = np.unique(numbers, return_counts=True)
-    twice = unique[counts > 1]
-    require(not len(twice), f"{kind} {_first(twice)} stands twice")
+    for number in unique[counts > 1][:1]:
+        places = content.places_of(kind, number)
+        where = f", at {' and '.join(places[:2])}; take one out" if places else ""
+        raise Refused(f"{source}: {kind} {number} stands twice{where}")
 
 
 def turn_blocks(content):

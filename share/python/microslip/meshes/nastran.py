@@ -145,6 +145,7 @@ class _Deck:
         self.path = path
         self.is_ended = False   # by ENDDATA
         self.nodes, self.coordinates, self.turned = [], [], []
+        self.places = {"node": [], "element": []}  # number and place of each
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers
         self.node_lists = {}    # name → [node numbers]
@@ -193,6 +194,7 @@ class _Deck:
         require(words[2] in ("", "0"),
                 f"{place}: GRID {number} lies in coordinate system {words[2]}; write the mesh out in the basic system")
         self.nodes.append(number)
+        self.places["node"].append((number, place))
         if words[6:7] not in ([], [""], ["0"]):
             self.turned.append(number)
         self.coordinates.append([_real(place, word) for word in words[3:6]])
@@ -208,6 +210,7 @@ class _Deck:
                 "order and none left out")
         own = kind[len(nodes)]
         nodes = [int(word) for word in nodes]
+        self.places["element"].append((number, place))
         self.elements.setdefault(own, []).append([number, *(nodes[i] for i in _ORDER.get(own, range(len(nodes))))])
         self.properties.setdefault(int(words[2] or number), []).append(number)
 
@@ -223,7 +226,8 @@ class _Deck:
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
-        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned))
+        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned),
+                          places_of=lambda kind, wanted: [place for number, place in self.places[kind] if number == wanted])
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)
         self._name_nodes(content)

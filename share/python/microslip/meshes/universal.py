@@ -50,6 +50,7 @@ class _Reader:
     def __init__(self, path, lines):
         self.path, self.lines = path, lines
         self.node_numbers, self.coordinates = [], []
+        self.lines_of = {"node": [], "element": []}  # number and line of each
         self.rows = {}
         self.node_sets, self.element_sets = {}, {}
         self.length_unit = None
@@ -71,6 +72,7 @@ class _Reader:
             require(words[1] in (0, 1), f"{self.path}:{line + 1}: node {int(words[0])} lies in coordinate system "
                                         f"{int(words[1])}; write the mesh out in the global one")
             self.node_numbers.append(int(words[0]))
+            self.lines_of["node"].append((int(words[0]), line + 1))
             self.coordinates.append(place)
 
     def elements(self, number, begin, end):
@@ -90,6 +92,7 @@ class _Reader:
                     f"{self.path}:{line + 1}: element {head[0]} of type {head[1]} has {len(nodes)} nodes; expected "
                     f"{TYPES[own].n_nodes}")
             self.rows.setdefault(own, []).append([head[0], *(nodes[i] for i in order)])
+            self.lines_of["element"].append((head[0], line + 1))
             line = last
 
     def groups(self, number, begin, end):
@@ -124,4 +127,7 @@ class _Reader:
         for name, members in self.element_sets.items():  # groups may hold what is no element here: gmsh's points
             self.element_sets[name] = members[np.isin(members, elements)]
         return Content(np.array(self.node_numbers), np.array(self.coordinates), blocks_of(self.rows), self.node_sets, self.element_sets,
-                       length_unit=self.length_unit)
+                       length_unit=self.length_unit, places_of=self._places_of)
+
+    def _places_of(self, kind, wanted):
+        return [f"{self.path}:{line}" for number, line in self.lines_of[kind] if number == wanted]
