@@ -118,15 +118,34 @@ std::vector<Eigen::Index> moved_without_force(const Sparse& K,
   return free;
 }
 
-void check_masses(const Sparse& M, const MatrixSources& sources) {
+/// Mass along x, y and z of the displacements that count [kg].
+template <typename Counts>
+Eigen::Vector3d masses(const Sparse& M, const Counts& counts) {
   Eigen::Vector3d mass = Eigen::Vector3d::Zero();
   for (Eigen::Index dof = 0; dof < M.rows(); ++dof) {
-    if (!is_free_node(M, dof / 3)) continue;
+    if (!counts(dof)) continue;
     for (Sparse::InnerIterator entry(M, dof); entry; ++entry) {
-      if (entry.col() % 3 == dof % 3 && is_free_node(M, entry.col() / 3)) {
-        mass[dof % 3] += entry.value();
-      }
+      if (entry.col() % 3 == dof % 3 && counts(entry.col())) mass[dof % 3] += entry.value();
     }
+  }
+  return mass;
+}
+
+/// Of the nodes that are free in every direction in which any is.
+void check_masses(const Sparse& M, const MatrixSources& sources) {
+  std::array<bool, 3> moves{};
+  for (Eigen::Index dof = 0; dof < M.rows(); ++dof) {
+    moves[static_cast<std::size_t>(dof % 3)] |= is_free(M, dof);
+  }
+  Eigen::Vector3d mass = masses(M, [&](Eigen::Index dof) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (moves[static_cast<std::size_t>(axis)] && !is_free(M, dof - dof % 3 + axis)) return false;
+    }
+    return true;
+  });
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!moves[static_cast<std::size_t>(axis)])
+      mass[axis] = mass.maxCoeff();  // held: nothing tells
   }
   if (mass.maxCoeff() - mass.minCoeff() <= mass_tolerance * mass.maxCoeff()) return;
   throw SceneError(fmt::format(
@@ -184,14 +203,7 @@ void check_matrices(const mesh::Mesh& mesh, const fem::GivenMatrices& matrices,
 
 double free_mass(const fem::GivenMatrices& matrices) {
   const Sparse& M = matrices.mass;
-  double mass = 0.0;
-  for (Eigen::Index dof = 0; dof < M.rows(); dof += 3) {
-    if (!is_free_node(M, dof / 3)) continue;
-    for (Sparse::InnerIterator entry(M, dof); entry; ++entry) {
-      if (entry.col() % 3 == 0 && is_free_node(M, entry.col() / 3)) mass += entry.value();
-    }
-  }
-  return mass;
+  return masses(M, [&](Eigen::Index dof) { return is_free(M, dof); }).maxCoeff();
 }
 
 std::string mass_question(const mesh::Mesh& mesh, const fem::GivenMatrices& matrices) {
@@ -201,7 +213,8 @@ std::string mass_question(const mesh::Mesh& mesh, const fem::GivenMatrices& matr
   const double density = mass / mesh.volume();
   if (density >= least && density <= most) return {};
   return fmt::format(
-      "model.mass_unit: the free nodes have {:.3g} kg in {:.3g} m^3 of the mesh, {:.3g} kg/m^3; "
+      "model.mass_unit: what is free to move has {:.3g} kg in {:.3g} m^3 of the mesh, {:.3g} "
+      "kg/m^3; "
       "usual is {:g} to {:g}: is the mass matrix in another unit, or length_unit wrong?",
       mass, mesh.volume(), density, least, most);
 }

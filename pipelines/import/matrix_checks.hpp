@@ -24,7 +24,7 @@ struct MatrixSources {
 void check_matrices(const mesh::Mesh& mesh, const fem::GivenMatrices& matrices,
                     const MatrixSources& sources);
 
-/// Mass of the nodes that are free in all directions [kg].
+/// Mass of what is free to move [kg]: along the axis on which most is.
 [[nodiscard]] double free_mass(const fem::GivenMatrices& matrices);
 
 /// A question where that mass is none of a body of that volume, else "".

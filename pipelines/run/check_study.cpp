@@ -185,7 +185,8 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
     result.warnings.insert(result.warnings.end(), modes.warnings.begin(), modes.warnings.end());
   } else if (given_matrices(scene) != nullptr) {
     const fem::GivenMatrices matrices = matrices_of(mesh, scene);  // they are read and checked
-    fmt::print(out, "mass of the free nodes, by the matrix: {:.6g} kg\n", free_mass(matrices));
+    fmt::print(out, "mass of what is free to move, by the matrix: {:.6g} kg\n",
+               free_mass(matrices));
     if (std::string question = mass_question(mesh, matrices); !question.empty()) {
       result.warnings.push_back(std::move(question));
     }
