@@ -2,8 +2,10 @@
 /// A volume mesh in metres with named surfaces and node sets. Checked when made; has no gmsh in it.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +15,9 @@
 #include "mesh/surface.hpp"
 
 namespace microslip::mesh {
+
+/// What joins the parts of a body: nodes they share, or constraints that are no mesh (ties, equations).
+enum class Joined : std::uint8_t { by_nodes, by_constraints };
 
 class Mesh {
  public:
@@ -25,11 +30,12 @@ class Mesh {
   /// @param node_sets  named points, edges or sets of nodes. The outer faces all of whose nodes are in a set are a
   ///                   surface of its name, unless `surfaces` has one.
   /// @param n_repeated  elements of the source that are there once more and were left out.
+  /// @param joined      by constraints: parts that share no node are none to be refused.
   /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
   ///         loose parts, a surface that is not on the boundary.
   Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
        const std::map<std::string, std::vector<FaceBlock>>& surfaces, const NodeSets& node_sets,
-       Eigen::Index n_repeated = 0);
+       Eigen::Index n_repeated = 0, Joined joined = Joined::by_nodes);
 
   [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }
   [[nodiscard]] Eigen::Index n_elements() const;
@@ -46,6 +52,9 @@ class Mesh {
   [[nodiscard]] std::vector<Eigen::Index> node_set(const std::string& name) const;
   /// Names nodes that the source does not. @throws MeshError  the name is taken.
   void name_nodes(const std::string& name, std::vector<Eigen::Index> nodes);
+  /// What a user of the mesh should know of its source, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  void add_remark(std::string sentence) { remarks_.push_back(std::move(sentence)); }
   /// Surfaces that were given as such.
   [[nodiscard]] std::vector<std::string> surface_names() const;
   /// Whether surface() gives faces for this name.
@@ -64,6 +73,7 @@ class Mesh {
   std::map<std::string, Surface> faces_of_sets_;
   Eigen::Index n_loose_nodes_ = 0;
   Eigen::Index n_repeated_elements_ = 0;
+  std::vector<std::string> remarks_;
   double volume_ = 0.0;
   Eigen::Vector3d lower_;
   Eigen::Vector3d upper_;

@@ -15,7 +15,7 @@ namespace microslip::mesh {
 /// @param name         what messages call the mesh; empty: the file.
 /// @throws MeshError  missing, truncated or foreign file, unknown element; file and line or byte.
 [[nodiscard]] Mesh read_gmsh(const std::filesystem::path& file, double length_unit = 1.0,
-                             const std::string& name = {});
+                             const std::string& name = {}, Joined joined = Joined::by_nodes);
 
 /// The same from the bytes of a file. @param name  what messages call it.
 [[nodiscard]] Mesh read_gmsh_text(std::string content, const std::string& name,

@@ -301,6 +301,9 @@ int surfaces(Arguments& arguments) {
   const InterruptWatch watch;
   const MeshOfFile read = read_mesh(arguments.input, std::nullopt);
   std::cout << describe_names(read.mesh, read.length_unit);
+  for (const std::string& remark : left_out_remarks(read)) {
+    std::cout << "warning: " << remark << '\n';
+  }
   nlohmann::ordered_json& list = arguments.findings["surfaces"] = nlohmann::ordered_json::array();
   for (const MeshName& name : mesh_names(read.mesh)) {
     nlohmann::ordered_json entry{{"name", name.name},

@@ -161,7 +161,7 @@ std::vector<std::string> keys_of(const Map& map) {
 
 Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
            const std::map<std::string, std::vector<FaceBlock>>& surfaces, const NodeSets& node_sets,
-           Eigen::Index n_repeated)
+           Eigen::Index n_repeated, Joined joined)
     : elements_(std::move(elements)), n_repeated_elements_(n_repeated) {
   std::erase_if(elements_, [](const ElementBlock& b) { return b.connectivity.rows() == 0; });
   if (elements_.empty()) throw MeshError("bad-mesh: the mesh has no volume elements");
@@ -179,7 +179,7 @@ Mesh::Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
     block.connectivity = block.connectivity.unaryExpr(renumbered);
   check_elements(nodes_, elements_);
   check_coincident_nodes(nodes_);
-  check_connected(nodes_.rows(), elements_, nodes_);
+  if (joined == Joined::by_nodes) check_connected(nodes_.rows(), elements_, nodes_);
   const FaceMap owners = map_faces(elements_);
   check_faces(elements_, owners);
   check_outer_faces(nodes_, elements_, owners);

@@ -50,7 +50,7 @@ class MeshMaker {
   MeshMaker(const GmshContent& content, double unit, std::string file)
       : content_(content), unit_(unit), file_(std::move(file)) {}
 
-  Mesh make() {
+  Mesh make(Joined joined) {
     read_nodes();
     for (const GmshElement& element : content_.elements) {
       const GmshType& type = *gmsh_type(element.type);
@@ -67,7 +67,7 @@ class MeshMaker {
     }
     std::vector<ElementBlock> blocks;
     for (auto& [type, list] : volumes_) blocks.push_back(block_of(type, list));
-    return {std::move(nodes_), std::move(blocks), surfaces_, node_sets_, n_repeated_};
+    return {std::move(nodes_), std::move(blocks), surfaces_, node_sets_, n_repeated_, joined};
   }
 
  private:
@@ -213,9 +213,10 @@ std::string gmsh_remedy(const GmshType* type) {
          "(Mesh.ElementOrder 1 or 2)";
 }
 
-Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file) {
+Mesh make_mesh(const GmshContent& content, double length_unit, const std::string& file,
+               Joined joined) {
   try {
-    Mesh mesh = MeshMaker(content, length_unit, file).make();
+    Mesh mesh = MeshMaker(content, length_unit, file).make(joined);
     require_size_of_a_body(mesh, file);
     return mesh;
   } catch (const MeshError& error) {  // the checks of a mesh do not know its file

@@ -44,6 +44,6 @@ struct GmshContent {
 
 /// @throws MeshError  duplicate or unknown node tags; checks of Mesh. @param file  for messages.
 [[nodiscard]] Mesh make_mesh(const GmshContent& content, double length_unit,
-                             const std::string& file);
+                             const std::string& file, Joined joined = Joined::by_nodes);
 
 }  // namespace microslip::mesh

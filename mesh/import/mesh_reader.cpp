@@ -223,12 +223,13 @@ class Reader {
 
 }  // namespace
 
-Mesh read_gmsh(const std::filesystem::path& file, double length_unit, const std::string& name) {
+Mesh read_gmsh(const std::filesystem::path& file, double length_unit, const std::string& name,
+               Joined joined) {
   if (!(length_unit > 0.0) || !std::isfinite(length_unit)) {
     throw std::invalid_argument("length unit " + std::to_string(length_unit) + "; must be above 0");
   }
   const std::string called = name.empty() ? file.string() : name;
-  return make_mesh(Reader(GmshSource(file, called)).read(), length_unit, called);
+  return make_mesh(Reader(GmshSource(file, called)).read(), length_unit, called, joined);
 }
 
 Mesh read_gmsh_text(std::string content, const std::string& name, double length_unit) {

@@ -1,5 +1,7 @@
 #include "pipelines/import/mesh_file.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +20,39 @@ std::string extents(const mesh::Mesh& mesh, double unit) {
   return fmt::format("{:.3g} x {:.3g} x {:.3g}", size.x(), size.y(), size.z());
 }
 
+std::vector<LeftOut> left_out_of(const nlohmann::json& facts) {
+  std::vector<LeftOut> all;
+  for (const nlohmann::json& entry : facts.at("left_out")) {
+    all.push_back({entry.at("place"), entry.at("what"), entry.at("remedy"), entry.at("count")});
+  }
+  return all;
+}
+
+std::string times(const LeftOut& one) {
+  return one.count > 1 ? fmt::format(" ({} of them)", one.count) : "";
+}
+
 }  // namespace
+
+void require_whole(const MeshOfFile& read) {
+  if (read.left_out.empty()) return;
+  const LeftOut& first = read.left_out.front();
+  throw SceneError(
+      fmt::format("{}: {}{} is not read: without it this is another structure; {}. Modes or "
+                  "matrices of the whole may be given instead (kind = \"modes\")",
+                  first.place, first.what, times(first), first.remedy));
+}
+
+std::vector<std::string> left_out_remarks(const MeshOfFile& read) {
+  std::vector<std::string> remarks;
+  for (const LeftOut& one : read.left_out) {
+    remarks.push_back(
+        fmt::format("{}: {}{} is no part of the mesh: only the modes or matrices that are given "
+                    "hold what it does",
+                    one.place, one.what, times(one)));
+  }
+  return remarks;
+}
 
 MeshOfFile read_mesh(const fs::path& file, std::optional<double> length_unit,
                      const ConverterLimits& limits) {
@@ -27,9 +61,13 @@ MeshOfFile read_mesh(const fs::path& file, std::optional<double> length_unit,
   }
   const TemporaryFolder folder;
   const fs::path converted = folder.path() / "mesh.msh";
-  const auto unit = convert_file("convert_mesh.py", file, converted, limits).at("length_unit");
+  const nlohmann::json facts = convert_file("convert_mesh.py", file, converted, limits);
+  const nlohmann::json& unit = facts.at("length_unit");
   if (!length_unit && !unit.is_null()) length_unit = unit.get<double>();
-  return {mesh::read_gmsh(converted, length_unit.value_or(1.0), file.string()), length_unit};
+  std::vector<LeftOut> left_out = left_out_of(facts);
+  const auto joined = left_out.empty() ? mesh::Joined::by_nodes : mesh::Joined::by_constraints;
+  return {mesh::read_gmsh(converted, length_unit.value_or(1.0), file.string(), joined), length_unit,
+          std::move(left_out)};
 }
 
 mesh::Mesh read_mesh(const MeshFileModel& model) {
@@ -40,6 +78,8 @@ mesh::Mesh read_mesh(const MeshFileModel& model) {
         "The mesh is {}; write length_unit = \"m\", \"mm\", \"in\" or what it is",
         model.place, model.file.filename().string(), size_readings(read.mesh)));
   }
+  if (!model.modes && !model.matrices) require_whole(read);
+  for (std::string& remark : left_out_remarks(read)) read.mesh.add_remark(std::move(remark));
   return std::move(read.mesh);
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/mesh.hpp"
 #include "pipelines/import/conversion.hpp"
@@ -13,10 +14,19 @@
 
 namespace microslip::pipelines {
 
+/// What holds the structure together and is no part of the mesh: ties, equations, beams, masses.
+struct LeftOut {
+  std::string place;  ///< file and line of the first
+  std::string what;   ///< e.g. "*TIE"
+  std::string remedy;
+  int count = 1;
+};
+
 struct MeshOfFile {
   mesh::Mesh mesh;
   std::optional<double>
       length_unit;  ///< metres per unit; none: nobody says, the mesh is in the unit of the file
+  std::vector<LeftOut> left_out = {};  ///< one of each kind
 };
 
 /// @param length_unit  metres per unit of the file; none: what the file says.
@@ -26,7 +36,12 @@ struct MeshOfFile {
                                    std::optional<double> length_unit,
                                    const ConverterLimits& limits = {});
 
-/// The mesh of a scene. @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
+/// @throws SceneError  without what is left out the mesh alone is another structure: the first of it.
+void require_whole(const MeshOfFile& read);
+/// The same as sentences, where modes or matrices of the whole are given.
+[[nodiscard]] std::vector<std::string> left_out_remarks(const MeshOfFile& read);
+
+/// The mesh of a scene; its remarks tell what is left out. @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
 [[nodiscard]] mesh::Mesh read_mesh(const MeshFileModel& model);
 
 /// "60 x 149 x 60 m, 60 x 149 x 60 mm or 1.52 x 3.79 x 1.52 m (inches)": a size without a unit.

@@ -206,6 +206,7 @@ class SceneMaker {
 
 std::string scene_of_mesh(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const MeshOfFile read = read_mesh(file, std::nullopt);
+  require_whole(read);
   SceneMaker maker(read, file);
   maker.set_file("model.file", file, folder);
   return maker.make("mesh");

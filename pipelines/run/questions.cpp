@@ -443,7 +443,11 @@ std::vector<std::string> questions(const SceneDescription& scene) {
 }
 
 std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh) {
-  return asked(Stage::mesh, {.scene = scene, .mesh = &mesh});
+  std::vector<std::string> sentences = mesh.remarks();
+  for (std::string& sentence : asked(Stage::mesh, {.scene = scene, .mesh = &mesh})) {
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
 }
 
 std::vector<std::string> questions(const SceneDescription& scene, const ReducedModel& model) {

@@ -458,6 +458,18 @@ class GivenModes(unittest.TestCase):
         finished = subprocess.run([PROGRAM, "check", written], capture_output=True, text=True, check=True)
         self.assertRegex(finished.stdout, r"warning: two modes of energy.npz are not orthogonal: their common mass is 2[89] %")
 
+    def test_constraints_of_the_deck_belong_to_the_modes(self):
+        with open(os.path.join(PLATE, "plate.inp"), encoding="ascii") as stream:
+            deck = stream.read().replace("*STEP", "*EQUATION\n2\n127, 3, 1., 29, 3, -1.\n*STEP")
+        with open(path("joined.inp"), "w", encoding="ascii") as stream:
+            stream.write(deck)
+        model = given(os.path.join(PLATE, "plate.frd")).replace(f"{PLATE}/plate.inp", path("joined.inp"))
+        finished = subprocess.run([PROGRAM, "check", write_scene("joined.toml", model, "")], capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 0, finished.stderr)
+        self.assertIn(f'warning: {path("joined.inp")}:173: *EQUATION is no part of the mesh', finished.stdout)
+        self.assertIn("joined.inp:173: *EQUATION is not read: without it this is another structure",
+                      refusal(OWN.format(path("joined.inp"))))
+
     def test_a_body_of_two_densities(self):
         """Its tip weighs fifteen times as much: by the mass of one density its modes are not orthogonal."""
         if shutil.which("ccx") is None:

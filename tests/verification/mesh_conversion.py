@@ -72,7 +72,8 @@ class Converted:
                 self.code, self.message = 1, convert_mesh.problem_of(path, error)
                 return
             with open(facts, encoding="utf-8") as file:
-                self.length_unit = json.load(file)["length_unit"]
+                facts = json.load(file)
+            self.length_unit, self.left_out = facts["length_unit"], facts["left_out"]
             self._read(output)
 
     def _read(self, path):
@@ -133,6 +134,12 @@ class Conversion(unittest.TestCase):
         self.assertEqual(result.code, 1, "read without complaint")
         for word in words:
             self.assertIn(word, result.message)
+
+    def left_out(self, text, name="deck.inp"):
+        """Lines and what stands there that another structure would be without, how many of it."""
+        result = self.deck(text, name)
+        self.assertEqual(result.code, 0, result.message)
+        return [(entry["place"].removeprefix(self.path(name) + ":"), entry["what"], entry["count"]) for entry in result.left_out]
 
     def assert_names(self, result, surfaces, sets):
         self.assertEqual(result.code, 0, result.message)
@@ -201,6 +208,19 @@ class AbaqusDecks(Conversion):
         result = self.deck(BAR + "*ELEMENT, TYPE=T3D2, ELSET=edge\n99, 1, 2\n*ELEMENT, TYPE=S4, ELSET=skin\n98, 1, 4, 5, 2\n")
         self.assert_names(result, {"skin": 1}, {"edge": 2, "left": 8, "right": 8})
 
+    def test_what_holds_the_structure_together_is_told(self):
+        for deck, told in (("*MPC\nBEAM, 1, 2\n*TIE, NAME=t\na, b\n*MPC\nBEAM, 2, 3\n", [("20", "*MPC", 2), ("22", "*TIE", 1)]),
+                           ("*ELEMENT, TYPE=B31H, ELSET=beam\n99, 1, 12\n", [("20", "*ELEMENT, TYPE=B31H (beams)", 1)]),
+                           ("*ELEMENT, TYPE=S4\n98, 1, 4, 5, 2\n99, 1, 2, 6, 3\n",
+                            [("22", "element 99, a shell that lies on no face of a solid", 1)]),
+                           ("*ELEMENT, TYPE=T3D2\n97, 1, 2\n98, 1, 12\n99, 1, 15\n",
+                            [("22", "element 98, a truss that lies on no edge of a solid", 2)]),
+                           ("*ELEMENT, TYPE=T3D2, ELSET=wire\n97, 1, 2\n*SOLID SECTION, ELSET=wire, MATERIAL=m\n0.5\n",
+                            [("22", 'the cross-section of trusses in "wire"', 1)]),
+                           ("*SOLID SECTION, ELSET=left, MATERIAL=m\n1.\n", [])):
+            with self.subTest(deck=deck):
+                self.assertEqual(self.left_out(BAR + deck), told)
+
     def test_an_instance_where_its_part_lies(self):
         assembly = ("*PART, NAME=Blade\n" + BAR + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Blade-1, PART=Blade\n{}"
                     "*END INSTANCE\n*NSET, NSET=tip, INSTANCE=Blade-1\n3, 6\n*ELSET, ELSET=_f, INTERNAL, INSTANCE=Blade-1\n 8,\n"
@@ -225,9 +245,6 @@ class AbaqusDecks(Conversion):
         self.refused(BAR + "*SURFACE, NAME=s\nup, S1\n", "deck.inp:21", '"up"', "left, right")
         self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n*SURFACE, NAME=S\nleft, S2\n", "deck.inp:22", "deck.inp:20")
         self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
-        self.refused(BAR + "*MPC\nBEAM, 1, 2\n", "deck.inp:20", "*MPC", "another structure")
-        self.refused(BAR + "*ELEMENT, TYPE=B31\n99, 1, 2\n", "deck.inp:20", "B31", "another structure")
-        self.refused(BAR + "*ELEMENT, TYPE=S4\n99, 1, 2, 6, 3\n98, 1, 4, 5, 2\n", "deck.inp: shell element 99", "no face")
         self.refused(BAR + "*NSET, NSET=Foot\n1\n*SURFACE, NAME=foot\nleft, S1\n", "deck.inp:22", '"foot"', '"Foot"', "case")
         self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
 
@@ -261,9 +278,14 @@ class NastranDecks(Conversion):
         self.assertIn((0.02, -1.0, 0.0), {tuple(node) for _, nodes in result.elements for node in nodes})
         self.assertEqual(result.surfaces["PLOAD4 6"], [_places([(0, 0, 0), (1, 0, 0), (0, 1, 0)])])
 
+    def test_what_holds_the_structure_together_is_told(self):
+        for name in ("CBAR", "CFOO", "CONM2", "CELAS1", "CBUSH1D", "CTRIAX6", "RBE2", "RBAR"):
+            card = f"{name},3,1,1,2\n"
+            self.assertEqual(self.left_out(NASTRAN.replace("ENDDATA", 2 * card + "ENDDATA"), "deck.bdf"), [("19", name, 2)])
+
     def test_cards_that_are_no_elements_are_passed_over(self):
-        for card in ("CORD2R,5,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.", "RBE3,9,,4,123,1.,123,1,2", "PLOTEL,7,1,2"):
-            self.assertEqual(self.deck(NASTRAN.replace("ENDDATA", card + "\nENDDATA"), "deck.bdf").code, 0, card)
+        for card in ("CBARAO,9,FR,0.5", "CORD2R,5,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.", "RBE3,9,,4,123,1.,123,1,2", "PLOTEL,7,1,2"):
+            self.assertEqual(self.left_out(NASTRAN.replace("ENDDATA", card + "\nENDDATA"), "deck.bdf"), [], card)
 
     def test_bulk_data_alone(self):
         self.assertEqual(self.deck(NASTRAN.split("BULK\n")[1], "deck.nas").code, 0)
@@ -273,8 +295,6 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace("GRID,1,,", "GRID,1,5,"), "deck.bdf:8", "coordinate system 5", name="deck.bdf")
         self.refused(NASTRAN.replace(",9,7,1,3,2,", ",9,7,1,3,"), "deck.bdf:15", "has 3 nodes", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,one"), "deck.bdf:9", '"one"', name="deck.bdf")
-        self.refused(NASTRAN.replace("ENDDATA", "CBAR,3,1,1,2\nENDDATA"), "deck.bdf:19", "CBAR", name="deck.bdf")
-        self.refused(NASTRAN.replace("ENDDATA", "CFOO,3,1,1,2\nENDDATA"), "deck.bdf:19", "CFOO", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,2,"), "deck.bdf: node 2 stands twice, at ", "deck.bdf:9 and ", "deck.bdf:13;",
                      name="deck.bdf")
         self.refused(NASTRAN.replace("CTETRA,9", "CTETRA,8"), "deck.bdf: element 8 stands twice, at ", "deck.bdf:14 and ",
@@ -288,10 +308,12 @@ class NastranDecks(Conversion):
             with self.subTest(end=text[-20:]):
                 self.refused(text, f"deck.bdf:{len(text.splitlines())}: ", "cut off", "ENDDATA", name="deck.bdf")
 
-    def test_the_end_may_stand_in_a_file_that_is_included(self):
+    def test_the_end_of_a_file_that_is_included_is_not_that_of_the_deck(self):
         with open(self.path("bulk.bdf"), "w", encoding="utf-8") as file:
             file.write(NASTRAN.split("BULK\n")[1])
-        self.assertEqual(self.deck("SOL 103\nCEND\nBEGIN BULK\nINCLUDE 'bulk.bdf'\n", "deck.bdf").code, 0)
+        deck = "SOL 103\nCEND\nBEGIN BULK\nINCLUDE 'bulk.bdf'\n"
+        self.refused(deck, "deck.bdf ends here without an ENDDATA of its own", name="deck.bdf")
+        self.assertEqual(self.deck(deck + "ENDDATA\n", "deck.bdf").code, 0)
 
 
 class UniversalFiles(Conversion):

@@ -86,6 +86,34 @@ TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
                 "1.52 x 1.52 x 1.52 m"});
 }
 
+/// A second part that nothing but a tie holds.
+constexpr const char* tied = R"(*NODE
+11, 0, 0, -90
+12, 60, 0, -90
+13, 0, 60, -90
+14, 0, 0, -30
+*ELEMENT, TYPE=C3D4
+2, 11, 12, 13, 14
+*TIE, NAME=joint
+foot, top
+*EQUATION
+2
+1, 1, 1., 14, 1, -1.
+)";
+
+TEST_F(MeshFile, ATieIsAnErrorOfAMeshAndARemarkWhereTheModesAreGiven) {
+  const std::filesystem::path file = write("tied.inp", std::string(deck) + tied);
+  MeshFileModel model{file, 1e-3, "blade.toml:4: model.file", {}, {}};
+  expect_words(message_of([&] { static_cast<void>(read_mesh(model)); }),
+               {"tied.inp:17: *TIE is not read", "another structure"});
+  model.modes.emplace();
+  const mesh::Mesh mesh = read_mesh(model);
+  EXPECT_EQ(mesh.n_elements(), 2);
+  ASSERT_EQ(mesh.remarks().size(), 2U);
+  expect_words(mesh.remarks()[0], {"tied.inp:17: *TIE is no part of the mesh"});
+  expect_words(mesh.remarks()[1], {"tied.inp:19: *EQUATION"});
+}
+
 TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   EXPECT_EQ(refusal("no/such.inp"), "no/such.inp: no such file");
   expect_words(refusal(write("cut.inp", std::string(deck).substr(0, 30))),

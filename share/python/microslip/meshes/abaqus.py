@@ -8,15 +8,16 @@ import re
 
 import numpy as np
 
-from .content import TYPES, Block, Content, Refused, boundary_faces, require, volumes
+from .content import (TYPES, Block, Content, Refused, boundary_faces, corners_of_faces, ends_of_edges, four_sorted, leave_out,
+                      require, rows_in, volumes)
 
 _SOLID = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge", "15": "wedge15",
           "5": "pyramid", "13": "pyramid13"}
 _SHELL = {"3": "triangle", "6": "triangle6", "4": "quad", "8": "quad8"}
-_LINE = {"T3D2": "line", "B31": "line", "B32": "line3", "T3D3": "line3", "T2D2": "line", "T2D3": "line3"}
+_LINE = {"T3D2": "line", "T3D3": "line3", "T2D2": "line", "T2D3": "line3", "B31": "line", "B32": "line3", "B33": "line"}
 _FACES = {"SPOS": 0, "SNEG": 0, **{f"S{i}": i - 1 for i in range(1, 7)}}  # the two sides of a shell are one face here
 _COPIES = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
-# Left out they would make another structure of it. Trusses are what gmsh writes of named edges.
+# Trusses are what gmsh writes of named edges, beams are not.
 _BEAM = re.compile(r"B3[123]", re.I)
 _TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING")
 _DEEPEST = 20  # *INCLUDE within *INCLUDE
@@ -39,7 +40,8 @@ def _type(name):
     shell = re.fullmatch(r"(?:S|DS|STRI|CPS|CPE|M3D|SFM3D|R3D)(\d+)[A-Z]*\d?", upper)
     if shell:
         return "triangle6" if upper == "STRI65" else _SHELL.get(shell[1])
-    return _LINE.get(upper.rstrip("RH"))
+    line = re.fullmatch(r"([TB]\d+D?\d?)[A-Z]*", upper)
+    return _LINE.get(line[1]) if line else None
 
 
 def _lines(path, folder, above):
@@ -184,6 +186,8 @@ class _Deck:
         self.instanced = None  # part of the instance
         self.inside = None     # the part or instance a card stands in
         self.parts = {}        # part → cards, until it is known which of them is used
+        self.left_out = []
+        self.sections = []     # cards *SOLID SECTION
         self.later = []        # cards of the assembly: they speak of its parts
 
     def take(self, card):
@@ -222,8 +226,7 @@ class _Deck:
         if card.keyword in _COPIES:
             raise Refused(f"{card.place}: *{card.keyword} is not followed; write the mesh out node by node")
         if card.keyword in _TIES:
-            raise Refused(f"{card.place}: *{card.keyword} is not read: without it this is another structure; join the nodes, or "
-                          "take it out of the file")
+            leave_out(self.left_out, card.place, f"*{card.keyword}", "join the nodes, or take it out of the file")
         if card.keyword == "NODE":
             self._take_nodes(card)
         elif card.keyword == "ELEMENT":
@@ -234,6 +237,8 @@ class _Deck:
             self._take_set(card, self.element_sets, "ELSET")
         elif card.keyword == "SURFACE":
             self._take_surface(card)
+        elif card.keyword == "SOLID SECTION":
+            self.sections.append(card)
 
     def _take_nodes(self, card):
         require(card.get("SYSTEM", "R").upper() == "R",
@@ -263,8 +268,9 @@ class _Deck:
     def _take_elements(self, card):
         given = card.name("TYPE")
         own = _type(given)
-        require(not _BEAM.match(given), f"{card.place}: beams ({given}) are not read: without them this is another structure; take "
-                                        "them out of the file, or name edges by trusses (T3D2) or node sets")
+        if _BEAM.match(given):
+            leave_out(self.left_out, card.place, f"*ELEMENT, TYPE={given} (beams)",
+                      "take them out of the file, or name edges by trusses (T3D2) or node sets")
         require(own, f"{card.place}: elements of type {given} are not read; bodies may be C3D4, C3D10, C3D8, C3D20, C3D6, "
                      "C3D15, C3D5, C3D13 with any letters behind")
         if not card.data:
@@ -328,7 +334,10 @@ class _Deck:
         require(self.nodes, f"{self.path}: no *NODE with coordinates in it: is it a deck of Abaqus or CalculiX?")
         require(self.blocks, f"{self.path}: no *ELEMENT with data in it")
         content = Content(np.concatenate(self.nodes), np.concatenate(self.coordinates), self.blocks, places_of=self.places_of)
-        self._refuse_loose_shells(content)
+        require(volumes(content), f"{self.path}: no solid elements in it")
+        self._leave_out_loose(content)
+        self._leave_out_sections(content)
+        content.left_out = self.left_out
         self._refuse_names_of_other_case()
         outer = None
         for card in self.surfaces.values():
@@ -343,17 +352,34 @@ class _Deck:
         content.element_sets = self.element_sets.named()
         return content
 
-    def _refuse_loose_shells(self, content):
-        """Shells that lie on a face of a solid name it; others would be lost."""
-        faces = {frozenset(corners.tolist()) for block in volumes(content) for face in TYPES[block.type].faces
-                 for corners in block.nodes[:, face]} if any(TYPES[b.type].dimension == 2 for b in content.blocks) else set()
+    def _leave_out_loose(self, content):
+        """Shells on a face of a solid name it, trusses on an edge; others hold something together."""
         for block in content.blocks:
-            if TYPES[block.type].dimension != 2:
-                continue
-            for number, nodes in zip(block.numbers, block.nodes[:, :TYPES[block.type].n_corners]):
-                require(frozenset(nodes.tolist()) in faces,
-                        f"{self.path}: shell element {number} lies on no face of a solid: without it this is another structure; "
-                        "take it out of the file")
+            kind = TYPES[block.type]
+            if kind.dimension == 2:
+                loose = ~rows_in(four_sorted(block.nodes[:, :kind.n_corners]), corners_of_faces(content))
+                self._leave_out(block.numbers[loose], "a shell that lies on no face of a solid")
+            elif kind.dimension == 1:
+                pairs = [np.sort(block.nodes[:, pair], axis=1) for pair in ((0, 1), (0, 2), (1, 2)) if max(pair) < kind.n_nodes]
+                on_edge = np.any([rows_in(pair, ends_of_edges(content)) for pair in pairs], axis=0)
+                self._leave_out(block.numbers[~on_edge], "a truss that lies on no edge of a solid")
+
+    def _leave_out(self, elements, what):
+        beams = [numbers for numbers, card, _ in self.origins["element"] if _BEAM.match(card.get("TYPE"))]
+        elements = np.setdiff1d(elements, np.concatenate(beams)) if beams else elements  # these are left out already
+        if len(elements):
+            leave_out(self.left_out, self.places_of("element", elements[0])[0], f"element {elements[0]}, {what}",
+                      "take it out of the file", len(elements))
+
+    def _leave_out_sections(self, content):
+        """A truss with a cross-section carries load, on an edge as well."""
+        trusses = [block.numbers for block in content.blocks if TYPES[block.type].dimension == 1]
+        for card in self.sections if trusses else ():
+            name = card.get("ELSET", "")
+            area = next(([word for word in words if word] for _, words in card.rows()), [])
+            if area and name in self.element_sets and np.isin(np.concatenate(trusses), self.element_sets.get(name, card.place)).any():
+                leave_out(self.left_out, card.place, f'the cross-section of trusses in "{name}"',
+                          "take it out of the file, where they only name edges")
 
     def _refuse_names_of_other_case(self):
         """For Abaqus names of other case are one, here two; a set and a surface may share one name."""

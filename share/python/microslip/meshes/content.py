@@ -63,6 +63,15 @@ class Block:
 
 
 @dataclasses.dataclass
+class LeftOut:
+    """What holds the structure together and is not read: without it the body is another one, unless its modes are given."""
+    place: str   # file and line of the first
+    what: str    # e.g. *TIE
+    remedy: str
+    count: int = 1
+
+
+@dataclasses.dataclass
 class Content:
     """What a reader gives: all by the numbers of the file."""
     node_numbers: np.ndarray
@@ -74,12 +83,22 @@ class Content:
     length_unit: float = None                         # metres; None: the file does not say
     turned_nodes: tuple = ()   # numbers of those that tell displacements in axes of their own
     either_hand: bool = False  # whole blocks of elements may be numbered as seen in a mirror
+    left_out: list = dataclasses.field(default_factory=list)  # LeftOut, one of each kind
     places_of: object = lambda kind, number: []  # "file:line" of each "node" or "element" of a number, of files with lines
 
 
 def require(condition, message):
     if not condition:
         raise Refused(message)
+
+
+def leave_out(left_out, place, what, remedy, count=1):
+    """One more of its kind."""
+    for known in left_out:
+        if known.what == what:
+            known.count += count
+            return
+    left_out.append(LeftOut(place, what, remedy, count))
 
 
 def volumes(content):
@@ -144,6 +163,27 @@ def _handedness(type_name, corners):
     area = sum(np.cross(ring[:, i] - ring[:, 0], ring[:, i + 1] - ring[:, 0]) for i in range(1, len(face) - 1))
     inward = corners[:, :TYPES[type_name].n_corners].mean(axis=1) - ring.mean(axis=1)
     return np.einsum("ij,ij->i", area, inward)
+
+
+def corners_of_faces(content):
+    """Sorted corners of all faces of volume elements, n × 4; the fourth of a triangle is -1."""
+    return np.concatenate([four_sorted(block.nodes[:, face]) for block in volumes(content) for face in TYPES[block.type].faces])
+
+
+def four_sorted(nodes):
+    return np.sort(np.pad(nodes, ((0, 0), (0, 4 - nodes.shape[1])), constant_values=-1), axis=1)
+
+
+def ends_of_edges(content):
+    """Sorted corners of all edges of volume elements, n × 2."""
+    return np.concatenate([np.sort(block.nodes[:, (face[i - 1], face[i])], axis=1) for block in volumes(content)
+                           for face in TYPES[block.type].faces for i in range(len(face))])
+
+
+def rows_in(rows, others):
+    """Which of the rows are among the others."""
+    kind = [("", np.int64)] * rows.shape[1]
+    return np.isin(*(np.ascontiguousarray(table, dtype=np.int64).view(kind).ravel() for table in (rows, others)))
 
 
 def faces_of(content, elements_and_faces):

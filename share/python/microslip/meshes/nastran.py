@@ -1,7 +1,8 @@
 """Bulk data of Nastran and OptiStruct (.bdf, .nas, .fem): GRID, solids, shells, SPC, SPC1, SET, PLOAD4.
 
 meshio 5.0 is not used here: it takes coordinates of local systems for global ones, wants BEGIN BULK, follows no INCLUDE
-and gives no names. A deck ends with ENDDATA: without it nothing tells a whole one from one that was cut off.
+and gives no names. A deck ends with ENDDATA: without it nothing tells a whole one from one that was cut off. In a file
+that is included it ends that file alone.
 
 Names: "PID 3" for the elements of property 3, "SPC 1" for the nodes that set 1 holds, "SET 2" for a set of nodes,
 "PLOAD4 4" for the faces that carry pressure set 4; or what HyperMesh and Femap call them in their comments.
@@ -11,7 +12,7 @@ import re
 
 import numpy as np
 
-from .content import TYPES, Content, Refused, blocks_of, require
+from .content import TYPES, Content, Refused, blocks_of, leave_out, require
 
 _SOLID = {"CTETRA": {4: "tetra", 10: "tetra10"}, "CHEXA": {8: "hexahedron", 20: "hexahedron20"},
           "CPENTA": {6: "wedge", 15: "wedge15"}, "CPYRAM": {5: "pyramid", 13: "pyramid13"}}
@@ -21,9 +22,8 @@ _SHELL = {"CTRIA3": {3: "triangle"}, "CTRIAR": {3: "triangle"}, "CTRIA6": {6: "t
 _ELEMENTS = {**_SOLID, **_SHELL}
 # Nastran goes from the lower ring of edges to the upright ones, then to the upper ring.
 _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15": (*range(9), 12, 13, 14, 9, 10, 11)}
-# Left out they would make another structure of it. RBE3 spreads a load, PLOTEL is a picture: nothing is lost with them.
-_NOT_SOLID = re.compile(r"C(BAR|BEAM|BEND|BUSH|DAMP|ELAS|GAP|MASS|ONM|ONROD|ROD|SHEAR|TUBE|VISC|WELD|FAST|SEAM)|RBE[12]|"
-                        r"RBAR|RROD|RTRPLT|GENEL|C(TETRA|HEXA|PENTA|PYR|TRI|QUAD)")
+# They join nodes. RBE3 spreads a load, PLOTEL is a picture: nothing is lost with them.
+_RIGID = re.compile(r"RBE[12]|RBAR|RROD|RTRPLT|GENEL")
 # Cards that begin with C and are no elements: coordinate systems, aerodynamics, heat, cyclic symmetry, control.
 _NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD|CSET|CAMPBLL|CSUP")
 _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+\s*)?"([^"]+)"|'
@@ -35,8 +35,8 @@ def read(path):
     deck = _Deck(path)
     lines = list(_lines(path, os.path.dirname(os.path.abspath(path)), (), deck))
     if not deck.is_ended and any(re.match(r"GRID\b", text, re.I) for _, text in lines):
-        raise Refused(f"{lines[-1][0]}: the file ends here without ENDDATA: it seems to be cut off. Copy it once more; if it is "
-                      "whole, add a last line ENDDATA")
+        raise Refused(f"{lines[-1][0]}: {path} ends here without an ENDDATA of its own: it seems to be cut off. Copy it once more; "
+                      "if it is whole, add a last line ENDDATA")
     bulk = next((i + 1 for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK\b", text, re.I)), 0)
     for place, text in _statements(lines[:bulk]):
         deck.take_case(place, text)
@@ -58,7 +58,7 @@ def _lines(path, folder, above, deck):
             if "$" in line:
                 deck.take_comment(line)
             if re.match(r"\s*ENDDATA\b", text, re.I):
-                deck.is_ended = True
+                deck.is_ended = not above
                 return
             if re.match(r"INCLUDE\b", text, re.I):
                 name = text[7:].strip().strip("'\"")
@@ -151,6 +151,7 @@ class _Deck:
         self.node_lists = {}    # name → [node numbers]
         self.pressed = {}       # name → [(place, element, corner nodes on the face, corner node off it)]
         self.property_names, self.set_names = {}, {}
+        self.left_out = []
 
     def take_comment(self, line):
         found = _NAMES.search(line)
@@ -182,9 +183,9 @@ class _Deck:
             self._take_pressure(place, words)
         else:
             is_element = re.fullmatch(r"C[A-Z]+\d*[A-Z]*", name) and not _NO_ELEMENT.match(name)
-            require(not _NOT_SOLID.match(name) and not is_element,
-                    f"{place}: {name} is not read: bodies are {', '.join(list(_SOLID)[:4])}, shells on them name faces; take "
-                    "it out of the file")
+            if is_element or _RIGID.match(name):
+                leave_out(self.left_out, place, name, f"bodies are {', '.join(list(_SOLID)[:4])}, shells on them name faces; take "
+                                                      "it out of the file")
 
     def _hold(self, kind, number, nodes):
         self.node_lists.setdefault((kind, number), []).append(nodes)
@@ -226,7 +227,7 @@ class _Deck:
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
-        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned),
+        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned), left_out=self.left_out,
                           places_of=lambda kind, wanted: [place for number, place in self.places[kind] if number == wanted])
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)
