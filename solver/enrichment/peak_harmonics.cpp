@@ -63,10 +63,10 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
   const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
   if (orders.empty()) return result;
   const HarmonicBalance richer(scene_, set.united(orders));
-  const Enrichment step = enrich(richer, embedded(peak, coarse, richer), FrequencyStep::none);
+  const std::vector<RicherShare> shares = richer_shares(richer, embedded(peak, coarse, richer));
   const BalanceEvaluation at = coarse.evaluate(peak.point.x, peak.point.parameter);
-  work_.contact_evaluations += step.evaluations + 2;
-  for (const RicherShare& share : step.shares) {
+  work_.contact_evaluations += 3;
+  for (const RicherShare& share : shares) {
     if (share.order == 0 || set.contains(share.order)) continue;
     result.shares.push_back(share);
     result.sum += std::abs(share.amplitude);
