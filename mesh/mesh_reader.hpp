@@ -17,8 +17,4 @@ namespace microslip::mesh {
 [[nodiscard]] Mesh read_gmsh(const std::filesystem::path& file, double length_unit = 1.0,
                              const std::string& name = {}, Joined joined = Joined::by_nodes);
 
-/// The same from the bytes of a file. @param name  what messages call it.
-[[nodiscard]] Mesh read_gmsh_text(std::string content, const std::string& name,
-                                  double length_unit = 1.0);
-
 }  // namespace microslip::mesh

@@ -232,8 +232,4 @@ Mesh read_gmsh(const std::filesystem::path& file, double length_unit, const std:
   return make_mesh(Reader(GmshSource(file, called)).read(), length_unit, called, joined);
 }
 
-Mesh read_gmsh_text(std::string content, const std::string& name, double length_unit) {
-  return make_mesh(Reader(GmshSource(std::move(content), name)).read(), length_unit, name);
-}
-
 }  // namespace microslip::mesh

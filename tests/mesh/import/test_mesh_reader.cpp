@@ -8,6 +8,7 @@
 #include "mesh/element_shape.hpp"
 #include "mesh/import/gmsh_elements.hpp"
 #include "tests/mesh/sample_meshes.hpp"
+#include "tests/support/gmsh_text.hpp"
 
 namespace microslip::mesh::test_mesh_reader {
 namespace {
@@ -37,7 +38,8 @@ TEST(MeshReader, ReadsCurvedElementsInEveryFormatWithTheirVolume) {
   for (const ElementType type : tests::quadratic_types) {
     for (const double version : formats) {
       for (const bool binary : {false, true}) {
-        const Mesh mesh = read_gmsh_text(gmsh_file(curved_element(type), version, binary), "x.msh");
+        const Mesh mesh =
+            test::read_gmsh_text(gmsh_file(curved_element(type), version, binary), "x.msh");
         EXPECT_NEAR(mesh.volume(), exact_volume(type), 1e-14 * 8) << version << binary;
         EXPECT_EQ(mesh.n_nodes(), n_nodes(type)) << "the node no element uses is dropped";
       }
@@ -48,7 +50,7 @@ TEST(MeshReader, ReadsCurvedElementsInEveryFormatWithTheirVolume) {
 TEST(MeshReader, PutsNodesIntoTheProjectsOrder) {
   for (const ElementType type : tests::quadratic_types) {
     const auto element = curved_element(type);
-    const Mesh mesh = read_gmsh_text(gmsh_file(element, 4.1, true), "x.msh");
+    const Mesh mesh = test::read_gmsh_text(gmsh_file(element, 4.1, true), "x.msh");
     const auto& block = mesh.elements().front();
     for (Eigen::Index a = 0; a < element.nodes.rows(); ++a) {
       EXPECT_EQ(mesh.nodes().row(block.connectivity(0, a)), element.nodes.row(a))
@@ -58,8 +60,8 @@ TEST(MeshReader, PutsNodesIntoTheProjectsOrder) {
 }
 
 TEST(MeshReader, KeepsNamesAndConvertsUnits) {
-  const Mesh mesh =
-      read_gmsh_text(gmsh_file(curved_element(ElementType::tet10), 2.2, false), "x.msh", 1e-3);
+  const Mesh mesh = test::read_gmsh_text(gmsh_file(curved_element(ElementType::tet10), 2.2, false),
+                                         "x.msh", 1e-3);
   EXPECT_EQ(mesh.surface_names(), std::vector<std::string>{"face one"});
   EXPECT_EQ(mesh.surface("face one").nodes.size(), 6U);
   EXPECT_EQ(mesh.node_set("tip").size(), 1U);
@@ -72,12 +74,12 @@ TEST(MeshReader, AcceptsDosLineEnds) {
     if (c == '\n') text += '\r';
     text += c;
   }
-  EXPECT_EQ(read_gmsh_text(text, "x.msh").n_elements(), 1);
+  EXPECT_EQ(test::read_gmsh_text(text, "x.msh").n_elements(), 1);
 }
 
 std::string message_of(const std::string& content) {
   try {
-    static_cast<void>(read_gmsh_text(content, "x.msh"));
+    static_cast<void>(test::read_gmsh_text(content, "x.msh"));
   } catch (const MeshError& error) {
     return error.what();
   }
@@ -127,9 +129,10 @@ TEST(MeshReader, NamesWhatIsWrong) {
 TEST(MeshReader, RefusesABodyOfASizeThatNoneHas) {
   const std::string good = gmsh_file(curved_element(ElementType::tet10), 2.2, false);
   for (const double unit : {1e-60, 1e-20, 1e20, 1e60}) {
-    EXPECT_THROW(static_cast<void>(read_gmsh_text(good, "mesh.msh", unit)), MeshError) << unit;
+    EXPECT_THROW(static_cast<void>(test::read_gmsh_text(good, "mesh.msh", unit)), MeshError)
+        << unit;
   }
-  EXPECT_GT(read_gmsh_text(good, "mesh.msh", 1e-6).volume(), 0.0);
+  EXPECT_GT(test::read_gmsh_text(good, "mesh.msh", 1e-6).volume(), 0.0);
 }
 
 // Format 2.2 writes an element once for each group it is in; the same group twice is a repetition.
@@ -185,7 +188,7 @@ TEST(MeshReader, DamagedFilesGiveAMeshOrAMeshError) {
       }
     }
     try {
-      static_cast<void>(read_gmsh_text(text, "x.msh"));
+      static_cast<void>(test::read_gmsh_text(text, "x.msh"));
       ++read;
     } catch (const MeshError&) {
       ++refused;
