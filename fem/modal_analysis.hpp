@@ -87,23 +87,6 @@ class Structure {
                                      const std::vector<AttachmentFace>& faces,
                                      const Eigen::MatrixXd& forces,
                                      const AttachmentOptions& options);
-  /// Adds springs between a surface and the ground, e.g. a contact that sticks everywhere:
-  ///   K += Σ_c w_c Σ_d k_cd (N_c e_d)ᵀ(N_c e_d),   e_d row d of the frame.
-  /// Call before modes or solutions are asked for, or ask for them again: factorisations are dropped.
-  /// @param to_points  interpolates nodal values to the points, n_points × surface.nodes.size().
-  /// @param weights    area of each point [m²], n_points.
-  /// @param frame      rows p, q, r.
-  /// @param stiffness  along p, q, r at each point [N/m³], n_points × 3, ≥ 0.
-  /// @throws std::invalid_argument  sizes differ; the message names them.
-  void add_surface_springs(const mesh::Surface& surface,
-                           const Eigen::SparseMatrix<double>& to_points,
-                           const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
-                           const Eigen::MatrixX3d& stiffness);
-  /// Undamped harmonic response (K − ω²M) u = F: columns of F (3 n_nodes × m) [N] → u [m]. Each call
-  /// factorises anew.
-  /// @throws EigenError  ω is a natural frequency to rounding.
-  [[nodiscard]] Eigen::MatrixXd solve_harmonic(double frequency,
-                                               const Eigen::MatrixXd& forces) const;
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:

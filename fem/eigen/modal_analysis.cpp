@@ -10,7 +10,6 @@
 
 #include "fem/assembly/given_system.hpp"
 #include "fem/assembly/rotating_system.hpp"
-#include "fem/assembly/surface_springs.hpp"
 #include "fem/eigen/attachment.hpp"
 #include "fem/eigen/mode_search.hpp"
 #include "fem/eigen/rigid_modes.hpp"
@@ -406,27 +405,6 @@ AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<Attac
     result.richer->embedding = self.embedding(result.basis, result.richer->basis);
   }
   return result;
-}
-
-void Structure::add_surface_springs(const mesh::Surface& surface,
-                                    const Eigen::SparseMatrix<double>& to_points,
-                                    const Eigen::VectorXd& weights, const Eigen::Matrix3d& frame,
-                                    const Eigen::MatrixX3d& stiffness) {
-  add_springs(self_->system, surface, to_points, weights, frame, stiffness);
-  self_->inverse.reset();
-  self_->drop_held_rigid_modes();
-}
-
-Eigen::MatrixXd Structure::solve_harmonic(double frequency, const Eigen::MatrixXd& forces) const {
-  check_rows(forces, self_->nodes.rows());
-  const FeSystem& system = self_->system;
-  const Factorisation dynamic(shifted_stiffness(system, frequency * frequency).get(),
-                              FactorKind::indefinite);
-  if (dynamic.inertia().zero > 0) {
-    throw EigenError("resonance: omega = " + number_text(frequency) +
-                     " rad/s is a natural frequency");
-  }
-  return system.dofs.to_mesh(dynamic.solve(system.dofs.to_local(forces)));
 }
 
 }  // namespace microslip::fem

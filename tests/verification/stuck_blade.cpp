@@ -33,6 +33,7 @@
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
 #include "tests/support/campaign.hpp"
+#include "tests/support/surface_springs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::stuck_blade {
@@ -82,10 +83,10 @@ struct Blade {
     return 3 * mesh.node_set(point).front();
   }
 
-  [[nodiscard]] Modes modes_of(const fem::ModalBasis& basis) const {
-    const Eigen::VectorXd load =
-        0.5 * (basis.shapes.row(x_of("B")) + basis.shapes.row(x_of("B'"))).transpose();
-    return {basis.frequency, basis.shapes.row(x_of("A")).transpose(), load};
+  [[nodiscard]] Modes modes_of(const Eigen::VectorXd& frequency,
+                               const Eigen::MatrixXd& shapes) const {
+    const Eigen::VectorXd load = 0.5 * (shapes.row(x_of("B")) + shapes.row(x_of("B'"))).transpose();
+    return {frequency, shapes.row(x_of("A")).transpose(), load};
   }
 
   // Mode shapes along p and q at the sampling points, n_points × N.
@@ -124,7 +125,7 @@ Modes reduced_modes(const Blade& blade, fem::Structure& structure, const fem::Mo
     K += Phi.transpose() * k.asDiagonal() * Phi;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
-  const Modes free = blade.modes_of(basis);
+  const Modes free = blade.modes_of(basis.frequency, basis.shapes);
   return {eigen.eigenvalues().cwiseSqrt(), eigen.eigenvectors().transpose() * free.at_A,
           eigen.eigenvectors().transpose() * free.load};
 }
@@ -142,15 +143,16 @@ struct Direct {
 };
 
 Direct direct_solution(const Blade& blade) {
-  fem::Structure stuck(blade.mesh, steel, {"root"});
   Eigen::MatrixX3d stiffness = Eigen::MatrixX3d::Zero(blade.sampling.weights.size(), 3);
   stiffness.leftCols<2>().setConstant(k_local);
-  stuck.add_surface_springs(blade.face, blade.sampling.to_centres, blade.sampling.weights,
-                            contact_frame(), stiffness);
-  const Modes modes = blade.modes_of(stuck.solve_modes({.n_modes = 40}));
+  const test::SprungStructure stuck(
+      blade.mesh, steel, {"root"},
+      {blade.face, blade.sampling.to_centres, blade.sampling.weights, contact_frame(), stiffness});
+  const test::SprungModes found = stuck.modes(40);
+  const Modes modes = blade.modes_of(found.frequency, found.shapes);
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(3 * blade.mesh.n_nodes(), 1);
   F(blade.x_of("B"), 0) = F(blade.x_of("B'"), 0) = 0.5;
-  const Eigen::MatrixXd u = stuck.solve_harmonic(0.95 * modes.frequency[0], F);
+  const Eigen::MatrixXd u = stuck.response(0.95 * modes.frequency[0], F);
   return {modes, std::abs(u(blade.x_of("A"), 0)),
           amplitude(modes, modes.frequency[0], damping_ratio)};
 }
