@@ -113,12 +113,6 @@ CycleJacobian jacobian(const CycleForce& force) {
 
 }  // namespace
 
-CycleForce cycle_force(const PointParameters& point, const PointMotion& motion) {
-  const SlipFunctions w = slip_functions(point, motion);
-  const CycleRegime regime = cycle_regime(w);
-  return cycle_force(point, motion, w, regime, cycle_phases(w, regime));
-}
-
 FrictionCycle friction_cycle(const PointParameters& point, const PointMotion& motion) {
   const SlipFunctions w = slip_functions(point, motion);
   const CycleRegime regime = cycle_regime(w);

@@ -96,7 +96,4 @@ struct CycleInstant {
 [[nodiscard]] CycleInstant at_phase(const FrictionCycle& cycle, const PointParameters& point,
                                     const PointMotion& motion, double phase);
 
-/// Only what an iterate of the solver needs; the same numbers as friction_cycle(), bit by bit.
-[[nodiscard]] CycleForce cycle_force(const PointParameters& point, const PointMotion& motion);
-
 }  // namespace microslip::contact

@@ -36,7 +36,6 @@ struct PlanarCells {
 [[nodiscard]] PlanarCells rectangle_cells(double height, double breadth, int n_along_y,
                                           int n_along_z);
 
-using AreaVector = Eigen::Matrix<double, 6, 1>;  ///< (u, v, w, φ) [m, rad] or (F, M) [N, N m]
 using CellMatrix = Eigen::Matrix<double, 3, 6>;  ///< G_i of (1)
 
 /// G_i of (1) for a cell at (y, z) [m].

@@ -217,18 +217,6 @@ double normal_inverse(double f) {
 // Beyond this ζ, J(ζ) − ζ and 1 − Φ(ζ) are below the smallest number.
 constexpr double full_contact = 40.0;
 
-RoughSurface pair_of(const RoughSurface& a, const RoughSurface& b) {
-  const HeightLaw law = a.height() == 0.0 ? b.law() : a.law();
-  const double height = std::hypot(a.height(), b.height());
-  if (law == HeightLaw::cubic || height == 0.0) return RoughSurface::cubic(height);
-  // What a mean differs from that of the matching law is a shift of the origin of u; shifts add.
-  const double to_mean = std::sqrt(5.0);
-  const double deviation = std::hypot(a.deviation(), b.deviation());
-  return RoughSurface::gaussian(to_mean * deviation + (a.mean() - to_mean * a.deviation()) +
-                                    (b.mean() - to_mean * b.deviation()),
-                                deviation);
-}
-
 }  // namespace
 
 RoughSurface RoughSurface::cubic(double height) {
@@ -273,23 +261,6 @@ double RoughSurface::approach(double compression) const {
   }
   if (compression >= mean_) return compression + mean_;
   return height_ * cubic_inverse(compression / height_);
-}
-
-RoughBody in_series(const RoughBody& first, const RoughBody& second) {
-  const RoughSurface& a = first.surface;
-  const RoughSurface& b = second.surface;
-  for (const double k : {first.normal_stiffness, first.tangential_stiffness,
-                         second.normal_stiffness, second.tangential_stiffness}) {
-    if (!(k >= 0.0)) refuse("stiffness", k, "at least 0");
-  }
-  // A surface without heights has no law of them.
-  const bool one_law = a.law() == b.law() || a.height() == 0.0 || b.height() == 0.0;
-  if (!one_law) {
-    throw std::invalid_argument("rough surfaces in series: one cubic, one Gaussian; must be alike");
-  }
-  const auto series = [](double k1, double k2) { return 1.0 / (1.0 / k1 + 1.0 / k2); };
-  return {pair_of(a, b), series(first.normal_stiffness, second.normal_stiffness),
-          series(first.tangential_stiffness, second.tangential_stiffness)};
 }
 
 }  // namespace microslip::contact

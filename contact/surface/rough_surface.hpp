@@ -68,18 +68,4 @@ class RoughSurface {
   double deviation_;
 };
 
-/// One of two bodies in contact: its heights and its stiffnesses in full contact, both per area or both
-/// of an element. Infinite stiffness: rigid.
-struct RoughBody {
-  RoughSurface surface;
-  double normal_stiffness = 0.0;      ///< k_N ≥ 0
-  double tangential_stiffness = 0.0;  ///< k_T ≥ 0
-};
-
-/// The body that does against a flat rigid wall what two do against each other: R² = R₁² + R₂²
-/// (variances of independent heights add), 1/k = 1/k₁ + 1/k₂. Two matching Gaussians make the Gaussian
-/// that matches the pair; what other means differ from it by is added.
-/// @throws std::invalid_argument  a cubic law against a Gaussian one, a stiffness negative or NaN.
-[[nodiscard]] RoughBody in_series(const RoughBody& first, const RoughBody& second);
-
 }  // namespace microslip::contact

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "contact/closed_form/cycle_force.hpp"
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/force/block_kernels.hpp"
 #include "contact/force/patch_force.hpp"
@@ -95,7 +96,10 @@ void cycles_only(benchmark::State& state) {
   const std::vector<PointMotion> motions = point_motions(s.shapes, s.q);
   for (auto _ : state) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      benchmark::DoNotOptimize(cycle_force(s.patch.points()[i], motions[i]));
+      const PointParameters& point = s.patch.points()[i];
+      const SlipFunctions w = slip_functions(point, motions[i]);
+      const CycleRegime regime = cycle_regime(w);
+      benchmark::DoNotOptimize(cycle_force(point, motions[i], w, regime, cycle_phases(w, regime)));
     }
   }
   count_points(state, motions.size());

@@ -3,8 +3,7 @@
 //
 //   F* = ∫ h* du*,  F*(1) = ½,  F* → u* − ½,  k_T* = h*(u*(F*));     D = 4 μF_N (a − μF_N/k_T)
 //
-// The integrals are taken here by Gauss's rule, exact for the cubic law; the pair of Gaussian
-// surfaces by the expectation of the load over both heights.
+// The integrals are taken here by Gauss's rule, exact for the cubic law.
 
 #include <algorithm>
 #include <array>
@@ -99,26 +98,6 @@ TEST(FigureTwo, CurvesHaveTheMarksOfThePaper) {
             0.01);  // "covered rather faithfully by means of the Gauss distribution", section 2.1
   EXPECT_GT(apart, 1e-4);  // and yet they are two laws
   EXPECT_TRUE(file.good());
-}
-
-// E[max(0, u − h₁ − h₂)] over two independent Gaussian heights is the law with R² = R₁² + R₂².
-TEST(FigureTwo, TwoGaussianSurfacesAreOne) {
-  const RoughBody first{RoughSurface::matching_gaussian(3e-6), 2e12, 1e12};
-  const RoughBody second{RoughSurface::matching_gaussian(4e-6), 2e12, 1e12};
-  const RoughBody pair = in_series(first, second);
-  const double s = second.surface.deviation();
-  for (const double zeta : {-4.0, -1.0, 0.0, 0.7, 3.0}) {
-    const double above_mean = zeta * pair.surface.deviation();
-    double expected = 0.0;
-    for (int i = -200; i <= 200; ++i) {  // trapezoidal rule over ±10 s: error e^{−2π²/0.05²}
-      const double h = 0.05 * i;
-      const double density = std::exp(-0.5 * h * h) / std::sqrt(2.0 * std::numbers::pi);
-      expected +=
-          0.05 * density * first.surface.at(first.surface.mean() + above_mean - h * s).compression;
-    }
-    const double load = pair.surface.at(pair.surface.mean() + above_mean).compression;
-    EXPECT_NEAR(load / expected, 1.0, 1e-13) << zeta;  // 400 terms of one sign
-  }
 }
 
 struct Loop {

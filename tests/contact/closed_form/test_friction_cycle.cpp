@@ -231,17 +231,6 @@ RC_GTEST_PROP(FrictionCycleProperty, FrictionKnowsOnlyTheProductOfMuAndLoad, (st
   RC_ASSERT(a.friction.cos == b.friction.cos);
 }
 
-RC_GTEST_PROP(FrictionCycleProperty, TheShortAnswerIsTheWholeOne, (std::uint32_t seed)) {
-  Random random(seed);
-  const CycleCase c = test::generic_case(random);
-  const FrictionCycle whole = friction_cycle(c.point, c.motion);
-  const CycleForce brief = cycle_force(c.point, c.motion);
-  RC_ASSERT(whole.friction.sin == brief.friction.sin);
-  RC_ASSERT(whole.normal.mean == brief.normal.mean);
-  RC_ASSERT(whole.jacobian(1, 1) == brief.friction_by_u[1][0]);
-  RC_ASSERT(whole.jacobian(5, 5) == brief.normal_by_v[2][2]);
-}
-
 RC_GTEST_PROP(FrictionCycleProperty, MeanTangentialDisplacementActsInFullStickOnly,
               (std::uint32_t seed)) {
   Random random(seed);
@@ -300,7 +289,7 @@ TEST(FrictionCycle, ForceOfAPointThatHardlySticksIsExactToTheForceNotToItsSpring
     const long double quadrature = 4.0L * (1.0L - 1.0L / a) / half_turn;
     const long double c = motion.u_sin / a;
     const long double s = motion.u_cos / a;
-    const CycleForce force = cycle_force(point, motion);
+    const FrictionCycle force = friction_cycle(point, motion);
     // The reference itself cancels to eps (80 bits) times a ψ.
     EXPECT_NEAR(force.friction.sin, static_cast<double>(in_phase * c - quadrature * s), 5e-15 * q);
     EXPECT_NEAR(force.friction.cos, static_cast<double>(in_phase * s + quadrature * c), 5e-15 * q);

@@ -41,7 +41,7 @@ TEST(ContactArea, GridHasItsCentresAndItsArea) {
 TEST(ContactArea, CellsMoveAsARigidPlane) {
   std::mt19937_64 random(1);
   for (int sample = 0; sample < 7; ++sample) {
-    const AreaVector U = random_vector(random, 6);
+    const Eigen::Vector<double, 6> U = random_vector(random, 6);
     const Eigen::Vector2d at = random_vector(random, 2);
     const Eigen::Vector3d arm(0.0, at[0], at[1]);
     const Eigen::Vector3d expected = U.head<3>() + U.tail<3>().cross(arm);

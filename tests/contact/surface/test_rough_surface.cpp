@@ -199,46 +199,12 @@ TEST(RoughSurface, LoadAndShareNeverFall) {
   }
 }
 
-TEST(RoughSurface, TwoInSeriesAddVariancesAndCompliances) {
-  const RoughBody pair =
-      in_series({RoughSurface::cubic(3e-6), 2e12, 1e12}, {RoughSurface::cubic(4e-6), 2e12, 3e12});
-  // Two or three roundings each.
-  EXPECT_NEAR(pair.surface.height(), 5e-6, 4.0 * eps * 5e-6);
-  EXPECT_NEAR(pair.normal_stiffness, 1e12, 4.0 * eps * 1e12);
-  EXPECT_NEAR(pair.tangential_stiffness, 0.75e12, 4.0 * eps * 1e12);
-  const RoughBody gaussians =
-      in_series({RoughSurface::matching_gaussian(3e-6), 2e12, 1e12},
-                {RoughSurface::matching_gaussian(4e-6), infinity, infinity});
-  EXPECT_NEAR(gaussians.surface.mean(), 2.5e-6, 8.0 * eps * 5e-6);
-  EXPECT_NEAR(gaussians.surface.deviation(), 5e-6 / std::sqrt(20.0), 8.0 * eps * 5e-6);
-  EXPECT_EQ(gaussians.normal_stiffness, 2e12);
-}
-
-TEST(RoughSurface, AFlatWallChangesNothing) {
-  const RoughBody wall{RoughSurface::cubic(0.0), infinity, infinity};
-  for (const RoughSurface& surface :
-       {RoughSurface::cubic(3e-6), RoughSurface::matching_gaussian(3e-6)}) {
-    for (const RoughBody& pair :
-         {in_series({surface, 2e12, 1e12}, wall), in_series(wall, {surface, 2e12, 1e12})}) {
-      EXPECT_EQ(pair.surface.law(), surface.law());
-      EXPECT_NEAR(pair.surface.at(2e-6).compression, surface.at(2e-6).compression, 1e-20);  // eps R
-      EXPECT_EQ(pair.normal_stiffness, 2e12);
-    }
-  }
-}
-
 TEST(RoughSurface, RefusesValuesOutOfRange) {
   EXPECT_THROW((void)RoughSurface::cubic(-1e-6), std::invalid_argument);
   EXPECT_THROW((void)RoughSurface::cubic(infinity), std::invalid_argument);
   EXPECT_THROW((void)RoughSurface::matching_gaussian(std::nan("")), std::invalid_argument);
   EXPECT_THROW((void)RoughSurface::gaussian(0.0, 0.0), std::invalid_argument);
   EXPECT_THROW((void)RoughSurface::gaussian(infinity, 1.0), std::invalid_argument);
-  EXPECT_THROW((void)in_series({RoughSurface::cubic(1e-6), 1.0, 1.0},
-                               {RoughSurface::matching_gaussian(1e-6), 1.0, 1.0}),
-               std::invalid_argument);
-  EXPECT_THROW((void)in_series({RoughSurface::cubic(1e-6), -1.0, 1.0},
-                               {RoughSurface::cubic(1e-6), 1.0, 1.0}),
-               std::invalid_argument);
 }
 
 }  // namespace

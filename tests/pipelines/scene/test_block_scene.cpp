@@ -159,7 +159,7 @@ TEST(BlockScene, ModalForcesAreForceAndMomentOfTheCells) {
       model.patches[0].cells.shapes.w.transpose() *
           model.patches[0].cells.weights.cwiseProduct(tractions.row(1).transpose());
   const contact::PatchSamples& cells = model.patches[0].cells;
-  contact::AreaVector whole = contact::AreaVector::Zero();  // (q, r, p)
+  Eigen::Vector<double, 6> whole = Eigen::Vector<double, 6>::Zero();  // (q, r, p)
   for (Eigen::Index i = 0; i < n; ++i) {
     whole += contact::cell_matrix(cells.points(i, 2), cells.points(i, 0)).transpose() *
              (cells.weights[i] * tractions.col(i));
