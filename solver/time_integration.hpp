@@ -3,7 +3,6 @@
 /// (theory section 18), with the same scene going in and the same numbers coming out.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "solver/response_curve.hpp"
@@ -29,15 +28,6 @@ struct TimePoint {
   std::vector<int> stick_phases;  ///< of each point, in the periods recorded
 };
 
-struct TimeCurve {
-  std::vector<TimePoint> points;          ///< in the order of the frequencies; periodic or not
-  bool complete = false;                  ///< every frequency was integrated
-  Diagnosis diagnosis = Diagnosis::none;  ///< else event_chatter, out_of_range
-  std::string message;                    ///< a sentence with the numbers
-  long contact_evaluations = 0;
-  double seconds = 0.0;
-};
-
 /// Integrates until the motion repeats itself or max_periods have passed, then records one period more
 /// (as many as the period multiple; the largest multiple when nothing repeats).
 /// @param state  where to start; left where the run ends, at θ = 0.
@@ -45,19 +35,5 @@ struct TimeCurve {
 /// @throws TimeError  as TimeStepper::advance_period().
 [[nodiscard]] TimePoint integrate_to_steady_state(const TimeSystem& system,
                                                   const TimeOptions& options, TimeState& state);
-
-/// The same from rest, or from a solution of harmonic balance: a referee of its points.
-[[nodiscard]] TimePoint steady_state(const Scene& scene, double frequency,
-                                     const TimeOptions& options);
-[[nodiscard]] TimePoint steady_state_from(const Scene& scene, double frequency, const Harmonics& q,
-                                          const TimeOptions& options);
-
-/// Steady states over a list of frequencies, the first from rest, each other from the last state of the
-/// one before: what a slow sweep finds. A list up and back down again shows coexisting states.
-/// @param frequencies  ω [rad/s], > 0.
-/// @throws std::invalid_argument  before anything is integrated where the scene, an option or a frequency is
-///         refused.
-[[nodiscard]] TimeCurve sweep(const Scene& scene, const std::vector<double>& frequencies,
-                              const TimeOptions& options);
 
 }  // namespace microslip::solver

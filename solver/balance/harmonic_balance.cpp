@@ -203,15 +203,6 @@ BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, d
   return result;
 }
 
-Eigen::MatrixXd HarmonicBalance::linear_operator(double frequency) const {
-  BalanceEvaluation result;
-  result.residual = Eigen::VectorXd::Zero(size());
-  result.parameter_derivative = Eigen::VectorXd::Zero(size());
-  result.jacobian = Eigen::MatrixXd::Zero(size(), size());
-  add_linear_part(Eigen::VectorXd::Zero(size()), frequency, result);
-  return result.jacobian;
-}
-
 Eigen::VectorXd HarmonicBalance::linear_response(double frequency,
                                                  const Eigen::MatrixXd& stiffness) const {
   // No linear force couples harmonics: one at a time.

@@ -58,8 +58,6 @@ class HarmonicBalance {
   /// damping gives entries that are not finite.
   [[nodiscard]] Eigen::VectorXd linear_response(double frequency,
                                                 const Eigen::MatrixXd& stiffness) const;
-  /// L(ω) as a matrix, n × n.
-  [[nodiscard]] Eigen::MatrixXd linear_operator(double frequency) const;
   /// Zero, or ModalForce::stuck_stiffness().
   [[nodiscard]] const Eigen::MatrixXd& stuck_stiffness() const { return stuck_stiffness_; }
   /// max(‖Q‖, ‖contact force of the stuck limit‖) [N/√kg]: what residuals are measured by.

@@ -88,8 +88,6 @@ void StepStates::read_ends(const BranchVector& from, const BranchVector& to) {
   after_at_ = to;
 }
 
-void StepStates::forget() { before_at_ = after_at_ = {}; }
-
 double StepStates::first_cut(const WalkerPoint& from, const WalkerPoint& to, double length) {
   if (!reader_) return 1.0;
   const double share = located(from, to, Bound::wanted);

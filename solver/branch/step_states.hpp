@@ -40,9 +40,6 @@ class StepStates {
   /// Most that the next step should have so that (1) holds. @param length  of the step accepted.
   [[nodiscard]] double next_length(double length) const;
 
-  /// The contact is another one, or has other points.
-  void forget();
-
   /// Steps that were cut, and those that change more than (1) all the same, at once.
   [[nodiscard]] long n_cuts() const { return n_cuts_; }
   [[nodiscard]] long n_forced() const { return n_forced_; }

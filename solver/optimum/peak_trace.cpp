@@ -1,7 +1,6 @@
 #include "solver/optimum/peak_trace.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -466,17 +465,6 @@ PeakTrace PeakFamilies::result() const {
     if (std::isfinite(peak.amplitude)) result.peaks.push_back(peak);
   }
   return result;
-}
-
-PeakTrace trace_peaks(const SceneFamily& family, const ContinuationOptions& range,
-                      const PeakTraceOptions& options) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  PeakFamilies families(family, range, options);
-  families.trace();
-  PeakTrace trace = families.result();
-  trace.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  return trace;
 }
 
 }  // namespace microslip::solver

@@ -71,7 +71,6 @@ struct PeakTrace {
   int n_curves = 0;                   ///< traced whole
   long iterations = 0;
   long contact_evaluations = 0;
-  double seconds = 0.0;
 };
 
 /// Thrown where ContinuationOptions::stop asks for an end; what was found until then is there.
@@ -154,9 +153,5 @@ class PeakFamilies {
   bool told_detached_ = false;
   PeakTrace result_;
 };
-
-/// @throws std::invalid_argument  bounds or counts out of range.
-[[nodiscard]] PeakTrace trace_peaks(const SceneFamily& family, const ContinuationOptions& range,
-                                    const PeakTraceOptions& options);
 
 }  // namespace microslip::solver

@@ -1,7 +1,6 @@
 #include "solver/time_integration.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -90,57 +89,12 @@ TimePoint run(const TimeSystem& system, TimeStepper& stepper, const TimeOptions&
   return point;
 }
 
-void check_all(const Scene& scene, const std::vector<double>& frequencies,
-               const TimeOptions& options) {
-  for (const double frequency : frequencies) {
-    const TimeSystem system(scene, frequency);
-    (void)make_stepper(system, options);
-  }
-}
-
 }  // namespace
 
 TimePoint integrate_to_steady_state(const TimeSystem& system, const TimeOptions& options,
                                     TimeState& state) {
   const auto stepper = make_stepper(system, options);
   return run(system, *stepper, options, state);
-}
-
-TimePoint steady_state(const Scene& scene, double frequency, const TimeOptions& options) {
-  const TimeSystem system(scene, frequency);
-  TimeState state = state_at_rest(system);
-  return integrate_to_steady_state(system, options, state);
-}
-
-TimePoint steady_state_from(const Scene& scene, double frequency, const Harmonics& q,
-                            const TimeOptions& options) {
-  const TimeSystem system(scene, frequency);
-  TimeState state = state_on(system, q);
-  return integrate_to_steady_state(system, options, state);
-}
-
-TimeCurve sweep(const Scene& scene, const std::vector<double>& frequencies,
-                const TimeOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  check_all(scene, frequencies, options);
-  TimeCurve curve;
-  curve.complete = true;
-  TimeState state;
-  for (std::size_t i = 0; i < frequencies.size() && curve.complete; ++i) {
-    const TimeSystem system(scene, frequencies[i]);
-    if (i == 0) state = state_at_rest(system);
-    const auto stepper = make_stepper(system, options);
-    try {
-      curve.points.push_back(run(system, *stepper, options, state));
-    } catch (const TimeError& error) {
-      curve.complete = false;
-      curve.diagnosis = error.diagnosis();
-      curve.message = "at " + std::to_string(frequencies[i]) + " rad/s: " + error.what();
-    }
-    curve.contact_evaluations += stepper->n_evaluations();
-  }
-  curve.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return curve;
 }
 
 }  // namespace microslip::solver

@@ -14,6 +14,7 @@
 #include "solver/continuation.hpp"
 #include "solver/optimum/peak_trace.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/traced_peaks.hpp"
 
 namespace {
 
@@ -94,7 +95,7 @@ solver::PeakTraceOptions preloads() {
 void peak_against_preload(benchmark::State& state) {
   const auto family = [&](double preload) { return strip(state.range(0), preload); };
   solver::PeakTrace trace;
-  for (auto _ : state) trace = solver::trace_peaks(family, range(), preloads());
+  for (auto _ : state) trace = tests::traced_peaks(family, range(), preloads());
   state.counters["peaks"] = static_cast<double>(trace.peaks.size());
   state.counters["curves"] = trace.n_curves;
   state.counters["evaluations"] = static_cast<double>(trace.contact_evaluations);
@@ -106,7 +107,7 @@ void peak_on_whole_curves(benchmark::State& state) {
   auto options = preloads();
   options.n_checks = options.n_values;
   solver::PeakTrace trace;
-  for (auto _ : state) trace = solver::trace_peaks(family, range(), options);
+  for (auto _ : state) trace = tests::traced_peaks(family, range(), options);
   state.counters["peaks"] = static_cast<double>(trace.peaks.size());
   state.counters["curves"] = trace.n_curves;
 }

@@ -24,6 +24,8 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/steady_states.hpp"
+#include "tests/support/traced_peaks.hpp"
 
 namespace microslip::branch_identity {
 namespace {
@@ -70,7 +72,7 @@ TEST(Veering, PeaksFollowedThroughItAreThoseOfTheCurves) {
   options.n_checks = 3;
   options.scale = solver::ParameterScale::linear;
   const auto range = frequency_range(0.9, 1.15);
-  const solver::PeakTrace trace = solver::trace_peaks(veering_scene, range, options);
+  const solver::PeakTrace trace = tests::traced_peaks(veering_scene, range, options);
   ASSERT_EQ(trace.peaks.size(), 33U);
   int n_two = 0;
   int n_tuned = 0;  // the highest peak is one of the tuned mode
@@ -180,7 +182,7 @@ TEST(NoStableMotion, IntegrationInTimeLeavesTheSolutionAndFindsNoPeriod) {
   solver::TimeOptions time;
   time.step_tolerance = 1e-7;
   time.max_periods = 800;
-  const auto end = solver::steady_state_from(scene, frequency, curve.points[0].q, time);
+  const auto end = tests::steady_state_from(scene, frequency, curve.points[0].q, time);
   EXPECT_FALSE(end.periodic);
 }
 

@@ -12,6 +12,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::time_integration {
 namespace {
@@ -22,7 +23,7 @@ solver::TimePoint settled(const tests::SinglePoint& single, double omega,
   tests::add_transient(scene);
   solver::TimeOptions options;
   options.max_periods = 2000;
-  const auto point = solver::steady_state(scene, omega, options);
+  const auto point = tests::steady_state(scene, omega, options);
   EXPECT_TRUE(std::isfinite(point.response.amplitude));
   if (point.periodic) {
     EXPECT_LT(point.response.energy_imbalance, energy_tolerance);
@@ -93,7 +94,7 @@ TEST(Grazing, OfTheLoadInNormalMotion) {
     single.point = {4.0, 4.0, 0.5, 4.0 * amplitude * (1.0 + excess)};
     solver::Scene scene = tests::single_point_scene(single);
     tests::add_transient(scene);
-    const auto point = solver::steady_state_from(scene, omega, q, {});
+    const auto point = tests::steady_state_from(scene, omega, q, {});
     ASSERT_TRUE(point.periodic) << excess;
     // Separation of relative depth ε lasts √ε and changes the force by ε^(3/2).
     EXPECT_NEAR(point.response.amplitude, amplitude, 1e-6 * amplitude) << excess;

@@ -26,6 +26,7 @@
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::pipelines::block_time {
 namespace {
@@ -66,7 +67,7 @@ Pair solve(const Block& block, double load, double frequency_hz,
   scene.transient = contact_of(block.model, load).transient_force();
   const auto curve = solver::solve_at_frequency(scene, omega, options);
   EXPECT_TRUE(curve.complete) << curve.message;
-  Pair pair{curve.points.at(0), solver::steady_state(scene, omega, time_options)};
+  Pair pair{curve.points.at(0), tests::steady_state(scene, omega, time_options)};
   EXPECT_EQ(pair.time.period_multiple, 1);
   return pair;
 }
@@ -107,7 +108,7 @@ TEST(BlockInTime, AgreesWithHarmonicBalanceOnRoughCells) {
   scene.transient = contact_of(rough.model, 20.0).transient_force();
   Pair same = pairs[0];
   same.time =
-      solver::steady_state_from(scene, same.balance.frequency, same.balance.q, close_enough());
+      tests::steady_state_from(scene, same.balance.frequency, same.balance.q, close_enough());
   print("its history", 20.0, 22.0, same);
   EXPECT_LT(difference(same), 0.5 * difference(pairs[0]));
 }

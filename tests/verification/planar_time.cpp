@@ -40,6 +40,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::planar_time {
 namespace {
@@ -80,7 +81,7 @@ TEST(PlanarTime, RunsAroundACircle) {
                                      {drive, 0.0, 0.0}, {0.0, 0.0, sense * drive});
     solver::TimeOptions options;
     options.periodicity_tolerance = 1e-9;
-    const auto point = solver::steady_state(scene, omega, options);
+    const auto point = tests::steady_state(scene, omega, options);
     ASSERT_EQ(point.period_multiple, 1);
     const double radius = std::sqrt(a * a - std::pow(limit / k, 2));
     std::printf("circle: amplitude %.12f, expected %.12f; work %.12f, expected %.12f; %d periods\n",
@@ -298,7 +299,7 @@ struct Agreement {
       return curve.points.at(0);
     };
     const solver::ResponsePoint many = balance(15);
-    const auto time = solver::steady_state_from(scene, omega, many.q, time_options);
+    const auto time = tests::steady_state_from(scene, omega, many.q, time_options);
     if (time.period_multiple != 1) {
       ++n_left_out;
       return;
@@ -347,7 +348,7 @@ TEST(PlanarTime, StuckRoughContactIsASpring) {
   solver::TimeOptions options;
   options.periodicity_tolerance = 1e-9;
   const double omega = 1.3;
-  const auto response = solver::steady_state(scene, omega, options).response;
+  const auto response = tests::steady_state(scene, omega, options).response;
   const double share = law.at(0.0, 0.0).stiffness_ratio;
   EXPECT_LT(share, 0.9);
   const auto exact = [&](double natural, double stiffness, double force) {

@@ -20,6 +20,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/traced_peaks.hpp"
 
 namespace microslip::random_scenes {
 namespace {
@@ -136,7 +137,7 @@ TEST(RandomScenes, HaveThePeaksThatAreFollowedOnTheirWholeCurves) {
     options.lower = 0.1;
     options.upper = 10.0;
     options.n_values = 13;
-    const solver::PeakTrace trace = solver::trace_peaks(family, range, options);
+    const solver::PeakTrace trace = tests::traced_peaks(family, range, options);
     n_values += trace.peaks.size();
     n_curves += trace.n_curves;
     for (const solver::PeakOfParameter& peak : trace.peaks) {

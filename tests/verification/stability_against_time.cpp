@@ -21,6 +21,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::stability_against_time {
 namespace {
@@ -51,7 +52,7 @@ Harmonics attractor_from(const solver::Scene& scene, double frequency, const Har
   options.periodicity_tolerance = 1e-4;  // likewise
   options.max_periods = 2000;
   options.n_harmonics = n_harmonics;
-  const auto point = solver::steady_state_from(scene, frequency, start, options);
+  const auto point = tests::steady_state_from(scene, frequency, start, options);
   EXPECT_EQ(point.period_multiple, 1) << frequency;
   return point.response.q;
 }
@@ -162,7 +163,7 @@ TEST(StabilityAgainstTime, EveryFrequencyOfACurveWithoutFoldsIsJudgedAsTimeInteg
     time.step_tolerance = 1e-7;
     time.periodicity_tolerance = 1e-4;
     time.max_periods = 1000;  // the pair grows by 2.8 % per period: a factor e²⁷
-    const auto end = solver::steady_state_from(scene, point.frequency, point.q, time);
+    const auto end = tests::steady_state_from(scene, point.frequency, point.q, time);
     const bool stays = end.period_multiple == 1 && distance(end.response.q, point.q) < 0.02;
     EXPECT_EQ(point.stability, stays ? Stability::stable : Stability::unstable) << hz;
     n_left += stays ? 0 : 1;

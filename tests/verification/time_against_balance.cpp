@@ -30,6 +30,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::time_against_balance {
 namespace {
@@ -75,7 +76,7 @@ void compare(std::uint64_t seed, Campaign& campaign) {
   options.max_periods = 200;
   options.n_harmonics = most_harmonics;
   if (closed.report.stick_share == 1.0 || closed.report.separated_share == 1.0) {
-    const auto point = solver::steady_state_from(random.scene, frequency, closed.q, options);
+    const auto point = tests::steady_state_from(random.scene, frequency, closed.q, options);
     EXPECT_EQ(point.period_multiple, 1) << seed;
     EXPECT_EQ(point.n_events, 0) << seed;
     const double here = difference(closed, point.response);
@@ -89,7 +90,7 @@ void compare(std::uint64_t seed, Campaign& campaign) {
   options.periodicity_tolerance = 1e-6;
   const solver::ResponsePoint few = balance_point(random, frequency, 3);
   const solver::ResponsePoint many = balance_point(random, frequency, many_harmonics);
-  const auto point = solver::steady_state_from(random.scene, frequency, many.q, options);
+  const auto point = tests::steady_state_from(random.scene, frequency, many.q, options);
   if (point.period_multiple != 1) {
     ++campaign.n_left_out;
     return;
@@ -152,11 +153,10 @@ double compare_sweeps(const char* name, solver::Scene scene) {
   time_options.step_tolerance = 1e-8;
   time_options.periodicity_tolerance = 1e-6;
   time_options.max_periods = 3000;  // 10 N at 18 Hz takes 1800
-  const auto sweep = solver::sweep(scene, frequencies, time_options);
-  EXPECT_TRUE(sweep.complete) << sweep.message;
+  const auto swept = tests::swept_states(scene, frequencies, time_options);
   double largest = 0.0;
   int n_left_out = 0;
-  for (const auto& point : sweep.points) {
+  for (const auto& point : swept) {
     if (point.period_multiple != 1) {
       std::printf("  %s: left out %.1f Hz, not of period one after %d periods\n", name,
                   point.response.frequency / (2.0 * M_PI), point.n_periods);
@@ -166,7 +166,7 @@ double compare_sweeps(const char* name, solver::Scene scene) {
     largest = std::max(largest, distance_to_branch(scene, branch, point.response, options) / peak);
   }
   std::printf("%s: largest difference %.1e of the peak, %d of %zu left out\n", name, largest,
-              n_left_out, sweep.points.size());
+              n_left_out, swept.size());
   EXPECT_LE(n_left_out, 2) << name;  // theory section 20.4: there are such frequencies at 10 N
   return largest;
 }

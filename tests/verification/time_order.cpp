@@ -15,6 +15,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::time_order {
 namespace {
@@ -93,7 +94,7 @@ TEST(EnergyBalance, HoldsOverASteadyPeriod) {
       scene.damping_ratio.setConstant(damping);
       solver::TimeOptions options;
       options.periodicity_tolerance = 1e-9;
-      const auto point = solver::steady_state(scene, 2.0 * M_PI * 20.5, options);
+      const auto point = tests::steady_state(scene, 2.0 * M_PI * 20.5, options);
       const double tolerance = 1e-9 * 2.0 / (4.0 * M_PI * damping) + 1e-8;  // 1e-8: 1e-10 per step
       std::printf("preload %5.0f, damping %.3f: %4d periods, energy imbalance %.1e\n", preload,
                   damping, point.n_periods, point.response.energy_imbalance);

@@ -14,6 +14,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::time_scenes {
 namespace {
@@ -28,7 +29,7 @@ solver::TimePoint oscillator(double ratio, solver::TimeMethod method) {
   tests::add_transient(scene);
   solver::TimeOptions options;
   options.method = method;
-  return solver::steady_state(scene, ratio, options);
+  return tests::steady_state(scene, ratio, options);
 }
 
 class Oscillator : public testing::TestWithParam<solver::TimeMethod> {};
@@ -77,13 +78,11 @@ TEST(Chain, ThirtyNewtonsGiveTheLowestPeakFreeAndStuckTheHighest) {
            {0.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 600.0}, {0.0, 20.0, 30.0, 50.0, 600.0})) {
     solver::Scene scene = tests::chain_scene(preload);
     tests::add_transient(scene);
-    const auto curve = solver::sweep(scene, frequencies(19.0, 26.0, 0.25), quick());
-    ASSERT_TRUE(curve.complete) << curve.message;
-    for (const auto& point : curve.points) {
+    for (const auto& point : tests::swept_states(scene, frequencies(19.0, 26.0, 0.25), quick())) {
       EXPECT_TRUE(point.periodic) << preload;
       peak[preload] = std::max(peak[preload], point.response.amplitude);
     }
-    std::printf("preload %7.0f N: peak %.6e m, %.2f s\n", preload, peak[preload], curve.seconds);
+    std::printf("preload %7.0f N: peak %.6e m\n", preload, peak[preload]);
   }
   for (const auto& [preload, value] : peak) {
     if (preload != 30.0) {
@@ -104,20 +103,18 @@ std::vector<double> coexisting(double preload) {
   up.insert(up.begin(), hertz * 22.0);
   std::vector<double> both = up;
   both.insert(both.end(), up.rbegin(), up.rend());
-  const auto curve = solver::sweep(scene, both, quick());
-  EXPECT_TRUE(curve.complete) << curve.message;
+  const auto points = tests::swept_states(scene, both, quick());
   std::vector<double> found;
-  if (!curve.complete) return found;
   for (std::size_t i = 0; i < up.size(); ++i) {
-    const auto& a = curve.points[i];
-    const auto& b = curve.points[both.size() - 1 - i];
+    const auto& a = points[i];
+    const auto& b = points[both.size() - 1 - i];
     if (!a.periodic || !b.periodic) continue;
     if (b.response.amplitude > 1.5 * a.response.amplitude) found.push_back(up[i] / hertz);
     EXPECT_LT(a.response.amplitude, 1.01 * b.response.amplitude);  // the way down stays high
   }
   std::printf("preload %3.0f N: two steady states at", preload);
   for (const double f : found) std::printf(" %.2f", f);
-  std::printf(" Hz, %.2f s\n", curve.seconds);
+  std::printf(" Hz\n");
   return found;
 }
 

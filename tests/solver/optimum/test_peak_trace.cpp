@@ -12,6 +12,7 @@
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/traced_peaks.hpp"
 
 namespace microslip::solver::test_peak_trace {
 namespace {
@@ -51,7 +52,8 @@ Scene with_preload(std::uint64_t seed, double factor) {
 }
 
 TEST(PeakTrace, OfTheChainIsThatOfWholeCurves) {
-  const PeakTrace trace = trace_peaks(tests::chain_scene, chain_range(), between(3.0, 600.0, 30));
+  const PeakTrace trace =
+      tests::traced_peaks(tests::chain_scene, chain_range(), between(3.0, 600.0, 30));
   ASSERT_EQ(trace.peaks.size(), 30U);
   EXPECT_LT(trace.n_curves, 8);
   for (const PeakOfParameter& peak : trace.peaks) {
@@ -64,7 +66,7 @@ TEST(PeakTrace, OfTheChainIsThatOfWholeCurves) {
 
 TEST(PeakTrace, FollowsPeaksThatLieBesideFolds) {
   const auto family = [](double preload) { return tests::three_dof_scene(preload); };
-  const PeakTrace trace = trace_peaks(family, chain_range(), between(10.0, 600.0, 25));
+  const PeakTrace trace = tests::traced_peaks(family, chain_range(), between(10.0, 600.0, 25));
   ASSERT_EQ(trace.peaks.size(), 25U);
   EXPECT_LT(trace.n_curves, 13);
   for (const PeakOfParameter& peak : trace.peaks) {
@@ -87,7 +89,8 @@ Scene two_modes(double force) {
 }
 
 TEST(PeakTrace, SeesASecondPeakOvertake) {
-  const PeakTrace trace = trace_peaks(two_modes, frequency_range(0.5, 3.0), between(1.0, 16.0, 20));
+  const PeakTrace trace =
+      tests::traced_peaks(two_modes, frequency_range(0.5, 3.0), between(1.0, 16.0, 20));
   ASSERT_EQ(trace.peaks.size(), 20U);
   for (const PeakOfParameter& peak : trace.peaks) {
     EXPECT_NEAR(peak.frequency, peak.parameter < 4.0 ? 1.0 : 2.0, 0.02) << peak.parameter;
@@ -105,7 +108,7 @@ TEST(PeakTrace, TakesAnyParameterOnALinearScale) {
   };
   PeakTraceOptions options = between(-4.0, 4.0, 17);
   options.scale = ParameterScale::linear;
-  const PeakTrace trace = trace_peaks(family, frequency_range(0.5, 2.5), options);
+  const PeakTrace trace = tests::traced_peaks(family, frequency_range(0.5, 2.5), options);
   ASSERT_EQ(trace.peaks.size(), 17U);
   for (const PeakOfParameter& peak : trace.peaks) {
     EXPECT_NEAR(peak.amplitude, highest_of_curve(family(peak.parameter), frequency_range(0.5, 2.5)),
@@ -119,7 +122,7 @@ TEST(PeakTrace, CountsDetachedBranchesWhereASearchFindsThem) {
   options.n_checks = 2;
   ContinuationOptions searched = frequency_range(0.6, 1.4);
   searched.search_starts = 12;
-  const PeakTrace with = trace_peaks(tests::isola_scene, searched, options);
+  const PeakTrace with = tests::traced_peaks(tests::isola_scene, searched, options);
   ASSERT_EQ(with.peaks.size(), 5U);
   for (const PeakOfParameter& peak : with.peaks) {
     EXPECT_NEAR(peak.amplitude, 10.0 * peak.parameter, 1e-6);  // of the isola, at its root
@@ -128,19 +131,19 @@ TEST(PeakTrace, CountsDetachedBranchesWhereASearchFindsThem) {
   EXPECT_TRUE(with.peaks.front().detached);
   EXPECT_GE(with.warnings.size(), 2U);  // one for each check
   for (const PeakOfParameter& peak :
-       trace_peaks(tests::isola_scene, frequency_range(0.6, 1.4), options).peaks) {
+       tests::traced_peaks(tests::isola_scene, frequency_range(0.6, 1.4), options).peaks) {
     EXPECT_LT(peak.amplitude, 2.0);
     EXPECT_FALSE(peak.detached);
   }
 }
 
 TEST(PeakTrace, RefusesBoundsThatAreNone) {
-  EXPECT_THROW(
-      static_cast<void>(trace_peaks(two_modes, frequency_range(0.5, 3.0), between(2.0, 1.0, 5))),
-      std::invalid_argument);
-  EXPECT_THROW(
-      static_cast<void>(trace_peaks(two_modes, frequency_range(0.5, 3.0), between(-1.0, 1.0, 5))),
-      std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(
+                   tests::traced_peaks(two_modes, frequency_range(0.5, 3.0), between(2.0, 1.0, 5))),
+               std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(tests::traced_peaks(two_modes, frequency_range(0.5, 3.0),
+                                                     between(-1.0, 1.0, 5))),
+               std::invalid_argument);
 }
 
 TEST(PeakTrace, OfRandomScenesIsThatOfWholeCurves) {
@@ -148,7 +151,7 @@ TEST(PeakTrace, OfRandomScenesIsThatOfWholeCurves) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const ContinuationOptions options = tests::random_scene(seed).options;
     const auto family = [&](double factor) { return with_preload(seed, factor); };
-    const PeakTrace trace = trace_peaks(family, options, between(0.1, 10.0, 9));
+    const PeakTrace trace = tests::traced_peaks(family, options, between(0.1, 10.0, 9));
     values += static_cast<int>(trace.peaks.size());
     for (const PeakOfParameter& peak : trace.peaks) {
       const double whole = highest_of_curve(family(peak.parameter), options);
@@ -167,7 +170,7 @@ TEST(PeakTrace, OfPeaksThatEnterAndLeaveTheRangeIsThatOfWholeCurves) {
     options.frequency_begin += 0.35 * width;
     options.frequency_end -= 0.35 * width;
     const auto family = [&](double factor) { return with_preload(seed, factor); };
-    const PeakTrace trace = trace_peaks(family, options, between(0.1, 10.0, 9));
+    const PeakTrace trace = tests::traced_peaks(family, options, between(0.1, 10.0, 9));
     EXPECT_EQ(trace.peaks.size(), 9U) << seed;
     for (const PeakOfParameter& peak : trace.peaks) {
       (peak.place == PeakPlace::range_end ? at_an_end : at_a_peak) += 1;

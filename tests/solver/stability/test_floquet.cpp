@@ -16,6 +16,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::solver::test_floquet {
 namespace {
@@ -213,7 +214,7 @@ TEST(Floquet, MotionThatLeavesItsSolutionHasAPairOutsideTheUnitCircle) {
   TimeOptions options;
   options.max_periods = 1500;
   options.step_tolerance = 1e-7;
-  const TimePoint end = steady_state_from(chain.scene, point.frequency, point.q, options);
+  const TimePoint end = tests::steady_state_from(chain.scene, point.frequency, point.q, options);
   EXPECT_FALSE(end.periodic);  // with no period of one to four cycles
   EXPECT_GT((end.response.q.rows() - point.q.rows().topRows(11)).middleRows(1, 2).norm(),
             0.05 * point.q.rows().middleRows(1, 2).norm());

@@ -9,9 +9,13 @@
 #include "solver/continuation.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/steady_states.hpp"
 
 namespace microslip::solver::test_time_integration {
 namespace {
+
+using tests::steady_state;
+using tests::steady_state_from;
 
 Scene oscillator(double preload, double damping = 0.05) {
   tests::SinglePoint single;
@@ -146,41 +150,6 @@ TEST(SteadyState, FromHarmonicBalanceTakesFewerPeriodsToTheSameEnd) {
   ASSERT_TRUE(cold.periodic && warm.periodic);
   EXPECT_LT(warm.n_periods, cold.n_periods);
   EXPECT_NEAR(warm.response.amplitude, cold.response.amplitude, 1e-6 * cold.response.amplitude);
-}
-
-TEST(Sweep, GoesThroughTheFrequenciesInTheirOrder) {
-  const std::vector<double> list{0.5, 0.8, 0.6};
-  const TimeCurve curve = sweep(oscillator(1.0), list, {});
-  ASSERT_TRUE(curve.complete);
-  ASSERT_EQ(curve.points.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(curve.points[i].response.frequency, list[i]);
-  const TimePoint alone = steady_state(oscillator(1.0), 0.6, {});
-  EXPECT_NEAR(curve.points[2].response.amplitude, alone.response.amplitude,
-              1e-6 * alone.response.amplitude);
-  EXPECT_GT(curve.contact_evaluations, 0);
-}
-
-TEST(Sweep, EndsWithANamedDiagnosisAndKeepsWhatItHas) {
-  TimeOptions options;
-  options.max_events = 6;  // the first frequency has four in a period, the second eight
-  tests::SinglePoint single;
-  single.damping_ratio = 0.05;
-  single.point = {100.0, 0.0, 0.5, 1.0};
-  Scene scene = tests::single_point_scene(single);
-  tests::add_transient(scene);
-  const TimeCurve curve = sweep(scene, {0.75, 0.5}, options);
-  EXPECT_FALSE(curve.complete);
-  EXPECT_EQ(curve.points.size(), 1U);
-  EXPECT_EQ(curve.diagnosis, Diagnosis::event_chatter);
-  EXPECT_FALSE(curve.message.empty());
-}
-
-TEST(Sweep, RefusesBeforeItStarts) {
-  TimeOptions options;
-  options.method = TimeMethod::rk4;
-  options.steps_per_period = 100;
-  // Enough at 2 rad/s, too few at 0.01.
-  EXPECT_THROW((void)sweep(oscillator(1.0), {2.0, 0.01}, options), std::invalid_argument);
 }
 
 }  // namespace
