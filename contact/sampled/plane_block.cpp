@@ -12,6 +12,10 @@ namespace {
 constexpr int most_periods = 60;
 // Periods after which the march is helped: a slider that comes to rest soon is left alone.
 constexpr int first_jump = 3;
+// Periods after which (1) should have found the cycle.
+constexpr int slow_search = 8;
+// A march that takes longer goes along a valley between two windows.
+constexpr int slow_march = 20;
 // Of the width of the ellipse: below what instants leave, above what rounding of a period does.
 constexpr double settled = 1e-12;
 
@@ -179,36 +183,95 @@ PlaneBlock::State PlaneBlock::virgin() const {
   return state;
 }
 
-void PlaneBlock::settle() {
-  const PlaneKernels& kernels = plane_kernels();
-  std::array<double, block_size> slips{};
+void PlaneBlock::begin_search() {
   std::array<double, block_size> least{};
   std::array<double, block_size> most{};
   line_kernels().range(instants_->size(), closeness_.data(), least.data(), most.data());
   start_ = virgin();
   for (std::size_t p = 0; p < block_size; ++p) {
     search_[p] = {};
-    defect_[p] = 0.0;
-    search_[p].settled = most[p] <= 0.0;
+    search_[p].parts = least[p] <= 0.0;
+    search_[p].settled = most[p] <= 0.0 || p >= points_.size();
   }
+}
+
+void PlaneBlock::settle() {
+  const PlaneKernels& kernels = plane_kernels();
+  std::array<double, block_size> slips{};
   for (int period = 0; period < most_periods; ++period) {
-    if (std::ranges::all_of(search_, [](const Search& s) { return s.settled; })) return;
+    if (std::ranges::all_of(search_, [](const Search& s) { return s.settled; })) break;
     const State before = start_;
     State end = start_;
-    kernels.march(arrays_, equal_, end.data(), slips.data());
+    const bool looks = looks_for_corners(period);
+    (looks ? kernels.record : kernels.march)(arrays_, equal_, end.data(), slips.data());
     for (std::size_t p = 0; p < block_size; ++p) {
-      if (search_[p].settled) continue;
-      if (least[p] <= 0.0) {  // parts: what was before touch-down does not matter
-        copy(end, p, start_);
-        search_[p].settled = true;
-      }
+      if (search_[p].settled || !search_[p].parts) continue;
+      copy(end, p, start_);  // what was before touch-down does not matter
+      search_[p].settled = true;
     }
+    if (looks) rest_in_corners(end, slips, period >= slow_march);
     step_on(before, end, slips);
   }
   for (std::size_t p = 0; p < block_size; ++p) {
-    if (search_[p].settled) continue;
-    defect_[p] = search_[p].change_size * std::max(stiffness_p_[p], stiffness_r_[p]);
+    const double stiffness = std::max(stiffness_p_[p], stiffness_r_[p]);
+    defect_[p] = search_[p].settled ? 0.0 : search_[p].reach * stiffness;
   }
+}
+
+/// Before the march is helped for the first time, and where that has not been enough.
+bool PlaneBlock::looks_for_corners(int period) const {
+  if (period == first_jump - 1 || period >= slow_search) return true;
+  return std::ranges::any_of(search_, [](const Search& s) { return !s.settled && s.marches; });
+}
+
+/// Of points that slip in the recorded period.
+void PlaneBlock::rest_in_corners(const State& end, std::span<const double> slips, bool is_slow) {
+  std::array<std::optional<std::array<std::size_t, 2>>, block_size> ends;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (!search_[p].settled && slips[p] > 0.0) ends[p] = two_ends_of_slip(arrays_, p);
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (ends[p].has_value()) search_[p].settled = rest_in_corner(p, *ends[p], end, is_slow);
+  }
+}
+
+/// Whether both windows leave the slider in their corner. A slow march along the valley between them may be taken
+/// over by a third before it: it is followed to the corner of the two that push then. Writes over what is recorded.
+bool PlaneBlock::rest_in_corner(std::size_t p, std::array<std::size_t, 2> instants, State state,
+                                bool is_slow) {
+  constexpr int most_windows = 4;
+  std::array<double, block_size> slips{};
+  for (int i = 0; i < (is_slow ? most_windows : 1); ++i) {
+    const auto corner = meeting_corner(arrays_, p, instants, {state[p], state[block_size + p]});
+    if (!corner.has_value()) return false;
+    state[p] = corner->slider[0];
+    state[block_size + p] = corner->slider[1];
+    plane_kernels().start(arrays_, state.data());
+    plane_kernels().record(arrays_, equal_, state.data(), slips.data());
+    if (!(slips[p] > 0.0)) {
+      copy(state, p, start_);
+      search_[p].corner = corner;
+      return true;
+    }
+    const auto next = two_ends_of_slip(arrays_, p);
+    if (!next.has_value()) return false;
+    instants = *next;
+  }
+  return false;
+}
+
+/// Points that (1) has brought to rest: where that is, is history. Whether there are any.
+bool PlaneBlock::march_what_rests() {
+  bool any = false;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Search& search = search_[p];
+    const bool rests = runs_[p].size() == 1 && runs_[p][0].state == InstantState::stick;
+    if (!search.settled || !search.jumped || !rests) continue;
+    search.jumped = search.settled = false;
+    search.marches = any = true;
+    copy(march_, p, start_);
+  }
+  return any;
 }
 
 /// Of one point.
@@ -225,7 +288,13 @@ bool PlaneBlock::jump(std::size_t p, const State& before, const State& end, Stat
   const std::array<double, 2> g = {along(end, 0) - along(before, 0),
                                    along(end, 1) - along(before, 1)};
   if (!search.jumped) ++search.periods;
+  const double last = search.change_size;
   search.change_size = std::hypot(g[0], g[1]);
+  // The sum of what follows, by the last ratio; that of a march in a valley creeps towards one, and
+  // takes twice.
+  const double widest = 2.0 * std::max(width_p_[p], width_r_[p]);
+  const double left = last - search.change_size;
+  search.reach = left > 0.0 ? std::min(widest, 2.0 * last * search.change_size / left) : widest;
   if (search.change_size <= settled * std::max(width_p_[p], width_r_[p])) {
     search.settled = true;
     copy(end, p, start_);
@@ -284,6 +353,7 @@ PlaneDerivatives::Point PlaneBlock::point_of(std::size_t place) const {
 
 /// Whether a point is where it is by its history: at rest, or on its way there.
 bool PlaneBlock::has_history(std::size_t p) const {
+  if (search_[p].corner.has_value()) return true;
   const bool rests = runs_[p].size() == 1 && runs_[p][0].state == InstantState::stick;
   return rests || search_[p].marches;
 }
@@ -295,6 +365,10 @@ void PlaneBlock::keep_histories() {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     derivatives_[p].reset(*instants_);
     if (!has_history(p)) continue;
+    if (search_[p].corner.has_value()) {
+      derivatives_[p].begin_corner(point_of(p), *search_[p].corner);
+      continue;
+    }
     derivatives_[p].begin_history(point_of(p), start_of(state, p));
     most = std::max(most, search_[p].periods);
   }
@@ -303,13 +377,27 @@ void PlaneBlock::keep_histories() {
     const State begin = state;
     plane_kernels().linearise(arrays_, equal_, state.data(), slips.data());
     for (std::size_t p = 0; p < points_.size(); ++p) {
-      if (!has_history(p) || period >= search_[p].periods) continue;
+      const bool carries = has_history(p) && !search_[p].corner.has_value();
+      if (!carries || period >= search_[p].periods) continue;
       derivatives_[p].carry_history(point_of(p), start_of(begin, p));
     }
   }
   if (most == 0) return;
   state = start_;
   plane_kernels().linearise(arrays_, equal_, state.data(), slips.data());
+}
+
+/// The steady period, with what derivatives need.
+void PlaneBlock::record(Ask ask) {
+  const std::size_t n = instants_->size();
+  const PlaneKernels& kernels = plane_kernels();
+  std::array<double, block_size> slips{};
+  State state = start_;
+  (ask == Ask::derivatives ? kernels.linearise : kernels.record)(arrays_, equal_, state.data(),
+                                                                 slips.data());
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    find_runs(state_.data() + p, n, block_size, runs_[p]);
+  }
 }
 
 void PlaneBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMotion& motion,
@@ -330,16 +418,14 @@ void PlaneBlock::evaluate(const std::vector<SurfaceLaw>& surfaces, const PatchMo
   const std::size_t n = of_motion.size();
   plane_kernels().invert(n, width_p_.data(), inverse_p_.data());
   plane_kernels().invert(n, width_r_.data(), inverse_r_.data());
+  begin_search();
   settle();
-  std::array<double, block_size> slips{};
-  State state = start_;
-  const bool derivatives = ask == Ask::derivatives;
-  (derivatives ? plane_kernels().linearise : plane_kernels().record)(arrays_, equal_, state.data(),
-                                                                     slips.data());
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    find_runs(state_.data() + p, n, block_size, runs_[p]);
+  record(ask);
+  if (march_what_rests()) {
+    settle();
+    record(ask);
   }
-  if (derivatives) keep_histories();
+  if (ask == Ask::derivatives) keep_histories();
   for (std::size_t at = 0; at < n * block_size; ++at) {
     force_p_[at] = limit_[at] * pull_p_[at];
     force_r_[at] = limit_[at] * pull_r_[at];

@@ -9,15 +9,19 @@
 ///   s ← Φ(s) − γ (Φ(s) − Φ(s')),   γ = g·(g − g')/|g − g'|²,   g = Φ(s) − s                          (1)
 ///
 /// (after slip the slider has one coordinate, and (1) is the secant of one equation). Where that leads to a slider
-/// at rest, the march is gone through without it: where a slider comes to rest is history.
+/// at rest, the march is gone through without it: where a slider comes to rest is history. Where two stretches of slip
+/// push it in turn into the corner of their ellipses it goes there at once (plane_corner.hpp): by itself it comes near
+/// like 1/periods.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/force/sleeping_set.hpp"
 #include "contact/sampled/instants.hpp"
+#include "contact/sampled/plane_corner.hpp"
 #include "contact/sampled/plane_kernels.hpp"
 #include "contact/sampled/plane_point.hpp"
 #include "contact/surface/surface_law.hpp"
@@ -55,8 +59,15 @@ class PlaneBlock {
   void load_smooth();
   void ask_surfaces();
   void smooth_slopes(std::size_t place);
+  void begin_search();
   void settle();
+  void record(Ask ask);
   static void copy(const State& from, std::size_t p, State& to);
+  [[nodiscard]] bool looks_for_corners(int period) const;
+  void rest_in_corners(const State& end, std::span<const double> slips, bool is_slow);
+  [[nodiscard]] bool rest_in_corner(std::size_t p, std::array<std::size_t, 2> instants, State state,
+                                    bool is_slow);
+  [[nodiscard]] bool march_what_rests();
   [[nodiscard]] bool jump(std::size_t p, const State& before, const State& end, State& next);
   void step_on(const State& before, const State& end, std::span<const double> slips);
   [[nodiscard]] PlaneStart start_of(const State& state, std::size_t place) const;
@@ -70,6 +81,7 @@ class PlaneBlock {
 
   /// What the search for the periodic slider knows of a point.
   struct Search {
+    bool parts = false;
     bool settled = false;
     bool marches = false;            // without (1)
     bool jumped = false;             // the last period began at (1)
@@ -77,6 +89,8 @@ class PlaneBlock {
     std::array<double, 2> change{};  // g' of (1)
     std::array<double, 2> end{};     // Φ(s')
     double change_size = 0.0;        // |g|
+    double reach = 0.0;              // what the slider may still go
+    std::optional<PlaneCorner> corner;
   };
 
   const std::vector<SurfaceLaw>* surfaces_ = nullptr;

@@ -238,6 +238,30 @@ void PlaneDerivatives::begin_history(const Point& point, const PlaneStart& start
   start_ = nullptr;
 }
 
+/// n·ds = Σ_k c_k n_k·(dx_k − dW_k e_k) of both windows, with n of the whole window on the left.
+void PlaneDerivatives::begin_corner(const Point& point, const PlaneCorner& corner) {
+  point_ = point;
+  start_ = nullptr;
+  const Vector& a = corner.windows[0].normal;
+  const Vector& b = corner.windows[1].normal;
+  const double divisor = a[0] * b[1] - a[1] * b[0];
+  const std::array<Vector, 2> by_excess = {Vector{b[1] / divisor, -a[1] / divisor},
+                                           Vector{-b[0] / divisor, a[0] / divisor}};
+  for (std::size_t d = 0; d < 2; ++d) {
+    std::fill(slider_[d].begin(), slider_[d].end(), 0.0);
+    for (std::size_t j = 0; j < 2; ++j) {
+      for (const CornerInstant& now : corner.windows[j].instants) {
+        const double part = by_excess[d][j] * now.share;
+        const Vector by_x = {part * now.normal[0], part * now.normal[1]};
+        add_position(slider_[d], now.instant, by_x[0], by_x[1]);
+        add_width(slider_[d], now.instant, -by_x[0] * now.length * now.pull[0],
+                  -by_x[1] * now.length * now.pull[1]);
+      }
+    }
+  }
+  memory_ = Memory::slider;
+}
+
 void PlaneDerivatives::carry_history(const Point& point, const PlaneStart& start) {
   point_ = point;
   start_ = &start;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "contact/sampled/instants.hpp"
+#include "contact/sampled/plane_corner.hpp"
 #include "contact/sampled/plane_kernels.hpp"
 #include "contact/sampled/product_kernels.hpp"
 #include "contact/sampled/runs.hpp"
@@ -59,6 +60,8 @@ class PlaneDerivatives {
   void reset(const Instants& instants);
   /// The memory of a virgin slider at instant 0. @param start  what became of it.
   void begin_history(const Point& point, const PlaneStart& start);
+  /// The memory of a slider in a corner instead.
+  void begin_corner(const Point& point, const PlaneCorner& corner);
   /// One period further. @param start  before it.
   void carry_history(const Point& point, const PlaneStart& start);
   /// Of the period that follows on the history. @param start  before it.

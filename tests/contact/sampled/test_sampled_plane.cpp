@@ -211,6 +211,43 @@ TEST(SampledPlane, CircularMotionUnderConstantLoad) {
               2.0 * std::numbers::pi * tolerance);
 }
 
+// Theory section 9: u = a cos(θ − 0.3), w = m under constant load, W = μn/k. The discs around both
+// ends of the way meet in the points (0, ±√(W² − a²)), and a slider that begins below them is
+// pushed into the lower by one and the other in turn, by 1/periods where a nears W. There f_p = k
+// u, f_r = k √(W² − a²).
+TEST(SampledPlane, ASliderPushedByTwoWindowsInTurnRestsInTheirCorner) {
+  constexpr double stiffness = 2.0;
+  constexpr double width = 0.25;  // μ 0.5, n 1
+  for (const double part : {0.8, 0.95, 0.99, 0.999}) {
+    const double a = part * width;
+    const double height = std::sqrt(width * width - a * a);
+    Harmonics q(1, 3);
+    q.rows()(1, 0) = a * std::sin(0.3);
+    q.rows()(2, 0) = a * std::cos(0.3);
+    q.rows()(0, 2) = height + 0.1 * width;
+    constexpr int instants = 256;
+    const auto now =
+        one_point(SurfaceLaw({stiffness, 0.0, 0.5, 1.0}, stiffness), 3, instants).evaluate(q, 1.0);
+    // The parabola through the three highest instants errs by (h/2)⁴ of a at most, seen through the
+    // slope of the corner.
+    const double h = 2.0 * std::numbers::pi / instants;
+    const double tolerance = std::pow(0.5 * h, 4) * a / height;
+    EXPECT_EQ(now.defect, 0.0) << part;
+    EXPECT_NEAR(now.force.rows()(0, 2), stiffness * height, stiffness * a * tolerance) << part;
+    EXPECT_NEAR(now.force.rows()(0, 0), 0.0, stiffness * a * tolerance) << part;
+    EXPECT_NEAR(now.force.rows()(2, 0), stiffness * q.rows()(2, 0), 1e-14) << part;
+    // ∂f_r0/∂a = −k a/√(W² − a²); the slider goes along with the means. The basis between three
+    // instants errs by h³/16, so does the phase of the end; the slope by what the height errs.
+    const Eigen::RowVectorXd row = now.jacobian.row(2);  // columns: u₀ v₀ w₀, sin, cos
+    const double slope = stiffness * a / height;
+    const double of_slope = slope * (std::pow(h, 3) / 8.0 + tolerance * a / height);
+    EXPECT_NEAR(row[3], -slope * std::sin(0.3), of_slope) << part;
+    EXPECT_NEAR(row[6], -slope * std::cos(0.3), of_slope) << part;
+    EXPECT_NEAR(row[2], 0.0, 1e-10) << part;
+    EXPECT_NEAR(row[0], 0.0, of_slope) << part;
+  }
+}
+
 // Next to the onset of slip the mean force is history, or ill determined: both marches end before
 // they have arrived. What has not settled says so.
 TEST(SampledPlane, EveryStratumIsFiniteAndNearThePlaneEvents) {
