@@ -241,18 +241,19 @@ bool PlaneBlock::rest_in_corner(std::size_t p, std::array<std::size_t, 2> instan
                                 bool is_slow) {
   constexpr int most_windows = 4;
   std::array<double, block_size> slips{};
-  for (int i = 0; i < (is_slow ? most_windows : 1); ++i) {
+  for (int i = 0; i < most_windows; ++i) {
     const auto corner = meeting_corner(arrays_, p, instants, {state[p], state[block_size + p]});
     if (!corner.has_value()) return false;
     state[p] = corner->slider[0];
     state[block_size + p] = corner->slider[1];
     plane_kernels().start(arrays_, state.data());
-    plane_kernels().record(arrays_, equal_, state.data(), slips.data());
-    if (!(slips[p] > 0.0)) {
+    if (rests_throughout(arrays_, p, corner->slider)) {
       copy(state, p, start_);
       search_[p].corner = corner;
       return true;
     }
+    if (!is_slow) return false;
+    plane_kernels().record(arrays_, equal_, state.data(), slips.data());
     const auto next = two_ends_of_slip(arrays_, p);
     if (!next.has_value()) return false;
     instants = *next;
@@ -290,11 +291,13 @@ bool PlaneBlock::jump(std::size_t p, const State& before, const State& end, Stat
   if (!search.jumped) ++search.periods;
   const double last = search.change_size;
   search.change_size = std::hypot(g[0], g[1]);
-  // The sum of what follows, by the last ratio; that of a march in a valley creeps towards one, and
-  // takes twice.
   const double widest = 2.0 * std::max(width_p_[p], width_r_[p]);
-  const double left = last - search.change_size;
-  search.reach = left > 0.0 ? std::min(widest, 2.0 * last * search.change_size / left) : widest;
+  if (!search.jumped) {
+    // The sum of what follows, by the last ratio; that of a march in a valley creeps towards one,
+    // and takes twice.
+    const double left = last - search.change_size;
+    search.reach = left > 0.0 ? std::min(widest, 2.0 * last * search.change_size / left) : widest;
+  }
   if (search.change_size <= settled * std::max(width_p_[p], width_r_[p])) {
     search.settled = true;
     copy(end, p, start_);
@@ -311,6 +314,9 @@ bool PlaneBlock::jump(std::size_t p, const State& before, const State& end, Stat
   const double share = (g[0] * moved[0] + g[1] * moved[1]) / square;
   next[p] = along(end, 0) - share * ends[0];
   next[block_size + p] = along(end, 1) - share * ends[1];
+  // How far the secant sees the cycle, from the begin of the period.
+  search.reach =
+      std::min(widest, search.change_size + std::abs(share) * std::hypot(ends[0], ends[1]));
   search.jumped = true;
   return true;
 }

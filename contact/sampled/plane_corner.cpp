@@ -16,6 +16,12 @@ class Windows {
  public:
   Windows(const PlaneArrays& arrays, std::size_t place) : a_(arrays), place_(place) {}
 
+  /// |W⁻¹ (x − s)|².
+  [[nodiscard]] double square(std::size_t i, const Vector& slider) const {
+    const Vector pull = pull_at(i, slider);
+    return pull[0] * pull[0] + pull[1] * pull[1];
+  }
+
   /// The instant of the highest |W⁻¹ (x − s)| that is reached uphill from one.
   [[nodiscard]] std::size_t highest_near(std::size_t i, const Vector& slider) const {
     double best = square(i, slider);
@@ -66,10 +72,6 @@ class Windows {
     const std::size_t at = i * block_size + place_;
     return {a_.inverse_p[at] * (a_.u[at] - slider[0]), a_.inverse_r[at] * (a_.w[at] - slider[1])};
   }
-  [[nodiscard]] double square(std::size_t i, const Vector& slider) const {
-    const Vector pull = pull_at(i, slider);
-    return pull[0] * pull[0] + pull[1] * pull[1];
-  }
 
   const PlaneArrays& a_;
   std::size_t place_;
@@ -111,6 +113,15 @@ std::optional<PlaneCorner> meeting_corner(const PlaneArrays& arrays, std::size_t
     corner.slider[1] += step[1];
   }
   return std::nullopt;
+}
+
+bool rests_throughout(const PlaneArrays& arrays, std::size_t place,
+                      const std::array<double, 2>& slider) {
+  const Windows windows(arrays, place);
+  for (std::size_t i = 0; i < arrays.n_instants; ++i) {
+    if (windows.square(i, slider) > slip_edge) return false;
+  }
+  return true;
 }
 
 std::optional<std::array<std::size_t, 2>> two_ends_of_slip(const PlaneArrays& arrays,

@@ -48,6 +48,10 @@ struct PlaneCorner {
                                                         const std::array<std::size_t, 2>& instants,
                                                         const std::array<double, 2>& slider);
 
+/// Whether a slider lies in the ellipses of all instants, rounding aside.
+[[nodiscard]] bool rests_throughout(const PlaneArrays& arrays, std::size_t place,
+                                    const std::array<double, 2>& slider);
+
 /// The last instants of both stretches of slip of the recorded period; nothing where there are not two.
 [[nodiscard]] std::optional<std::array<std::size_t, 2>> two_ends_of_slip(const PlaneArrays& arrays,
                                                                          std::size_t place);

@@ -5,9 +5,6 @@
 namespace microslip::contact::sampled {
 namespace {
 
-// Of |η|²: what rounding leaves of a slider that was pushed to the edge of its ellipse is no slip.
-constexpr double edge = 1.0 + 1e-12;
-
 enum class Task { march, record, linearise };
 
 /// A point between two instants.
@@ -117,7 +114,7 @@ MICROSLIP_INLINE void one_step(const PlaneArrays& a, std::size_t then, std::size
   }
   const Pair inverse = {pack_at(a.inverse_p + now), pack_at(a.inverse_r + now)};
   Pair pull = times(inverse, ends.x1 - s);
-  const Pack slips = both(ends.r1, dot(pull, pull) - edge);
+  const Pack slips = both(ends.r1, dot(pull, pull) - slip_edge);
   if (any_above_zero(slips)) {
     const Pair e = slip<equal, task>(a, now, turns, ends, point, pull, touches, slips);
     pull = where(slips, e, pull);
@@ -172,7 +169,7 @@ MICROSLIP_INLINE void start_all(const PlaneArrays& a, double* state) {
     const Pack r = pack_at(a.closeness + lane);
     Pair s = {number(0), number(1)};
     Pair pull = times(inverse, x - s);
-    const Pack slips = both(r, dot(pull, pull) - edge);
+    const Pack slips = both(r, dot(pull, pull) - slip_edge);
     const Pair e = settled_direction<false>(times(W, pull), W);
     pull = where(slips, e, pull);
     s = where(slips, x - times(W, e), s);

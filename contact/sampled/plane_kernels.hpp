@@ -27,6 +27,9 @@
 
 namespace microslip::contact::sampled {
 
+/// Of |η|²: what rounding leaves of a slider that was pushed to the edge of its ellipse is no slip.
+inline constexpr double slip_edge = 1.0 + 1e-12;
+
 /// Of the state at instant 0: s_p, s_r, η_p, η_r, 1 where the point slips; [number][block].
 inline constexpr std::size_t n_state_numbers = 5;
 
