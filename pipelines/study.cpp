@@ -1,5 +1,6 @@
 #include "pipelines/study.hpp"
 
+#include "contact/spare_cores.hpp"
 #include "fem/slepc_session.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/accurate_curves.hpp"
@@ -28,6 +29,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     require_curves(solution.model, scene);
     record.stage("curves");
     fem::use_one_blas_thread();
+    contact::allow_cores(options.jobs);
     solution.curves = trace_family(solution.model, scene, options.jobs, record);
     record.keep_choices(scene);
     record.stage("accuracy");

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "contact/spare_cores.hpp"
+
 namespace microslip::contact::sampled {
 namespace {
 
@@ -76,55 +78,70 @@ PatchForce::Grid PatchForce::grid(int n_harmonics, int force_harmonics) {
   return {table(n_harmonics), table(force_harmonics)};
 }
 
-void PatchForce::sum_plane(double frequency, bool derivatives, const Grid& grid) {
+/// As many parts as there may be cores, of as many points each as pay for joining their sums.
+void PatchForce::divide() {
+  constexpr std::size_t points_of_two = 4 * block_size;
+  constexpr std::size_t most = 8;
   const std::span<const Eigen::Index> awake(this->awake());
+  n_parts_ = std::clamp<std::size_t>(awake.size() / points_of_two * 2, 1, most);
+  if (parts_.size() < n_parts_) parts_.resize(n_parts_);
+  const std::size_t blocks = (awake.size() + block_size - 1) / block_size;
+  const auto begin = [&](std::size_t i) {
+    return std::min(awake.size(), i * blocks / n_parts_ * block_size);
+  };
+  for (std::size_t i = 0; i < n_parts_; ++i) {
+    parts_[i].points = awake.subspan(begin(i), begin(i + 1) - begin(i));
+  }
+}
+
+void PatchForce::sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid) {
+  PlaneBlock& plane = part.plane;
   const auto ask = derivatives ? PlaneBlock::Ask::derivatives : PlaneBlock::Ask::force;
-  for (std::size_t begin = 0; begin < awake.size(); begin += block_size) {
-    const auto block = awake.subspan(begin, std::min(block_size, awake.size() - begin));
-    plane_.evaluate(surfaces_, motion(), block, frequency, ask, *grid.of_motion, *grid.of_force);
+  for (std::size_t begin = 0; begin < part.points.size(); begin += block_size) {
+    const auto block = part.points.subspan(begin, std::min(block_size, part.points.size() - begin));
+    plane.evaluate(surfaces_, motion(), block, frequency, ask, *grid.of_motion, *grid.of_force);
     for (std::size_t p = 0; p < block.size(); ++p) {
       const Eigen::Index i = block[p];
       const auto& surface = surfaces_[static_cast<std::size_t>(i)];
-      keep(i, cycle_states(plane_.runs(p), grid.of_motion->size()));
-      defect_ += points().weights[i] * plane_.defect(p) *
-                 std::hypot(shapes().u.row(i).norm(), shapes().w.row(i).norm());
+      keep(i, cycle_states(plane.runs(p), grid.of_motion->size()));
+      part.defect += points().weights[i] * plane.defect(p) *
+                     std::hypot(shapes().u.row(i).norm(), shapes().w.row(i).norm());
       PointDerivatives of_point;
       if (derivatives) {
-        const PlaneDerivatives& J = plane_.derivatives(p);
+        const PlaneDerivatives& J = plane.derivatives(p);
         for (std::size_t d = 0; d < 2; ++d) {
           for (std::size_t s = 0; s < 3; ++s) of_point.friction[d][s] = J.by(d, s);
           if (surface.is_rate_dependent()) of_point.by_frequency[d] = J.by_frequency(d);
         }
         of_point.normal_moments = J.normal_moments();
       }
-      projection_.add(i, points().weights[i], surface.reference_load(),
-                      {plane_.sums(0) + p, plane_.sums(1) + p, plane_.sums(2) + p}, block_size,
-                      derivatives ? &of_point : nullptr);
+      part.projection.add(i, points().weights[i], surface.reference_load(),
+                          {plane.sums(0) + p, plane.sums(1) + p, plane.sums(2) + p}, block_size,
+                          derivatives ? &of_point : nullptr);
     }
   }
 }
 
-void PatchForce::sum_line(double frequency, bool derivatives, const Grid& grid) {
-  const std::span<const Eigen::Index> awake(this->awake());
+void PatchForce::sum_line(Part& part, double frequency, bool derivatives, const Grid& grid) {
+  LineBlock& line = part.line;
   const std::size_t n = grid.of_motion->size();
-  for (std::size_t begin = 0; begin < awake.size(); begin += block_size) {
-    const auto block = awake.subspan(begin, std::min(block_size, awake.size() - begin));
-    line_.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
+  for (std::size_t begin = 0; begin < part.points.size(); begin += block_size) {
+    const auto block = part.points.subspan(begin, std::min(block_size, part.points.size() - begin));
+    line.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
     for (std::size_t p = 0; p < block.size(); ++p) {
       const Eigen::Index i = block[p];
-      keep(i, cycle_states(line_.runs(p), n));
+      const auto& surface = surfaces_[static_cast<std::size_t>(i)];
+      keep(i, cycle_states(line.runs(p), n));
       PointDerivatives of_point;
       if (derivatives) {
-        const LineDerivatives& J = line_.derivatives(p);
+        const LineDerivatives& J = line.derivatives(p);
         of_point.friction[0] = {J.by_u(0), J.by_v(0), nullptr};
         of_point.normal_moments = J.normal_moments();
-        const auto& surface = surfaces_[static_cast<std::size_t>(i)];
         if (surface.is_rate_dependent()) of_point.by_frequency[0] = J.by_frequency();
       }
-      projection_.add(i, points().weights[i],
-                      surfaces_[static_cast<std::size_t>(i)].reference_load(),
-                      {line_.friction_sums() + p, line_.normal_sums() + p, nullptr}, block_size,
-                      derivatives ? &of_point : nullptr);
+      part.projection.add(i, points().weights[i], surface.reference_load(),
+                          {line.friction_sums() + p, line.normal_sums() + p, nullptr}, block_size,
+                          derivatives ? &of_point : nullptr);
     }
   }
 }
@@ -132,15 +149,25 @@ void PatchForce::sum_line(double frequency, bool derivatives, const Grid& grid) 
 ForceAndJacobian PatchForce::awake_force(double frequency, const Asked& asked) {
   const int n_harmonics = motion().n_harmonics();
   const Grid grid = this->grid(n_harmonics, std::max(n_harmonics, asked.n_harmonics));
-  projection_.start(shapes(), *grid.of_motion, *grid.of_force, asked.rows);
-  defect_ = 0.0;
-  if (shapes().w.size() > 0) {
-    sum_plane(frequency, !asked.rows.empty(), grid);
-  } else {
-    sum_line(frequency, !asked.rows.empty(), grid);
+  const bool derivatives = !asked.rows.empty();
+  divide();
+  run_on_spare_cores(n_parts_, [&](std::size_t i) {
+    Part& part = parts_[i];
+    part.defect = 0.0;
+    part.projection.start(shapes(), *grid.of_motion, *grid.of_force, asked.rows);
+    if (shapes().w.size() > 0) {
+      sum_plane(part, frequency, derivatives, grid);
+    } else {
+      sum_line(part, frequency, derivatives, grid);
+    }
+  });
+  Part& whole = parts_.front();
+  for (std::size_t i = 1; i < n_parts_; ++i) {
+    whole.projection.join(parts_[i].projection);
+    whole.defect += parts_[i].defect;
   }
-  ForceAndJacobian result = projection_.take();
-  result.defect = defect_;
+  ForceAndJacobian result = whole.projection.take();
+  result.defect = whole.defect;
   return result;
 }
 
@@ -149,19 +176,21 @@ void PatchForce::add_cycles(std::span<const Eigen::Index> points, double frequen
   const int n_harmonics = motion().n_harmonics();
   const Grid grid = this->grid(n_harmonics, n_harmonics);
   const bool planar = shapes().w.size() > 0;
+  PlaneBlock& plane = parts_.front().plane;
+  LineBlock& line = parts_.front().line;
   for (std::size_t begin = 0; begin < points.size(); begin += block_size) {
     const auto block = points.subspan(begin, std::min(block_size, points.size() - begin));
     if (planar) {
-      plane_.evaluate(surfaces_, motion(), block, frequency, PlaneBlock::Ask::force,
-                      *grid.of_motion, *grid.of_force);
+      plane.evaluate(surfaces_, motion(), block, frequency, PlaneBlock::Ask::force, *grid.of_motion,
+                     *grid.of_force);
     } else {
-      line_.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
+      line.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
     }
     for (std::size_t p = 0; p < block.size(); ++p) {
       const auto& surface = surfaces_[static_cast<std::size_t>(block[p])];
-      const auto& runs = planar ? plane_.runs(p) : line_.runs(p);
+      const auto& runs = planar ? plane.runs(p) : line.runs(p);
       sum.add(told(cycle_segments(runs, grid.of_motion->size()), surface, planar),
-              planar ? plane_.slip_work(p) : line_.slip_work(p), this->points().weights[block[p]]);
+              planar ? plane.slip_work(p) : line.slip_work(p), this->points().weights[block[p]]);
     }
   }
 }

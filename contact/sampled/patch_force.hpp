@@ -8,6 +8,9 @@
 /// the sums, so that Newton's method converges on them.
 /// In two directions the slider is marched until it repeats (plane_block.hpp); what has not settled is the defect.
 ///
+/// Points are summed in parts, by as many cores as are to spare (spare_cores.hpp); the parts depend on the number of points
+/// alone, and so do the bits of their sum.
+///
 /// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (line_events.hpp) are exact and slower.
 #pragma once
 
@@ -43,17 +46,24 @@ class PatchForce final : public PointwiseForce {
   };
   [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked) override;
   void add_cycles(std::span<const Eigen::Index> points, double frequency, ReportSum& sum) override;
+  /// Of the awake points that are summed by one core.
+  struct Part {
+    std::span<const Eigen::Index> points;
+    LineBlock line;
+    PlaneBlock plane;
+    Projection projection;
+    double defect = 0.0;
+  };
   [[nodiscard]] Grid grid(int n_harmonics, int force_harmonics);
-  void sum_line(double frequency, bool derivatives, const Grid& grid);
-  void sum_plane(double frequency, bool derivatives, const Grid& grid);
+  void divide();
+  void sum_line(Part& part, double frequency, bool derivatives, const Grid& grid);
+  void sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid);
 
   std::vector<SurfaceLaw> surfaces_;
   int instants_;
   std::map<std::pair<int, int>, Instants> tables_;  // by (instants, harmonics)
-  LineBlock line_;
-  PlaneBlock plane_;
-  double defect_ = 0.0;
-  Projection projection_;
+  std::vector<Part> parts_{1};
+  std::size_t n_parts_ = 1;  // of the evaluation under way
 };
 
 }  // namespace microslip::contact::sampled

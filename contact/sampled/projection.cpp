@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t waiting_points = 16;
 
+void add_to(std::vector<double>& to, const std::vector<double>& from) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+}
+
 // Rows of whole packs, with room behind the last.
 std::size_t padded(std::size_t n) { return (n + product_slack + 7) / 8 * 8; }
 
@@ -131,6 +135,17 @@ void Projection::flush() {
   for (std::size_t k = 0; k < asked_.size(); ++k) {
     product(size_, rows, phi_t_.data(), spread_.data() + k * spread_block_,
             sum_.data() + k * n_modes_ * size_.stride);
+  }
+}
+
+void Projection::join(Projection& other) {
+  flush();
+  other.flush();
+  add_to(force_sum_, other.force_sum_);
+  if (rows_.empty()) return;
+  for (const auto sum :
+       {&Projection::by_frequency_sum_, &Projection::pair_sum_, &Projection::sum_}) {
+    add_to(this->*sum, other.*sum);
   }
 }
 

@@ -37,6 +37,8 @@ class Projection {
   void add(Eigen::Index point, double weight, double reference_load,
            const std::array<const double*, 3>& sums, std::size_t stride,
            const PointDerivatives* derivatives);
+  /// Takes in the sums of other points of the patch, started alike.
+  void join(Projection& other);
   [[nodiscard]] ForceAndJacobian take();
 
  private:
