@@ -16,6 +16,7 @@
 #include "pipelines/model/effect_choice.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
+#include "pipelines/response/resonating_shapes.hpp"
 #include "pipelines/response/time_response.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -319,6 +320,9 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
                                    [&](const auto& point) { return observe(in_modes(point)); });
     for (solver::ResponsePoint& point : result.curve.points) point = in_modes(point);
     result.integrated = true;
+    const double all = std::numeric_limits<double>::infinity();
+    tell_shapes_resonate(model.frequency.cwiseProduct(factors), model.n_attachment, all,
+                         result.curve);
     add_patch_shares(model, load, result);
     return result;
   }
@@ -331,6 +335,9 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
   result.curve = options.frequency_begin == options.frequency_end
                      ? solver::solve_at_frequency(problem, options.frequency_begin, options)
                      : solver::trace_response(problem, options, observe);
+  const double highest =
+      result.curve.points.empty() ? 0 : result.curve.points.front().q.n_harmonics();
+  tell_shapes_resonate(model.frequency, model.n_attachment, highest, result.curve);
   add_patch_shares(model, load, result);
   check_harmonics(model, scene, load, result);
   return result;

@@ -1,0 +1,38 @@
+#include "pipelines/response/resonating_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace microslip::pipelines {
+namespace {
+
+/// Open for more of the period at some points of the curve than at others, or at its only one.
+bool opens_and_closes(const solver::ResponseCurve& curve) {
+  constexpr double seen = 1e-3;
+  const auto [least, most] = std::ranges::minmax(
+      curve.points, {}, [](const auto& point) { return point.report.separated_share; });
+  const double open = most.report.separated_share;
+  return open > seen && (curve.points.size() == 1 || open - least.report.separated_share > seen);
+}
+
+}  // namespace
+
+void tell_shapes_resonate(const Eigen::VectorXd& frequency, Eigen::Index n_attachment,
+                          double highest, solver::ResponseCurve& curve) {
+  if (n_attachment == 0 || curve.points.empty() || !opens_and_closes(curve)) return;
+  const double top =
+      std::ranges::max(curve.points, {}, &solver::ResponsePoint::frequency).frequency;
+  const double order = std::floor(frequency.tail(n_attachment).minCoeff() / top);
+  if (highest < order) return;
+  if (!curve.message.empty()) curve.message += "; ";
+  curve.message += fmt::format(
+      "contact opens and closes, and harmonics from {:.0f} on meet resonances of attachment "
+      "shapes, "
+      "which no structure has: at a peak of the default blade they make 2 % (share/doc/theory.md, "
+      "section 22); a larger modes.count moves them up",
+      order);
+}
+
+}  // namespace microslip::pipelines
