@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/patch/mode_shape_check.hpp"
+#include "contact/transient/area_shares.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -241,17 +242,7 @@ double PatchTransient::slip_power(const ModalMotion& motion, const TransientMemo
 }
 
 StateShares PatchTransient::shares(const TransientMemory& memory) const {
-  StateShares area;
-  for (Eigen::Index i = 0; i < n_points(); ++i) {
-    const ContactState state = memory.state[static_cast<std::size_t>(i)];
-    double& part = state == ContactState::stick       ? area.stick
-                   : state == ContactState::separated ? area.separated
-                                                      : area.slip;
-    part += patch_.weights()[i];
-  }
-  const double total = patch_.weights().sum();
-  if (total == 0.0) return {};
-  return {area.stick / total, area.slip / total, area.separated / total};
+  return area_shares(memory.state, patch_.weights());
 }
 
 Eigen::MatrixXd PatchTransient::stuck_stiffness() const {

@@ -9,6 +9,7 @@
 
 #include "contact/patch/mode_shape_check.hpp"
 #include "contact/plane/planar_slip.hpp"
+#include "contact/transient/area_shares.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -325,17 +326,7 @@ double PlanarTransient::slip_power(const ModalMotion& motion, const TransientMem
 }
 
 StateShares PlanarTransient::shares(const TransientMemory& memory) const {
-  StateShares area;
-  for (Eigen::Index i = 0; i < n_points(); ++i) {
-    const ContactState state = memory.state[static_cast<std::size_t>(i)];
-    double& part = state == ContactState::stick       ? area.stick
-                   : state == ContactState::separated ? area.separated
-                                                      : area.slip;
-    part += weights_[i];
-  }
-  const double total = weights_.sum();
-  if (total == 0.0) return {};
-  return {area.stick / total, area.slip / total, area.separated / total};
+  return area_shares(memory.state, weights_);
 }
 
 Eigen::MatrixXd PlanarTransient::stuck_stiffness() const {
