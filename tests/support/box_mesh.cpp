@@ -1,6 +1,7 @@
 #include "tests/support/box_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -233,6 +234,12 @@ Builder mixed(int order, const BoxGrid& grid) {
 }
 
 }  // namespace
+
+Eigen::Vector3d distorted(const Eigen::Vector3d& x) {
+  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]),
+                                    std::sin(5.0 * x[0] - 4.0 * x[2]),
+                                    std::cos(6.0 * x[0] + 2.0 * x[1]));
+}
 
 mesh::Mesh box_mesh(ElementType type, const BoxGrid& grid) {
   return of_one_type(type, grid).build(false);

@@ -22,6 +22,9 @@ struct BoxGrid {
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> map;
 };
 
+/// A map: moves inner and outer nodes of a box of side 1 by up to a sixth of a cell.
+[[nodiscard]] Eigen::Vector3d distorted(const Eigen::Vector3d& x);
+
 [[nodiscard]] mesh::Mesh box_mesh(mesh::ElementType type, const BoxGrid& grid);
 
 /// The same, with corner nodes moved by `map` and edge nodes in the middle of the moved corners:

@@ -22,13 +22,6 @@ using mesh::ElementType;
 
 const fem::Material titanium{1.14e11, 0.32, 4430.0};
 
-// Moves inner and outer nodes of a box of side 1 by up to a sixth of a cell.
-Eigen::Vector3d distort(const Eigen::Vector3d& x) {
-  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]),
-                                    std::sin(5.0 * x[0] - 4.0 * x[2]),
-                                    std::cos(6.0 * x[0] + 2.0 * x[1]));
-}
-
 struct Split {
   std::vector<Eigen::Index> inner;  // degrees of freedom
   std::vector<Eigen::Index> outer;
@@ -68,13 +61,13 @@ class PatchTest : public testing::TestWithParam<ElementType> {};
 
 TEST_P(PatchTest, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
   expect_linear_motion_inside(
-      test::straight_box_mesh(GetParam(),
-                              {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = distort}),
+      test::straight_box_mesh(
+          GetParam(), {.size = {1.0, 1.0, 1.0}, .cells = {3, 3, 3}, .map = test::distorted}),
       mesh::name(GetParam()));
 }
 
 TEST(PatchTestOfAllTypes, LinearMotionOfTheBoundaryMovesTheInsideLinearly) {
-  const test::BoxGrid grid{.size = {1.0, 1.0, 1.0}, .cells = {4, 3, 3}, .map = distort};
+  const test::BoxGrid grid{.size = {1.0, 1.0, 1.0}, .cells = {4, 3, 3}, .map = test::distorted};
   for (const int order : {1, 2}) {
     const mesh::Mesh mesh = test::straight_mixed_box_mesh(order, grid);
     ASSERT_EQ(mesh.elements().size(), 4U) << "one block for each solid";

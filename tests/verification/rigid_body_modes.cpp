@@ -38,14 +38,9 @@ using mesh::ElementType;
 
 const fem::Material titanium{1.14e11, 0.32, 4430.0};
 
-Eigen::Vector3d distort(const Eigen::Vector3d& x) {
-  return x + 0.05 * Eigen::Vector3d(std::sin(7.0 * x[1] + 3.0 * x[2]),
-                                    std::sin(5.0 * x[0] - 4.0 * x[2]),
-                                    std::cos(6.0 * x[0] + 2.0 * x[1]));
-}
-
 mesh::Mesh distorted_box(ElementType type) {
-  return test::box_mesh(type, {.size = {1.0, 0.6, 0.4}, .cells = {3, 2, 2}, .map = distort});
+  return test::box_mesh(type,
+                        {.size = {1.0, 0.6, 0.4}, .cells = {3, 2, 2}, .map = test::distorted});
 }
 
 mesh::Mesh default_blade() {
@@ -127,7 +122,8 @@ TEST(RigidBodyModes, AreFoundAndSpanTranslationsAndRotations) {
   }
   for (const int order : {1, 2}) {
     expect_six_rigid_modes(
-        test::mixed_box_mesh(order, {.size = {1.0, 0.6, 0.4}, .cells = {4, 2, 2}, .map = distort}),
+        test::mixed_box_mesh(order,
+                             {.size = {1.0, 0.6, 0.4}, .cells = {4, 2, 2}, .map = test::distorted}),
         order == 1 ? "mixed linear" : "mixed quadratic");
   }
   expect_six_rigid_modes(blade, "blade");

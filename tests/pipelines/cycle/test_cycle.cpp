@@ -15,6 +15,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/line/line_events.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "tests/support/mutated_text.hpp"
 
 namespace microslip::pipelines::test_cycle {
 namespace {
@@ -416,35 +417,16 @@ TEST(BadCycleTable, AnIdOutsideUtf8IsNamed) {
 
 /// A table with bytes changed, swapped or cut ends in JSON without null, or in a SceneError.
 TEST(BadCycleTable, AnyMutationEndsInJsonOrAnError) {
-  unsigned state = 11;  // fixed seed of a linear congruence
-  const auto next = [&](std::size_t n) {
-    return ((state = state * 1664525U + 1013904223U) >> 8) % static_cast<unsigned>(n);
-  };
   const std::string table =
       "id,u_sin3,v_cos2," + header + "a,1e-4,0,1e6,2e6,0.4,100,1e-3,0,0,2e-5,1e-6\n" +
       "b,0,1e-5,1e6,0,0.4,-100,1e-3,1e-4,0,2e-5,1e-6\n\n" + "c,0,0,0,1,0,0,0,0,0,0,0\n";
   constexpr char all_bytes[] =
       ",\n\r\" \t#0123459.+-eEnaif_uvw\0\xFF\xC3";  // a zero byte is among them
-  const std::string_view bytes(all_bytes, sizeof(all_bytes) - 1);
+  test::MutatedText mutated(11, {all_bytes, sizeof(all_bytes) - 1});
   int n_taken = 0;
   constexpr int n_trials = 5000;
   for (int i = 0; i < n_trials; ++i) {
-    std::string text = table;
-    for (unsigned n = 1 + next(3); n > 0; --n) {
-      switch (next(4)) {
-        case 0:
-          text[next(text.size())] = bytes[next(bytes.size())];
-          break;
-        case 1:
-          text.insert(next(text.size()), 1, bytes[next(bytes.size())]);
-          break;
-        case 2:
-          text.erase(next(text.size()), 1 + next(5));
-          break;
-        default:
-          text.insert(next(text.size()), text.substr(next(text.size()), next(30)));
-      }
-    }
+    const std::string text = mutated.of(table, 3, 5, 30);
     try {
       const std::string json = cycles_as_json(CsvTable::parse(text, "points.csv"));
       EXPECT_EQ(json.find("null"), std::string::npos) << text;

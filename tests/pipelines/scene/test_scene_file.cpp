@@ -11,6 +11,7 @@
 
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "tests/support/mutated_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::pipelines::test_scene_file {
@@ -850,32 +851,13 @@ TEST(BadSceneFile, AHugeFileIsNotRead) {
 
 /// A scene with a few bytes changed, swapped or cut ends in a description or a SceneError.
 TEST(BadSceneFile, AnyMutationEndsInASceneOrAnError) {
-  unsigned state = 7;  // fixed seed of a linear congruence
-  const auto next = [&](std::size_t n) {
-    return ((state = state * 1664525U + 1013904223U) >> 8) % static_cast<unsigned>(n);
-  };
   constexpr char all_bytes[] =
       "\"'[]{}=.,#\n\t -+eE019nainf\0\xFF\xC3";  // a zero byte is among them
-  const std::string_view bytes(all_bytes, sizeof(all_bytes) - 1);
+  test::MutatedText mutated(7, {all_bytes, sizeof(all_bytes) - 1});
   int n_taken = 0;
   constexpr int n_trials = 3000;
   for (int i = 0; i < n_trials; ++i) {
-    std::string text = i % 2 == 0 ? blade_text : modal_text;
-    for (unsigned n = 1 + next(4); n > 0; --n) {
-      switch (next(4)) {
-        case 0:
-          text[next(text.size())] = bytes[next(bytes.size())];
-          break;
-        case 1:
-          text.insert(next(text.size()), 1, bytes[next(bytes.size())]);
-          break;
-        case 2:
-          text.erase(next(text.size()), 1 + next(8));
-          break;
-        default:
-          text.insert(next(text.size()), text.substr(next(text.size()), next(40)));
-      }
-    }
+    const std::string text = mutated.of(i % 2 == 0 ? blade_text : modal_text, 4, 8, 40);
     n_taken += complaint(text).empty() ? 1 : 0;  // another exception ends the test
   }
   EXPECT_GT(n_taken, 0);
