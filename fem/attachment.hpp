@@ -37,18 +37,17 @@
 namespace microslip::fem {
 
 struct AttachmentOptions {
-  std::optional<int> degree;  ///< of the tractions, ≥ 0; without value: chosen
-  /// Local contact stiffness along p, q, r [N/m³], ≥ 0: judges which tractions matter.
-  Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
+  std::optional<int> degree;      ///< of the tractions, ≥ 0; without value: chosen
   double missed_tolerance = 0.3;  ///< largest share s of a chosen degree [-]
   int max_degree = 4;             ///< highest that is chosen
 };
 
 /// A contact face that takes tractions.
 struct AttachmentFace {
-  const mesh::Surface& surface;                               ///< of the mesh, borrowed
-  Eigen::Matrix3d frame;                                      ///< rows p, q, r
-  Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();  ///< as in AttachmentOptions
+  const mesh::Surface& surface;  ///< of the mesh, borrowed
+  Eigen::Matrix3d frame;         ///< rows p, q, r
+  /// Of the contact along p, q, r [N/m³], ≥ 0: judges which tractions matter.
+  Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
 };
 
 /// The shapes of one degree more, which choosing the degree has solved for anyway.

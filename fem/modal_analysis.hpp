@@ -76,17 +76,13 @@ class Structure {
                                                          const mesh::Surface& surface,
                                                          const Eigen::Matrix3d& frame);
   /// The modes of `basis` and attachment shapes behind them (fem/attachment.hpp): one static solve for each
-  /// traction on the surface along the rows of `frame`, and for each column of `forces`.
+  /// traction on the faces along the rows of their frames, of the same degree on all, and for each column of `forces`.
   /// @param forces  3 n_nodes × m [N], m ≥ 0: the excitation.
   /// @note With rigid-body modes: inertia relief, as residual_flexibility().
-  [[nodiscard]] AttachedBasis attach(const ModalBasis& basis, const mesh::Surface& surface,
-                                     const Eigen::Matrix3d& frame, const Eigen::MatrixXd& forces,
-                                     const AttachmentOptions& options = {});
-  /// The same for several faces, tractions of the same degree on all of them; each has its local stiffness.
   [[nodiscard]] AttachedBasis attach(const ModalBasis& basis,
                                      const std::vector<AttachmentFace>& faces,
                                      const Eigen::MatrixXd& forces,
-                                     const AttachmentOptions& options);
+                                     const AttachmentOptions& options = {});
   [[nodiscard]] const ModalTimings& timings() const;
 
  private:

@@ -363,13 +363,6 @@ ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis,
   return result;
 }
 
-AttachedBasis Structure::attach(const ModalBasis& basis, const mesh::Surface& surface,
-                                const Eigen::Matrix3d& frame, const Eigen::MatrixXd& forces,
-                                const AttachmentOptions& options) {
-  const std::vector<AttachmentFace> faces{{surface, frame, options.local_stiffness}};
-  return attach(basis, faces, forces, options);
-}
-
 AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<AttachmentFace>& faces,
                                 const Eigen::MatrixXd& forces, const AttachmentOptions& options) {
   Implementation& self = *self_;

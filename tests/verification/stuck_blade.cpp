@@ -107,7 +107,7 @@ fem::ModalBasis with_attachment(const Blade& blade, fem::Structure& structure,
                                 const fem::ModalBasis& basis, int degree) {
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(3 * blade.mesh.n_nodes(), 1);
   F(blade.x_of("B"), 0) = F(blade.x_of("B'"), 0) = 0.5;
-  return structure.attach(basis, blade.face, contact_frame(), F, {.degree = degree}).basis;
+  return structure.attach(basis, {{blade.face, contact_frame()}}, F, {.degree = degree}).basis;
 }
 
 Modes reduced_modes(const Blade& blade, fem::Structure& structure, const fem::ModalBasis& basis,

@@ -63,7 +63,7 @@ TEST(Attachment, ShapesAreOrthonormalInMassAndDiagonalInStiffness) {
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis modes = structure.solve_modes({.n_modes = 5});
   for (const int degree : {0, 1, 3}) {
-    const AttachedBasis attached = structure.attach(modes, mesh.surface("y1"), side_frame(),
+    const AttachedBasis attached = structure.attach(modes, {{mesh.surface("y1"), side_frame()}},
                                                     two_forces(mesh), {.degree = degree});
     const ModalBasis& basis = attached.basis;
     EXPECT_EQ(basis.n_free(), 5);
@@ -88,7 +88,7 @@ TEST(Attachment, TheStaticAnswerToEveryLoadIsExact) {
   const ModalBasis modes = structure.solve_modes({.n_modes = 4});
   const Eigen::MatrixXd forces = two_forces(mesh);
   const ModalBasis basis =
-      structure.attach(modes, mesh.surface("y1"), side_frame(0.3), forces, {.degree = 2}).basis;
+      structure.attach(modes, {{mesh.surface("y1"), side_frame(0.3)}}, forces, {.degree = 2}).basis;
   Eigen::MatrixXd F(forces.rows(), 20);
   F << polynomial_tractions(mesh.nodes(), mesh.surface("y1"), side_frame(-0.7), 2), forces;
   const Eigen::MatrixXd exact = dense.solve(F);
@@ -111,7 +111,7 @@ TEST(Attachment, AFreeBodyAnswersElasticallyWithoutError) {
     const Eigen::MatrixXd F =
         polynomial_tractions(mesh.nodes(), mesh.surface("y1"), side_frame(), 1);
     const ModalBasis basis = structure
-                                 .attach(modes, mesh.surface("y1"), side_frame(),
+                                 .attach(modes, {{mesh.surface("y1"), side_frame()}},
                                          Eigen::MatrixXd(F.rows(), 0), {.degree = 1})
                                  .basis;
     const Eigen::MatrixXd exact = Phi * eigen.values.tail(n_elastic).cwiseInverse().asDiagonal() *
@@ -129,11 +129,12 @@ TEST(Attachment, LoadsThatSayNothingNewAreLeftOut) {
   forces.leftCols<2>() = two_forces(mesh);
   forces.col(2) =
       7.0 * forces.col(0) + 5.0 * uniform_tractions(mesh.nodes(), side, side_frame()).col(1);
-  const AttachedBasis attached = structure.attach(modes, side, side_frame(), forces, {.degree = 0});
+  const AttachedBasis attached =
+      structure.attach(modes, {{side, side_frame()}}, forces, {.degree = 0});
   EXPECT_EQ(attached.n_dropped, 1);
   EXPECT_EQ(attached.basis.n_attachment, 5);
   forces.col(2).setZero();
-  EXPECT_EQ(structure.attach(modes, side, side_frame(), forces, {.degree = 0}).n_dropped, 1);
+  EXPECT_EQ(structure.attach(modes, {{side, side_frame()}}, forces, {.degree = 0}).n_dropped, 1);
 }
 
 TEST(Attachment, TractionsAreOrthonormalAndTheirSpanDoesNotKnowTheAxes) {
@@ -184,7 +185,8 @@ TEST(Attachment, TheDegreeIsTheLowestThatMissesLittleOfTheNext) {
   std::array<double, 3> shares{};  // need not fall with every degree: each is of other tractions
   for (std::size_t degree = 0; degree < shares.size(); ++degree) {
     const int d = static_cast<int>(degree);
-    const ModalBasis given = structure.attach(modes, side, side_frame(), none, {.degree = d}).basis;
+    const ModalBasis given =
+        structure.attach(modes, {{side, side_frame()}}, none, {.degree = d}).basis;
     const Eigen::MatrixXd next =
         polynomial_tractions(mesh.nodes(), side, side_frame(), d + 1).rightCols(3 * (d + 2));
     shares[degree] = missed_by(modes, given, dense, next);
@@ -195,17 +197,17 @@ TEST(Attachment, TheDegreeIsTheLowestThatMissesLittleOfTheNext) {
       const auto first = std::ranges::find_if(shares, [&](double s) { return s <= tolerance; });
       if (first == shares.end()) continue;
       for (const double angle : {0.0, 0.8}) {
-        const AttachedBasis chosen = structure.attach(
-            modes, side, side_frame(angle), none,
-            {.degree = {}, .local_stiffness = springs, .missed_tolerance = tolerance});
+        const AttachedBasis chosen =
+            structure.attach(modes, {{side, side_frame(angle), springs}}, none,
+                             {.degree = {}, .missed_tolerance = tolerance});
         EXPECT_EQ(chosen.degree, first - shares.begin());
         EXPECT_NEAR(chosen.missed_share, *first, 1e-6 * *first);
       }
     }
   }
-  const AttachedBasis most = structure.attach(
-      modes, side, side_frame(), none,
-      {.degree = {}, .local_stiffness = springs, .missed_tolerance = 0.0, .max_degree = 2});
+  const AttachedBasis most =
+      structure.attach(modes, {{side, side_frame(), springs}}, none,
+                       {.degree = {}, .missed_tolerance = 0.0, .max_degree = 2});
   EXPECT_EQ(most.degree, 2);
 }
 
@@ -214,10 +216,10 @@ TEST(Attachment, WithoutLocalStiffnessNoTractionMatters) {
   Structure structure(mesh, titanium, {"x0"});
   const ModalBasis modes = structure.solve_modes({.n_modes = 5});
   const AttachedBasis attached =
-      structure.attach(modes, mesh.surface("y1"), side_frame(), two_forces(mesh));
+      structure.attach(modes, {{mesh.surface("y1"), side_frame()}}, two_forces(mesh));
   EXPECT_EQ(attached.degree, 0);
   EXPECT_EQ(attached.missed_share, 0.0);
-  EXPECT_THROW(static_cast<void>(structure.attach(modes, mesh.surface("y1"), side_frame(),
+  EXPECT_THROW(static_cast<void>(structure.attach(modes, {{mesh.surface("y1"), side_frame()}},
                                                   two_forces(mesh), {.degree = -1})),
                std::invalid_argument);
 }

@@ -69,7 +69,7 @@ TEST_P(Solutions, HaveTheStaticShapesOfTheDirectWay) {
     const ModalBasis basis = structure.solve_modes({.n_modes = 10});
     AttachmentOptions options;
     options.degree = 1;
-    return structure.attach(basis, face, frame, force, options).basis;
+    return structure.attach(basis, {{face, frame}}, force, options).basis;
   };
   const ModalBasis direct = attached(SolverKind::direct);
   const ModalBasis iterative = attached(SolverKind::iterative);
