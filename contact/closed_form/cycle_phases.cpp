@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Sum and difference of angles, as directions.
 Direction operator+(const Direction& a, const Direction& b) {

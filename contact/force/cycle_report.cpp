@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Stick, slip, separated.
 std::size_t group(ContactState state) {

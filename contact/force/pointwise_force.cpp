@@ -1,11 +1,11 @@
 #include "contact/force/pointwise_force.hpp"
 
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "contact/patch/mode_shape_check.hpp"
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -100,7 +100,6 @@ void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates&
 
 CycleReport PointwiseForce::report(const Harmonics& q, double frequency) {
   look_at(q, frequency);
-  constexpr double two_pi = 2.0 * std::numbers::pi;
   ReportSum sum;
   std::vector<Eigen::Index> others;
   for (std::size_t i = 0; i < cycles_.size(); ++i) {

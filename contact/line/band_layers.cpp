@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// Where u' is small next to its terms the digits of a double are not those of the sum.
 double value_in_long_double(const TrigonometricPolynomial& p, double phase) {

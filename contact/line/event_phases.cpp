@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
+
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 // Phase of a change, counted on and on around the period.
 double unwrapped(const std::vector<SignChange>& changes, std::size_t i) {

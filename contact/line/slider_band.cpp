@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "contact/numerics/trigonometric_basis.hpp"
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// Σ h (|y_sh| + |y_ch|).
 double rate_bound(const Eigen::VectorXd& y) {

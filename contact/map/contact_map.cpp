@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,11 +10,11 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/map/transition_guards.hpp"
 #include "contact/patch/point_motions.hpp"
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr Eigen::Index n_states = 5;  // of ContactState
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

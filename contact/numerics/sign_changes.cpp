@@ -5,14 +5,13 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <numbers>
 
 #include "contact/numerics/vector_lanes.hpp"
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 using Jet = TrigonometricPolynomial::Jet;
 
 struct Node {

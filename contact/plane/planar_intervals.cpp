@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "contact/numerics/bracketed_root.hpp"
 #include "contact/numerics/sign_changes.hpp"
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr int cells_per_harmonic = 24;
 
 /// Phases at which the load has a kink.

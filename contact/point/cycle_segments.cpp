@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "contact/phase.hpp"
 
 namespace microslip::contact {
 
 double wrapped_phase(double phase) {
-  constexpr double two_pi = 2.0 * std::numbers::pi;
   const double turned = phase - two_pi * std::floor(phase / two_pi);
   return turned >= 0.0 && turned < two_pi ? turned : 0.0;
 }

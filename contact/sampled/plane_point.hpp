@@ -93,7 +93,6 @@ class PlaneDerivatives {
   [[nodiscard]] const PlaneSlopes& slopes(std::size_t i) const {
     return point_.slopes[point_.constant ? 0 : i];
   }
-  [[nodiscard]] std::array<double, 2> slopes_of_width(std::size_t i) const;
   [[nodiscard]] std::array<double, 2> slider_before(std::size_t i) const;
   [[nodiscard]] std::array<double, 2> pull_before(std::size_t i) const;
   [[nodiscard]] InstantState state(std::size_t i) const {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "contact/phase.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
 #include "pipelines/cycle/cycle_row.hpp"
 #include "pipelines/files/plot_script.hpp"
@@ -18,7 +19,6 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double degrees = 180.0 / std::numbers::pi;
 /// Half degrees draw a smooth loop; high harmonics get a fixed number of points per wave.
 constexpr int fewest_intervals = 720;
@@ -34,10 +34,10 @@ using Segments = std::vector<contact::CycleSegment>;
 /// Equidistant phases and the starts of the segments, from 0 to 2π, each once.
 Eigen::VectorXd phases_of(const Segments& segments, int n_harmonics) {
   const int n = std::max(fewest_intervals, intervals_per_wave * n_harmonics);
-  std::vector<double> phases{two_pi};
-  for (int i = 0; i < n; ++i) phases.push_back(two_pi * i / n);
+  std::vector<double> phases{contact::two_pi};
+  for (int i = 0; i < n; ++i) phases.push_back(contact::two_pi * i / n);
   for (const contact::CycleSegment& segment : segments) {
-    if (segment.start < two_pi) phases.push_back(segment.start);
+    if (segment.start < contact::two_pi) phases.push_back(segment.start);
   }
   std::ranges::sort(phases);
   phases.erase(std::unique(phases.begin(), phases.end()), phases.end());
@@ -47,7 +47,7 @@ Eigen::VectorXd phases_of(const Segments& segments, int n_harmonics) {
 /// Of the interval that begins at `phase`. An instant at a change of state lies in both, and rounding
 /// would choose; the segments do not doubt.
 contact::ContactState state_from(const Segments& segments, double phase) {
-  const double in_period = phase < two_pi ? phase : 0.0;
+  const double in_period = phase < contact::two_pi ? phase : 0.0;
   const auto next =
       std::ranges::upper_bound(segments, in_period, {}, &contact::CycleSegment::start);
   return next == segments.begin() ? segments.back().state : std::prev(next)->state;
@@ -58,7 +58,7 @@ std::string csv_of(const Eigen::VectorXd& phases, const contact::PointHistory& h
       "phase_deg,u_m,v_m,w_m,friction_Pa,normal_Pa,friction_w_Pa,slip_m,slip_w_m,state\n";
   for (Eigen::Index i = 0; i < phases.size(); ++i) {
     const contact::PointInstant& at = history.instants[static_cast<std::size_t>(i)];
-    const std::array<double, 9> numbers{phases[i] < two_pi ? phases[i] * degrees : 360.0,
+    const std::array<double, 9> numbers{phases[i] < contact::two_pi ? phases[i] * degrees : 360.0,
                                         at.motion[0],
                                         at.motion[1],
                                         at.motion[2],

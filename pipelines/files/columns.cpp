@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "contact/phase.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/text/units.hpp"
 
@@ -17,7 +18,6 @@ using contact::Patch;
 using contact::PatchSamples;
 using solver::ResponsePoint;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 const char* mark_name(solver::PointMark mark) {
@@ -132,8 +132,9 @@ constexpr std::array ladder_table{
 };
 
 constexpr std::array campbell_table{
-    Column<CampbellRow>{"speed_rpm", "rpm", "of rotation",
-                        [](const auto& r) { return format_number(60.0 * r.speed / two_pi); }},
+    Column<CampbellRow>{
+        "speed_rpm", "rpm", "of rotation",
+        [](const auto& r) { return format_number(60.0 * r.speed / contact::two_pi); }},
     Column<CampbellRow>{"mode", "1", "number at this speed, from 1",
                         [](const auto& r) { return fmt::format("{}", r.mode + 1); }},
     Column<CampbellRow>{"frequency_Hz", "Hz", "natural frequency without contact",
@@ -146,10 +147,10 @@ constexpr std::array crossing_table{
     Column<Crossing>{"mode", "1", "number, from 1",
                      [](const auto& c) { return fmt::format("{}", c.mode + 1); }},
     Column<Crossing>{"speed_rpm", "rpm", "at which they meet",
-                     [](const auto& c) { return format_number(60.0 * c.speed / two_pi); }},
+                     [](const auto& c) { return format_number(60.0 * c.speed / contact::two_pi); }},
     Column<Crossing>{
         "frequency_Hz", "Hz", "of both",
-        [](const auto& c) { return format_number(c.engine_order * c.speed / two_pi); }},
+        [](const auto& c) { return format_number(c.engine_order * c.speed / contact::two_pi); }},
 };
 
 constexpr std::array mode_table{
@@ -269,7 +270,7 @@ Eigen::VectorXd one(double value) { return Eigen::VectorXd::Constant(1, value); 
 using OfModel = Dataset<ReducedModel, Eigen::VectorXd>;
 constexpr std::array model_table{
     OfModel{"frequency_Hz", "Hz", "natural frequencies without contact",
-            [](const ReducedModel& m) -> Eigen::VectorXd { return m.frequency / two_pi; }},
+            [](const ReducedModel& m) -> Eigen::VectorXd { return m.frequency / contact::two_pi; }},
     OfModel{"angular_frequency", "rad/s", "the same", [](const auto& m) { return m.frequency; }},
     OfModel{"damping_ratio", "1", "of critical damping",
             [](const auto& m) { return m.damping_ratio; }},

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "contact/dense.hpp"
+#include "contact/phase.hpp"
 #include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/effect_choice.hpp"
@@ -25,7 +26,6 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 // Of the balance where forces are sampled: they err by 1e-5, and kinks between instants make the
 // last digits dear.
 constexpr double sampled_tolerance = 1e-9;
@@ -52,7 +52,7 @@ std::vector<NamedMap> maps_of(const ReducedModel& model, const SceneDescription&
     NamedMap map;
     map.name = model.patches.size() == 1 ? name : name + "." + model.patches[patch].name;
     map.patch = patch;
-    map.frequency_hz = point.frequency / two_pi;
+    map.frequency_hz = point.frequency / contact::two_pi;
     map.amplitude = point.amplitude;
     map.stability = point.stability;
     map.points = draw(contact::Places::cells);
@@ -93,7 +93,8 @@ void add_limit_shares(const ReducedModel& model, CurveResult& result) {
 }
 
 Eigen::VectorXd slowing_of(const ReducedModel& model, const ResponseDescription& response) {
-  return slowing(model, two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));
+  return slowing(
+      model, contact::two_pi * std::max(response.frequency_begin_hz, response.frequency_end_hz));
 }
 
 /// Explicit steps need not follow attachment shapes, see slow_attachment.hpp.
@@ -197,7 +198,8 @@ int most_meant(const ReducedModel& model, const ResponseDescription& response, i
   constexpr int least = 9;
   const Eigen::Index n_free = model.frequency.size() - model.n_attachment;
   const double top = n_free > 0 ? model.frequency.head(n_free).maxCoeff() : 0.0;
-  const double lowest = two_pi * std::min(response.frequency_begin_hz, response.frequency_end_hz);
+  const double lowest =
+      contact::two_pi * std::min(response.frequency_begin_hz, response.frequency_end_hz);
   const double orders = std::min(std::floor(top / lowest), static_cast<double>(highest));
   return std::clamp(static_cast<int>(orders), std::min(least, highest), highest);
 }
@@ -209,8 +211,8 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   const ResponseDescription& response = *scene.response;
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   solver::ContinuationOptions options;
-  options.frequency_begin = two_pi * response.frequency_begin_hz;
-  options.frequency_end = two_pi * response.frequency_end_hz;
+  options.frequency_begin = contact::two_pi * response.frequency_begin_hz;
+  options.frequency_end = contact::two_pi * response.frequency_end_hz;
   options.n_harmonics =
       harmonics.chosen() ? most_meant(model, response, harmonics.highest) : harmonics.highest;
   options.orders = harmonics.orders;
@@ -371,10 +373,10 @@ std::vector<NamedMap> curve_maps(const ReducedModel& model, const SceneDescripti
       const ResponseDescription& range = *scene.response;
       const bool solved_there =
           *frequency == range.frequency_begin_hz && *frequency == range.frequency_end_hz;
-      const auto points =
-          solved_there ? result.curve.points
-                       : solver::points_at_frequency(balanced_scene(model, *load, options),
-                                                     result.curve, two_pi * *frequency, options);
+      const auto points = solved_there ? result.curve.points
+                                       : solver::points_at_frequency(
+                                             balanced_scene(model, *load, options), result.curve,
+                                             contact::two_pi * *frequency, options);
       for (std::size_t i = 0; i < points.size(); ++i) {
         add(fmt::format("{:g}Hz_{}", *frequency, i + 1), points[i]);
       }

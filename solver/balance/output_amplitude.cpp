@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/phase.hpp"
+
 namespace microslip::solver {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// Output of one signal, its slope and curvature at a phase. `y` holds [y₀, y_s1, y_c1, …].
 struct Wave {
@@ -31,13 +31,13 @@ double phase_of_extremum(const Wave& wave, double sign) {
   double best = 0.0;
   double value = -std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n_grid; ++i) {
-    const double phase = two_pi * static_cast<double>(i) / static_cast<double>(n_grid);
+    const double phase = contact::two_pi * static_cast<double>(i) / static_cast<double>(n_grid);
     if (const double here = sign * wave.derivative(phase, 0); here > value) {
       value = here;
       best = phase;
     }
   }
-  const double cell = two_pi / static_cast<double>(n_grid);
+  const double cell = contact::two_pi / static_cast<double>(n_grid);
   double phase = best;
   for (int i = 0; i < 20; ++i) {
     const double curvature = wave.derivative(phase, 2);
