@@ -43,7 +43,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
       ask(record.progress(), scene, solution.structure->mesh, solution.curves);
     if (options.maps) {
       record.stage("maps");
-      draw_maps(solution, record);
+      draw_maps(solution, options.jobs, record);
     }
     if (scene.response->optimum) find_best_value(solution, options, record);
     record.stage("report");

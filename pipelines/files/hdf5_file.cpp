@@ -81,9 +81,14 @@ void write_matrix(hid_t file, const std::string& name, const RowMajor<Scalar>& v
   write_dataset(file, name, dimensions, type, values.data(), unit);
 }
 
+std::mutex& library() {
+  static std::mutex one;
+  return one;
+}
+
 }  // namespace
 
-Hdf5Writer::Hdf5Writer() {
+Hdf5Writer::Hdf5Writer() : turn_(library()) {
   const Properties memory(H5Pcreate(H5P_FILE_ACCESS));
   constexpr std::size_t growth = 1U << 20U;  // bytes added at a time
   H5Pset_fapl_core(memory.get(), growth, false);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <string>
 
 #include <Eigen/Core>
@@ -14,7 +15,8 @@ namespace microslip::pipelines {
 using Hdf5Integers = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Hdf5Bytes = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Collects datasets; groups are created as names ask for them.
+/// Collects datasets; groups are created as names ask for them. One at a time lives in the process, others wait for its
+/// end: the library takes one thread at a time.
 class Hdf5Writer {
  public:
   Hdf5Writer();
@@ -39,6 +41,7 @@ class Hdf5Writer {
   void write(const std::filesystem::path& file);
 
  private:
+  std::unique_lock<std::mutex> turn_;
   std::int64_t file_ = -1;
 };
 

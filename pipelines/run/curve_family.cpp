@@ -1,6 +1,7 @@
 #include "pipelines/run/curve_family.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <numbers>
 #include <string>
@@ -121,18 +122,20 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
 }
 
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
-               const std::vector<CurveResult>& curves, RunRecord& record) {
-  for (std::size_t i = 0; i < curves.size(); ++i) {
+               const std::vector<CurveResult>& curves, int jobs, RunRecord& record) {
+  std::atomic<bool> late{false};
+  in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
     if (cut_short()) {
-      record.progress().warning("out of time: maps and motions at the peaks are left out");
+      late = true;
       return;
     }
     for (const NamedMap& map : curve_maps(model, scene, curves[i])) record.keep_map(model, map, i);
     if (const auto* peak = highest_peak(curves[i].curve)) {
       record.keep_motion(curves[i].name + "_peak", *peak);
     }
-  }
+  });
+  if (late) record.progress().warning("out of time: maps and motions at the peaks are left out");
 }
 
 }  // namespace microslip::pipelines

@@ -26,9 +26,10 @@ namespace microslip::pipelines {
     const std::vector<CurveRequest>& requests,
     const std::vector<const solver::ResponseCurve*>& near, int jobs, Progress& progress);
 
-/// Contact maps where the scene asks for them, and the motion of the blade at the peaks.
+/// Contact maps where the scene asks for them, and the motion of the blade at the peaks; those of `jobs` curves side by
+/// side.
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
-               const std::vector<CurveResult>& curves, RunRecord& record);
+               const std::vector<CurveResult>& curves, int jobs, RunRecord& record);
 
 /// How far every curve can be trusted; their bars are set.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.

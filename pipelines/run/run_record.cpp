@@ -386,8 +386,8 @@ void RunRecord::keep_unfinished() {
 }
 
 void RunRecord::keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve) {
-  const std::lock_guard lock(mutex_);
   write_map(staged_ / "maps", model.patches.at(map.patch), map);
+  const std::lock_guard lock(mutex_);
   summary_.curves.at(curve).maps.push_back(map.name);
 }
 

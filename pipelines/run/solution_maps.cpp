@@ -29,8 +29,8 @@ ReducedModel model_of_maps(const Solution& solution) {
 
 }  // namespace
 
-void draw_maps(const Solution& solution, RunRecord& record) {
-  draw_maps(model_of_maps(solution), solution.scene, solution.curves, record);
+void draw_maps(const Solution& solution, int jobs, RunRecord& record) {
+  draw_maps(model_of_maps(solution), solution.scene, solution.curves, jobs, record);
 }
 
 }  // namespace microslip::pipelines

@@ -8,6 +8,6 @@
 namespace microslip::pipelines {
 
 /// Maps of the curves, on as many contact points as a picture wants.
-void draw_maps(const Solution& solution, RunRecord& record);
+void draw_maps(const Solution& solution, int jobs, RunRecord& record);
 
 }  // namespace microslip::pipelines
