@@ -28,7 +28,7 @@
 #include "pipelines/import/step_scene.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
-#include "pipelines/scene/static_section.hpp"
+#include "pipelines/sections/static_section.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/mesh_format.hpp"

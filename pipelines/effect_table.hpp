@@ -1,6 +1,6 @@
 /// @file
 /// The effects a scene may be simulated with, one row each: key, indicator, threshold, what is lost without it. Keys of
-/// [effects] (scene_keys.cpp), contradictions (scene/effects_section), choice and reasons (model/effects), checks after
+/// [effects] (scene_keys.cpp), contradictions (sections/effects_section), choice and reasons (effects/effects), checks after
 /// a run (accuracy/effect_bounds) and every threshold come from here.
 ///
 /// An indicator is dimensionless and told before a run, from the linear limits of the structure: every contact point

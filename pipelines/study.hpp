@@ -3,13 +3,13 @@
 /// other commands, is one command of the program and returns its exit code; errors are thrown (exit_code.hpp).
 #pragma once
 
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/run/campbell_study.hpp"
 #include "pipelines/run/check_study.hpp"
 #include "pipelines/run/converge_study.hpp"
 #include "pipelines/run/mesh_study.hpp"
 #include "pipelines/run/report_study.hpp"
 #include "pipelines/run/run_options.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -50,23 +50,31 @@ set(uses_solver_curve balance branch stability enrichment)
 set(uses_solver_optimum balance peak enrichment curve)
 
 # `face` are the sources at the root but the program; main.cpp, the program, uses all.
-set(drawers_pipelines system text scene import model response accuracy files run cycle face command_line)
+set(drawers_pipelines system text description sections scene import model structure effects response accuracy
+  files run cycle face command_line)
 set(uses_pipelines_text system)
-set(uses_pipelines_scene system text)
-set(uses_pipelines_import system scene)
-set(uses_pipelines_model system scene import)
-set(uses_pipelines_response system scene model)
-set(uses_pipelines_accuracy system scene model response)
-set(uses_pipelines_files system text model response accuracy)
-set(uses_pipelines_run system text scene import model response accuracy files)
+set(uses_pipelines_description system text)
+set(uses_pipelines_sections system text description)
+set(uses_pipelines_scene system text description sections)
+set(uses_pipelines_import system description scene)
+set(uses_pipelines_model system description scene import)
+set(uses_pipelines_structure system description import model)
+set(uses_pipelines_effects system description scene model structure)
+set(uses_pipelines_response system description scene model structure effects)
+set(uses_pipelines_accuracy system description scene model structure effects response)
+set(uses_pipelines_files system text description model structure effects response accuracy)
+set(uses_pipelines_run system text description scene import model structure effects response accuracy files)
 set(uses_pipelines_cycle system text files)
-set(uses_pipelines_face system text scene import model response accuracy files run cycle)
+set(uses_pipelines_face system text description sections scene import model structure effects response accuracy files
+  run cycle)
 set(uses_pipelines_command_line system text cycle face)
 
 # Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that
 # can be balanced) becomes arrays with the tools of contact/patch. Everything else of contact/ is its face.
+set(open_pipelines_description contact/patch)
 set(open_pipelines_scene contact/patch)
 set(open_pipelines_model contact/patch)
+set(open_pipelines_structure contact/patch)
 
 # Splits a path into its room and its drawer ("" at the root of the room).
 macro(place path room drawer)

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/scene/curve_request.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/accuracy/ladders.hpp"
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/effects/model_family.hpp"
 
 namespace microslip::pipelines {
 

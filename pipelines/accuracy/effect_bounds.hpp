@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/effect_record.hpp"
+#include "pipelines/effects/effect_record.hpp"
 #include "pipelines/response/error_row.hpp"
 
 namespace microslip::pipelines {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

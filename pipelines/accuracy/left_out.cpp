@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/model/contact_coordinates.hpp"
-#include "pipelines/model/effect_choice.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "solver/richer_peak.hpp"

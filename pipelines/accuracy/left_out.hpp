@@ -5,10 +5,10 @@
 
 #include <vector>
 
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipelines/accuracy/error_budget.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

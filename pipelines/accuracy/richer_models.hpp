@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "pipelines/model/structure_members.hpp"
+#include "pipelines/structure/structure_members.hpp"
 #include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 
 namespace microslip::pipelines {
 

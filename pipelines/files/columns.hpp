@@ -15,9 +15,9 @@
 #include "contact/modal_force.hpp"
 #include "contact/patch.hpp"
 #include "pipelines/accuracy/convergence.hpp"
-#include "pipelines/model/campbell.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
+#include "pipelines/structure/campbell.hpp"
 #include "solver/optimum.hpp"
 #include "solver/response_curve.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pipelines/model/campbell.hpp"
+#include "pipelines/structure/campbell.hpp"
 
 namespace microslip::pipelines {
 

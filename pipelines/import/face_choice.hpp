@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/step_geometry.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

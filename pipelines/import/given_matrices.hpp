@@ -4,7 +4,7 @@
 
 #include "fem/given_matrices.hpp"
 #include "mesh/mesh.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/import/conversion.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

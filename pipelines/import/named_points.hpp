@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "mesh/mesh.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -9,7 +9,7 @@
 
 #include "mesh/mesher_process.hpp"
 #include "mesh/step_geometry.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "contact/motion_coordinates.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

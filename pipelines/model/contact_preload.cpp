@@ -8,9 +8,9 @@
 #include "contact/patch/preload_equilibrium.hpp"
 #include "contact/patch/preload_field.hpp"
 #include "mesh/surface.hpp"
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/field.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/scene/curve_request.hpp"
-#include "pipelines/scene/field.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

@@ -9,10 +9,10 @@
 #include <Eigen/Geometry>
 
 #include "contact/patch/modal_contact_field.hpp"
+#include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effect_table.hpp"
 #include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/nodal_load.hpp"
-#include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

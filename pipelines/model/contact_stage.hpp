@@ -9,8 +9,8 @@
 
 #include "fem/modal_basis.hpp"
 #include "mesh/mesh.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

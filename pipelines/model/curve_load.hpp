@@ -5,8 +5,8 @@
 #include <optional>
 #include <variant>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/scene/curve_request.hpp"
 
 namespace microslip::pipelines {
 

@@ -2,7 +2,7 @@
 /// Moments beside the preload (contact/patch/patch_load.hpp): what a scene alone says about them.
 #pragma once
 
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipelines/model/effect_choice.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 
 namespace microslip::pipelines {
 namespace {

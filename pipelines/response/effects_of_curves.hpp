@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "pipelines/model/effect_record.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/effect_record.hpp"
 #include "pipelines/response/run_summary.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

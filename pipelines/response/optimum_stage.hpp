@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/scene/scene_description.hpp"
 #include "solver/optimum.hpp"
 #include "solver/richer_peak.hpp"
 

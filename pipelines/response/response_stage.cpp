@@ -12,9 +12,9 @@
 
 #include "contact/dense.hpp"
 #include "contact/phase.hpp"
-#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/model/curve_load.hpp"
-#include "pipelines/model/effect_choice.hpp"
 #include "pipelines/model/slow_attachment.hpp"
 #include "pipelines/model/tilted_area.hpp"
 #include "pipelines/response/resonating_shapes.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/scene/curve_request.hpp"
 #include "solver/scene.hpp"
 
 namespace microslip::pipelines {

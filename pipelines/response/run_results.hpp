@@ -12,7 +12,7 @@
 
 #include "contact/contact_map.hpp"
 #include "contact/modal_force.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "solver/optimum.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/richer_peak.hpp"

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "pipelines/model/effect_record.hpp"
+#include "pipelines/effects/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/error_row.hpp"
 #include "pipelines/response/run_results.hpp"

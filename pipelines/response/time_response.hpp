@@ -3,7 +3,7 @@
 /// to its end, as a response curve like any other.
 #pragma once
 
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "solver/continuation.hpp"
 #include "solver/response_curve.hpp"
 #include "solver/scene.hpp"

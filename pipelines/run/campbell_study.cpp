@@ -8,8 +8,8 @@
 
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_campbell.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/run/questions.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/result_cache.hpp"

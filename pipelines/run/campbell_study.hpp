@@ -2,9 +2,9 @@
 /// The command `campbell`.
 #pragma once
 
-#include "pipelines/model/campbell.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/run/run_options.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/structure/campbell.hpp"
 
 namespace microslip::pipelines {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/curve_cost.hpp"
-#include "pipelines/model/effect_record.hpp"
-#include "pipelines/model/solver_memory.hpp"
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/curve_cost.hpp"
+#include "pipelines/effects/effect_record.hpp"
+#include "pipelines/structure/solver_memory.hpp"
 
 namespace microslip::pipelines {
 

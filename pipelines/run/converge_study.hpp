@@ -2,8 +2,8 @@
 /// The command `converge`.
 #pragma once
 
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/run/run_options.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/run/run_record.hpp"
-#include "pipelines/scene/curve_request.hpp"
 
 namespace microslip::pipelines {
 

@@ -5,7 +5,7 @@
 #include "mesh/element_shape.hpp"
 
 #include "pipelines/model/scene_places.hpp"
-#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/result_cache.hpp"

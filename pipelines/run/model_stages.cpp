@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "fem/ranks.hpp"
+#include "pipelines/description/damping_ratios.hpp"
+#include "pipelines/effects/effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/effects.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
-#include "pipelines/model/static_preload.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/run/questions.hpp"
-#include "pipelines/scene/damping_ratios.hpp"
+#include "pipelines/structure/static_preload.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -14,11 +14,11 @@
 #include <Eigen/Geometry>
 
 #include "mesh/surface.hpp"
+#include "pipelines/description/curve_request.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/scene/curve_request.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/run/progress.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -7,9 +7,9 @@
 
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "solver/optimum.hpp"
 
 namespace microslip::pipelines {

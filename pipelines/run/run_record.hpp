@@ -16,12 +16,12 @@
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/files/checkpoint.hpp"
 #include "pipelines/model/reduced_model.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
 #include "pipelines/run/progress.hpp"
 #include "pipelines/run/run_folder.hpp"
 #include "pipelines/run/run_options.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

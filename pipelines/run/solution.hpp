@@ -8,10 +8,10 @@
 
 #include "pipelines/accuracy/effect_bounds.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/scene/scene_description.hpp"
 
 namespace microslip::pipelines {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <exception>
 
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/effect_table.hpp"
-#include "pipelines/model/effects.hpp"
+#include "pipelines/effects/effects.hpp"
 #include "pipelines/run/curve_family.hpp"
-#include "pipelines/scene/curve_request.hpp"
-#include "pipelines/scene/damping_ratios.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
 

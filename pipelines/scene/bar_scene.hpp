@@ -6,7 +6,7 @@
 /// of the right end.
 #pragma once
 
-#include "pipelines/scene/modes_section.hpp"
+#include "pipelines/sections/modes_section.hpp"
 
 namespace microslip::pipelines {
 

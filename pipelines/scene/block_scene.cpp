@@ -8,8 +8,8 @@
 
 #include "contact/patch/contact_area.hpp"
 #include "pipelines/scene/chain_system.hpp"
-#include "pipelines/scene/contact_section.hpp"
-#include "pipelines/scene/friction_section.hpp"
+#include "pipelines/sections/contact_section.hpp"
+#include "pipelines/sections/friction_section.hpp"
 #include "pipelines/text/scene_keys.hpp"
 
 namespace microslip::pipelines {

@@ -17,7 +17,7 @@
 
 #include <Eigen/Core>
 
-#include "pipelines/scene/modes_section.hpp"
+#include "pipelines/sections/modes_section.hpp"
 
 namespace microslip::pipelines {
 

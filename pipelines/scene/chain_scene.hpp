@@ -18,7 +18,7 @@
 
 #include <string>
 
-#include "pipelines/scene/modes_section.hpp"
+#include "pipelines/sections/modes_section.hpp"
 
 namespace microslip::pipelines {
 

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "contact/dense.hpp"
-#include "pipelines/scene/modes_section.hpp"
+#include "pipelines/sections/modes_section.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "pipelines/scene/scene_description.hpp"
+#include "pipelines/description/scene_description.hpp"
 #include "pipelines/text/csv_table.hpp"
 #include "pipelines/text/section_reader.hpp"
 

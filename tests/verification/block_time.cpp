@@ -19,7 +19,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"

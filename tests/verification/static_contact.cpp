@@ -17,7 +17,7 @@
 #include "fem/slepc_session.hpp"
 #include "fem/surface_load.hpp"
 #include "mesh/surface.hpp"
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/calculix.hpp"

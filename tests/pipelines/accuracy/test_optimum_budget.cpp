@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/model/model_family.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "mesh/mesh.hpp"
-#include "pipelines/model/model_family.hpp"
-#include "pipelines/model/structure_stage.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"

@@ -13,14 +13,14 @@
 #include <gtest/gtest.h>
 
 #include "fem/surface_load.hpp"
-#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_load.hpp"
-#include "pipelines/model/model_family.hpp"
 #include "pipelines/model/nodal_load.hpp"
-#include "pipelines/model/structure_stage.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "tests/support/box_mesh.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/response_stage.hpp"

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/named_points.hpp"
-#include "pipelines/model/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
-#include "pipelines/model/model_family.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 #include "tests/support/box_mesh.hpp"

@@ -11,7 +11,7 @@
 #include <Eigen/QR>
 
 #include "contact/patch/contact_area.hpp"
-#include "pipelines/model/contact_effects.hpp"
+#include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/tilted_area.hpp"

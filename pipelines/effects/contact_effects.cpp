@@ -1,0 +1,50 @@
+#include "pipelines/effects/contact_effects.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipelines/effects/effects.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+void require_stiffness_along_r(const ReducedModel& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const contact::Patch& patch : model.patches) {
+    const double here = patch.cells.stiffness.col(2).minCoeff();
+    if (!(here >= smallest)) smallest = here;  // NaN too
+  }
+  if (smallest >= 0.0) return;
+  throw RefusedError(fmt::format(
+      "residual flexibility makes the contact stiffness along r not positive (smallest {:.3g} "
+      "N/m^3): "
+      "give a finite local stiffness and modes.residual = \"attachment\", or more modes",
+      smallest));
+}
+
+}  // namespace
+
+ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
+  ContactEffects effects;
+  effects.n_harmonics = scene.settings.harmonics.highest;
+  if (scene.response && scene.response->method == ResponseDescription::Method::time) {
+    effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
+  }
+  const std::vector<EffectRecord> chosen = effects_of(scene, &model);
+  const EffectRecord& along_r = effect_in(chosen, "second_direction");
+  effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
+  effects.motion_ratio = along_r.indicator.value_or(0.0);
+  effects.second_direction = along_r.simulated == Simulated::yes && !model.patches.empty();
+  if (effects.second_direction) require_stiffness_along_r(model);
+  return effects;
+}
+
+contact::ContactForce contact_of(const ReducedModel& model, double load) {
+  return or_refused(
+      [&] { return contact::ContactForce(model.patches, model.effects, load, model.coordinates); });
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,37 @@
+/// @file
+/// What curves are expected to cost, by the method of their contact points. Processor seconds of one core; medians of what
+/// scenes took (share/doc/costs.md), right to a factor of two for most.
+#pragma once
+
+#include "pipelines/description/scene_description.hpp"
+
+namespace microslip::pipelines {
+
+/// What decides the method of the contact points (contact::method_for) beside the surfaces.
+struct CurveEffects {
+  bool second_direction = false;
+  bool several_harmonics = false;
+  bool chosen_harmonics = false;
+};
+
+/// What a scene has. @param second_direction  as decided.
+[[nodiscard]] CurveEffects curve_effects(const SceneDescription& scene, bool second_direction);
+
+/// Stages of a run [s].
+struct ResponseSeconds {
+  double curves = 0.0;  ///< traced, or integrated in time
+  double errors = 0.0;  ///< of the curves, on the modes at hand: coarser meshes are no part of it
+  double best_value = 0.0;  ///< the search for it
+  double bracket = 0.0;     ///< the same with uncertain numbers multiplied
+  [[nodiscard]] double total() const { return curves + errors + best_value + bracket; }
+};
+
+/// @param scene  with [response].
+[[nodiscard]] ResponseSeconds response_seconds(const SceneDescription& scene,
+                                               const CurveEffects& effects);
+
+/// A search for other solutions with every curve [s]. @param n_starts  per frequency.
+[[nodiscard]] double search_seconds(const SceneDescription& scene, const CurveEffects& effects,
+                                    int n_starts);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,385 @@
+#include "pipelines/effects/effect_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/effects/curve_cost.hpp"
+#include "pipelines/effects/effect_sizes.hpp"
+#include "pipelines/effects/motion_along_r.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+using enum Simulated;
+
+constexpr double percent = 100.0;
+constexpr int starts_of_a_search = 12;
+constexpr double bearable_search = 60.0;  // [s]: what a scene may wait for without having asked
+constexpr const char* later = "told when the modes are known, by `run`";
+
+EffectDecision by(bool simulated, std::string reason, std::optional<double> indicator = {}) {
+  return {simulated ? yes : no, std::move(reason), indicator};
+}
+
+/// "2.5 times", for a sentence that goes on with what.
+std::string times_text(double value) {
+  return std::isinf(value) ? "any multiple of" : fmt::format("{:.2g} times", value);
+}
+
+EffectDecision nonlinearity(const EffectFacts& facts) {
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!facts.has_friction && !facts.has_normal_stiffness) {
+    return by(false, "no point has friction or normal stiffness");
+  }
+  if (facts.setting("nonlinearity") == "off") return by(false, "only the limits are asked for");
+  if (is_rough(facts.scene)) return by(true, "rough surfaces are springs under no load");
+  if (facts.model == nullptr) return {undecided, later};
+  if (!facts.scene.response) return {undecided, "no [response] is asked for"};
+  if (!facts.reach) return by(false, "only the limits are asked for");
+  const double slip = facts.reach->slip;
+  const std::string text = fmt::format(
+      "the linear limits drive a point to {} what holds it from slipping, opening or closing",
+      times_text(slip));
+  if (slip > effect_row("nonlinearity").threshold || facts.setting("nonlinearity") == "on") {
+    return {yes, text, slip};
+  }
+  return {undecided, text + ": the run proves that it holds, or solves", slip};
+}
+
+EffectDecision normal_motion(const EffectFacts& facts) {
+  if (facts.setting("normal_motion") == "off") {
+    EffectDecision decision = by(false, "effects.normal_motion = \"off\"");
+    if (facts.reach) decision.indicator = facts.reach->load;
+    return decision;
+  }
+  if (!facts.has_normal_stiffness) return by(false, "no contact has normal stiffness");
+  if (facts.model == nullptr) return {undecided, later};
+  if (!facts.reach) return by(true, "normal springs belong to the stuck limit");
+  const double share = normal_energy_share(*facts.model, facts.scene);
+  const double indicator = std::max(facts.reach->load, share);
+  const bool called_for = indicator > effect_row("normal_motion").threshold;
+  const bool asked = facts.setting("normal_motion") == "on" || is_rough(facts.scene);
+  return by(called_for || asked,
+            fmt::format("the load changes by {} its value in the linear limits, normal springs "
+                        "hold {:.2g} % of the strain energy",
+                        times_text(facts.reach->load), percent * share),
+            indicator);
+}
+
+/// What comes with the variation of the load.
+EffectDecision with_normal_motion(const EffectFacts& facts, const char* why,
+                                  double ContactReach::*indicator) {
+  EffectDecision decision = normal_motion(facts);
+  decision.indicator.reset();
+  if (facts.reach) decision.indicator = (*facts.reach).*indicator;
+  if (decision.simulated == yes) decision.reason = why;
+  return decision;
+}
+
+EffectDecision separation(const EffectFacts& facts) {
+  EffectDecision decision =
+      with_normal_motion(facts, "the contact is one-sided", &ContactReach::load);
+  if (decision.simulated == yes && decision.indicator <= effect_row("separation").threshold) {
+    decision.reason += ": no point opens in the linear limits; asking for it costs nothing";
+  }
+  return decision;
+}
+
+EffectDecision mean_coupling(const EffectFacts& facts) {
+  return with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
+}
+
+bool has_both_directions(const SceneDescription& scene, double motion_ratio) {
+  using enum Discretisation::Choice;
+  const Discretisation::Choice choice = scene.settings.second_direction;
+  return choice == on || (choice == automatic && motion_ratio > least_motion_along_r(scene));
+}
+
+EffectDecision second_direction(const EffectFacts& facts) {
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  const bool is_open = facts.scene.settings.second_direction == Discretisation::Choice::automatic;
+  if (facts.model == nullptr && is_open) return {undecided, later};
+  if (facts.model == nullptr) {
+    return by(facts.both_directions, std::string("how much the patch moves along r is ") + later);
+  }
+  return {facts.both_directions ? yes : no,
+          fmt::format("motion along r is {:.2g} % of that along p in the linear limits",
+                      percent * facts.motion_ratio),
+          facts.motion_ratio, least_motion_along_r(facts.scene)};
+}
+
+EffectDecision higher_harmonics(const EffectFacts& facts) {
+  const bool several = facts.scene.settings.harmonics.highest > 1 || in_time(facts.scene);
+  EffectDecision decision{several ? yes : no, harmonics_text(facts.scene)};
+  if (facts.scene.settings.harmonics.chosen()) decision.simulated = undecided;
+  if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return decision;
+  if (!facts.has_range()) {
+    if (decision.simulated == no) decision.reason = "the first alone is kept";
+    return decision;
+  }
+  const HarmonicAnswer most = harmonic_answer(*facts.model, facts.scene);
+  decision.indicator = most.ratio;
+  if (decision.simulated == no) {
+    decision.reason = fmt::format(
+        "the first alone is kept; of its multiples order {}, at {:.4g} Hz, moves the patch most",
+        most.order, most.frequency / (2.0 * std::numbers::pi));
+  }
+  return decision;
+}
+
+EffectDecision roughness(const EffectFacts& facts) {
+  if (!is_rough(facts.scene))
+    return by(false, "no contact.roughness is given: surfaces are smooth");
+  EffectDecision decision = by(true, "contact.roughness is given");
+  if (facts.has_range()) decision.indicator = roughness_size(*facts.model, facts.scene);
+  return decision;
+}
+
+EffectDecision rate_dependence(const EffectFacts& facts) {
+  if (!is_rate_dependent(facts.scene)) {
+    return by(false, "no law of the slip speed is given: the friction coefficient is constant");
+  }
+  EffectDecision decision = by(true, "the friction coefficient follows the slip speed");
+  if (facts.has_range()) decision.indicator = friction_change(*facts.model, facts.scene);
+  return decision;
+}
+
+EffectDecision moments(const EffectFacts& facts) {
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (!has_area(facts.scene)) return by(false, "every contact is a point");
+  EffectDecision decision =
+      by(true, "contact acts on an area: points at several places share the load");
+  if (facts.has_range()) decision.indicator = tilt_size(*facts.model, facts.scene);
+  return decision;
+}
+
+EffectDecision residual(const EffectFacts& facts) {
+  const ResidualKind kind = facts.scene.settings.basis.residual;
+  const bool modal = std::holds_alternative<ModalModel>(facts.scene.model);
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (kind == ResidualKind::none) {
+    return by(false, modal ? "the given stiffness is used as it is" : "modes.residual = \"none\"");
+  }
+  EffectDecision decision =
+      by(true, kind == ResidualKind::attachment
+                   ? "static shapes of the contact and of the forces stand for omitted modes"
+                   : "flexibility of omitted modes stands in series with the contact stiffness");
+  if (facts.model != nullptr) decision.indicator = residual_share(*facts.model, facts.scene);
+  return decision;
+}
+
+EffectDecision local_frames(const EffectFacts& facts) {
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (facts.scene.contacts.empty()) {
+    return by(false, "contact points have the directions of the modes given for them");
+  }
+  EffectDecision decision = by(false, "a face has one frame, of its mean plane and slip direction");
+  if (facts.model != nullptr) decision.indicator = curvature_size(*facts.model);
+  return decision;
+}
+
+EffectDecision static_preload(const EffectFacts& facts) {
+  if (!facts.has_contact) return by(false, "the scene has no contact");
+  if (has_static_preload(facts.scene)) {
+    return by(true, "contact.preload = \"static\": pressure at rest is solved for, gaps and all");
+  }
+  const bool given = std::ranges::any_of(
+      facts.scene.contacts, [](const auto& contact) { return contact.preload_field.has_value(); });
+  return by(false, facts.scene.contacts.empty() ? "points have the preload they are given with"
+                   : given                      ? "pressure at rest is contact.preload_field"
+                                                : "pressure at rest is uniform");
+}
+
+EffectDecision centrifugal(const EffectFacts& facts) {
+  if (std::holds_alternative<ModalModel>(facts.scene.model) ||
+      given_modes(facts.scene) != nullptr) {
+    return by(false, "modes are given, with or without rotation");
+  }
+  const auto& rotation = facts.scene.rotation;
+  if (!rotation || rotation->speed == 0.0) return by(false, "no static.speed is given");
+  EffectDecision decision = by(true, "the structure rotates");
+  if (facts.model != nullptr) {
+    const double lowest = facts.model->frequency.minCoeff();
+    decision.indicator = lowest > 0.0 ? std::pow(rotation->speed / lowest, 2) : HUGE_VAL;
+  }
+  return decision;
+}
+
+EffectDecision stability(const EffectFacts& facts) {
+  const bool several = facts.scene.settings.harmonics.highest > 1;
+  return by(facts.has_contact,
+            !facts.has_contact ? "a linear scene is stable"
+            : several
+                ? "Hill's exponents of every point with several harmonics, where they can tell; in "
+                  "scenes of few modes and points the multipliers of a period in time"
+                : "slow-flow eigenvalues of every point");
+}
+
+EffectDecision maps(const EffectFacts& facts) {
+  const bool asked = facts.scene.response && !facts.scene.response->maps.empty();
+  return by(asked, asked ? "response.maps asks for them" : "response.maps asks for none");
+}
+
+EffectDecision wear(const EffectFacts& facts) {
+  if (!has_wear(facts.scene)) return by(false, "no contact.wear_coefficient is given");
+  const bool drawn = maps(facts).simulated == yes;
+  return by(drawn, drawn ? "depth per period by Archard's law"
+                         : "response.maps asks for no map to show it in");
+}
+
+int default_starts(const SceneDescription& scene) {
+  return scene.response->search_starts.value_or(starts_of_a_search);
+}
+
+EffectDecision coexistence(const EffectFacts& facts) {
+  const SceneDescription& scene = facts.scene;
+  EffectDecision decision;
+  if (facts.reach) decision.indicator = facts.reach->nearby;
+  const auto decided = [&](Simulated simulated, std::string reason) {
+    decision.simulated = simulated;
+    decision.reason = std::move(reason);
+    return decision;
+  };
+  if (!facts.has_contact) return decided(no, "a linear scene has one solution");
+  if (!scene.response) return decided(no, "no [response] is asked for");
+  if (in_time(scene)) return decided(no, "one motion is followed in time");
+  if (facts.setting("coexistence") == "off") return decided(no, "effects.coexistence = \"off\"");
+  if (scene.response->search_starts == 0) return decided(no, "response.search_starts = 0");
+  if (asked_starts(scene) > 0) {
+    return decided(yes,
+                   fmt::format("{} starts per frequency look for them", default_starts(scene)));
+  }
+  if (facts.model == nullptr) return decided(undecided, later);
+  if (!facts.reach) return decided(no, "only the limits are asked for");
+  if (facts.reach->nearby <= effect_row("coexistence").threshold) {
+    return decided(no, "no resonance near by closes a gap or opens a contact in the linear limits");
+  }
+  const double seconds = seconds_of_search(facts);
+  if (!is_single_frequency(scene)) {
+    return decided(
+        no,
+        "not searched: curves follow their folds, branches detached from them are looked for "
+        "with effects.coexistence = \"on\"");
+  }
+  if (seconds > bearable_search) {
+    return decided(
+        no,
+        fmt::format("not searched: a resonance near by closes a gap or opens the contact, so that "
+                    "there may be other solutions; a search would take some {:.2g} s",
+                    seconds));
+  }
+  return decided(
+      yes, "a resonance near by closes a gap or opens the contact: other solutions are looked for");
+}
+
+struct Chooser {
+  std::string_view name;
+  EffectDecision (*decide)(const EffectFacts&);
+};
+
+constexpr std::array choosers{
+    Chooser{"nonlinearity", nonlinearity},
+    Chooser{"normal_motion", normal_motion},
+    Chooser{"separation", separation},
+    Chooser{"mean_coupling", mean_coupling},
+    Chooser{"second_direction", second_direction},
+    Chooser{"higher_harmonics", higher_harmonics},
+    Chooser{"roughness", roughness},
+    Chooser{"rate_dependence", rate_dependence},
+    Chooser{"moments", moments},
+    Chooser{"residual", residual},
+    Chooser{"local_frames", local_frames},
+    Chooser{"static_preload", static_preload},
+    Chooser{"centrifugal", centrifugal},
+    Chooser{"stability", stability},
+    Chooser{"wear", wear},
+    Chooser{"maps", maps},
+    Chooser{"coexistence", coexistence},
+};
+static_assert(std::ranges::equal(choosers, effect_table, {}, &Chooser::name, &EffectRow::name),
+              "every row of the table of effects has its chooser, in the same order");
+
+}  // namespace
+
+EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model) {
+  EffectFacts facts{.scene = scene, .model = model};
+  if (model != nullptr) {
+    facts.reach = contact_reach(*model, scene);
+    facts.motion_ratio = motion_ratio_along_r(*model, scene);
+  }
+  facts.both_directions = has_both_directions(scene, facts.motion_ratio);
+  if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
+    facts.has_contact = !modal->points.empty();
+    facts.has_friction = std::ranges::any_of(modal->points, [](const auto& p) { return p.rubs(); });
+    facts.has_normal_stiffness =
+        std::ranges::any_of(modal->points, [](const auto& p) { return p.normal_stiffness > 0.0; });
+  }
+  for (const ContactDescription& contact : scene.contacts) {
+    facts.has_contact = true;
+    facts.has_friction = facts.has_friction || !contact.friction.is_zero();
+    facts.has_normal_stiffness =
+        facts.has_normal_stiffness || contact.normal_stiffness.value_or(1.0) > 0.0;
+  }
+  return facts;
+}
+
+double least_motion_along_r(const SceneDescription& scene) {
+  return scene.contacts.empty() ? least_given_motion : effect_row("second_direction").threshold;
+}
+
+bool in_time(const SceneDescription& scene) {
+  return scene.response && scene.response->method == ResponseDescription::Method::time;
+}
+
+bool is_single_frequency(const SceneDescription& scene) {
+  return scene.response->frequency_begin_hz == scene.response->frequency_end_hz;
+}
+
+EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
+  const auto found = std::ranges::find(choosers, row.name, &Chooser::name);
+  if (found == choosers.end()) throw std::out_of_range("no effect " + std::string(row.name));
+  return found->decide(facts);
+}
+
+double seconds_of_search(const EffectFacts& facts) {
+  return search_seconds(facts.scene, curve_effects(facts.scene, facts.both_directions),
+                        default_starts(facts.scene));
+}
+
+std::string harmonics_text(const SceneDescription& scene) {
+  if (!scene.response) return "no [response] is asked for";
+  const HarmonicSettings& harmonics = scene.settings.harmonics;
+  if (in_time(scene)) return "a motion integrated in time has all harmonics";
+  if (harmonics.chosen()) {
+    return fmt::format(
+        "\"auto\": those beyond the first that change the highest peaks by more than {:.2g} %",
+        percent * harmonics.tolerance);
+  }
+  if (harmonics.orders.empty()) return fmt::format("orders up to {} are kept", harmonics.highest);
+  return fmt::format("the orders {} are kept", fmt::join(harmonics.orders, ", "));
+}
+
+int asked_starts(const SceneDescription& scene) {
+  const bool on = setting_of(scene, "coexistence") == "on";
+  return on ? default_starts(scene) : scene.response->search_starts.value_or(0);
+}
+
+int search_starts(const SceneDescription& scene, const ReducedModel& model, double load) {
+  const int asked = asked_starts(scene);
+  if (asked > 0 || model.patches.empty() || !is_single_frequency(scene)) return asked;
+  EffectFacts facts{.scene = scene, .model = &model};
+  facts.has_contact = true;
+  facts.both_directions = model.effects.second_direction;
+  facts.reach = or_refused([&] { return contact_reach(model, scene, load); });
+  return coexistence(facts).simulated == yes ? default_starts(scene) : 0;
+}
+
+}  // namespace microslip::pipelines

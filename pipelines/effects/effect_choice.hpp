@@ -1,0 +1,67 @@
+/// @file
+/// How `auto` in [effects] is decided: one function for each row of effect_table.hpp, in its order.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effect_table.hpp"
+#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/effects/effect_record.hpp"
+#include "pipelines/model/reduced_model.hpp"
+
+namespace microslip::pipelines {
+
+/// What is known when effects are chosen.
+struct EffectFacts {
+  const SceneDescription& scene;
+  const ReducedModel* model;  ///< nullptr: not yet
+  std::optional<ContactReach> reach{};
+  double motion_ratio = 0.0;     ///< motion_along_r.hpp; 0 without model
+  bool both_directions = false;  ///< friction along r is simulated, as far as is known
+  bool has_contact = false;
+  bool has_friction = false;
+  bool has_normal_stiffness = false;
+
+  [[nodiscard]] std::string setting(std::string_view name) const { return setting_of(scene, name); }
+  /// Indicators of the response can be told.
+  [[nodiscard]] bool has_range() const { return model != nullptr && scene.response.has_value(); }
+};
+
+/// @param model  as of effects_of().
+[[nodiscard]] EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model);
+
+struct EffectDecision {
+  Simulated simulated = Simulated::no;
+  std::string reason;
+  std::optional<double> indicator{};
+  std::optional<double> threshold{};  ///< where it is not that of the table
+};
+
+/// Of one row. @throws std::out_of_range  no such effect.
+[[nodiscard]] EffectDecision decide(const EffectRow& row, const EffectFacts& facts);
+
+/// Motion along r over that along p that calls for friction there.
+[[nodiscard]] double least_motion_along_r(const SceneDescription& scene);
+
+[[nodiscard]] bool in_time(const SceneDescription& scene);
+
+/// A solution is asked for, no curve. @param scene  with [response].
+[[nodiscard]] bool is_single_frequency(const SceneDescription& scene);
+
+/// A search for other solutions beside all curves of a scene, forecast [s].
+[[nodiscard]] double seconds_of_search(const EffectFacts& facts);
+
+/// Starts per frequency of that search, where the scene asks for one; 0: it does not.
+[[nodiscard]] int asked_starts(const SceneDescription& scene);
+
+/// Starts per frequency of the search for other solutions that a curve under a load gets; 0: none.
+/// @throws RefusedError  no such load.
+[[nodiscard]] int search_starts(const SceneDescription& scene, const ReducedModel& model,
+                                double load);
+
+/// What a scene says of its harmonics, in words.
+[[nodiscard]] std::string harmonics_text(const SceneDescription& scene);
+
+}  // namespace microslip::pipelines

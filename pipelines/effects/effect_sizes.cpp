@@ -1,0 +1,80 @@
+#include "pipelines/effects/effect_sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipelines/model/curve_load.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// ∬ n₀' dA at load 1, of points that press.
+double force_at_unit_load(const ReducedModel& model) {
+  if (in_newtons(model)) return 1.0;
+  double force = 0.0;
+  for (const contact::Patch& patch : model.patches) {
+    force += patch.cells.preload_field.cwiseMax(0.0).dot(patch.cells.weights);
+  }
+  return force;
+}
+
+/// That presses [N]; 0: none does.
+double smallest_force(const ReducedModel& model, const SceneDescription& scene) {
+  double smallest = no_limit;
+  for (const CurveRequest& request : curve_requests(scene)) {
+    if (std::holds_alternative<UniformGap>(request.load)) continue;
+    const auto* load = std::get_if<double>(&request.load);
+    if (load != nullptr && *load > 0.0) smallest = std::min(smallest, *load);
+  }
+  return std::isfinite(smallest) ? smallest * force_at_unit_load(model) : 0.0;
+}
+
+double over(double part, double whole) { return whole > 0.0 ? part / whole : no_limit; }
+
+double half_size(const Eigen::VectorXd& places) {
+  return 0.5 * (places.maxCoeff() - places.minCoeff());
+}
+
+}  // namespace
+
+double roughness_size(const ReducedModel& model, const SceneDescription& scene) {
+  double height = 0.0;
+  for (const contact::Patch& patch : model.patches) {
+    if (patch.rules.roughness) height = std::max(height, patch.rules.roughness->height());
+  }
+  return over(height * total_normal_stiffness(model), smallest_force(model, scene));
+}
+
+double tilt_size(const ReducedModel& model, const SceneDescription& scene) {
+  double most = 0.0;
+  const double force = smallest_force(model, scene);
+  for (const contact::Patch& patch : model.patches) {
+    for (const contact::TiltedArea& area : patch.tilted_areas) {
+      const double load = area.share * force;
+      for (const auto& [moment, places] :
+           {std::pair{area.moment[0], &area.r}, std::pair{area.moment[1], &area.p}}) {
+        if (moment != 0.0) {
+          most = std::max(most, over(std::abs(moment), load * half_size(*places)));
+        }
+      }
+    }
+  }
+  return most;
+}
+
+double curvature_size(const ReducedModel& model) {
+  double most = 0.0;
+  for (const contact::Patch& patch : model.patches) {
+    const Eigen::MatrixX3d& points = patch.vertices.points;
+    if (points.rows() == 0) continue;
+    const Eigen::MatrixX3d arms = points.rowwise() - points.colwise().mean();
+    const double off = (arms * patch.frame.row(1).transpose()).cwiseAbs().maxCoeff();
+    most = std::max(most, over(off, 2.0 * arms.rowwise().norm().maxCoeff()));
+  }
+  return most;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,27 @@
+/// @file
+/// Which physical effects a scene is simulated with, and why: one record per row of effect_table.hpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/effects/effect_record.hpp"
+#include "pipelines/model/reduced_model.hpp"
+
+namespace microslip::pipelines {
+
+/// Chooses what `auto` leaves open, by the indicators.
+/// @param model  with its patches; nullptr: not known yet, so that what depends on modes is undecided.
+[[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
+                                                   const ReducedModel* model);
+
+/// One of them. @throws std::out_of_range  no such name.
+[[nodiscard]] const EffectRecord& effect_in(const std::vector<EffectRecord>& effects,
+                                            std::string_view name);
+
+/// The table as `check` prints it and a log keeps it, a line each, under a heading.
+[[nodiscard]] std::vector<std::string> effect_lines(const std::vector<EffectRecord>& effects);
+
+}  // namespace microslip::pipelines

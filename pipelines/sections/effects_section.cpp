@@ -1,0 +1,185 @@
+#include "pipelines/sections/effects_section.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "pipelines/effect_table.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr std::array<std::string_view, 3> settings{"auto", "on", "off"};
+
+const ModalModel* modal_of(const SceneDescription& scene) {
+  return std::get_if<ModalModel>(&scene.model);
+}
+
+bool has_contact(const SceneDescription& scene) {
+  const ModalModel* modal = modal_of(scene);
+  return modal != nullptr ? !modal->points.empty() : !scene.contacts.empty();
+}
+
+bool lacks_contact(const SceneDescription& scene) { return !has_contact(scene); }
+
+bool has_constant_load(const SceneDescription& scene) {
+  if (const ModalModel* modal = modal_of(scene)) {
+    return std::ranges::none_of(modal->points,
+                                [](const auto& point) { return point.normal_stiffness > 0.0; });
+  }
+  return std::ranges::none_of(scene.contacts, [](const ContactDescription& contact) {
+    return contact.normal_stiffness.value_or(1.0) > 0.0;
+  });
+}
+
+bool lacks_normal_motion(const SceneDescription& scene) {
+  return setting_of(scene, "normal_motion") == "off";
+}
+
+bool has_normal_motion(const SceneDescription& scene) { return !lacks_normal_motion(scene); }
+
+/// The motion along r of given modes; the modes of a mesh have one.
+bool lacks_motion_along_r(const SceneDescription& scene) {
+  const ModalModel* modal = modal_of(scene);
+  return modal != nullptr && (modal->shapes.w.size() == 0 || modal->shapes.w.isZero(0.0));
+}
+
+bool has_harmonics(const SceneDescription& scene) { return scene.settings.harmonics.highest > 1; }
+bool lacks_harmonics(const SceneDescription& scene) { return !has_harmonics(scene); }
+bool is_smooth(const SceneDescription& scene) { return !is_rough(scene); }
+bool has_constant_friction(const SceneDescription& scene) { return !is_rate_dependent(scene); }
+bool lacks_area(const SceneDescription& scene) { return !has_area(scene); }
+
+bool has_residual(const SceneDescription& scene) {
+  return scene.settings.basis.residual != ResidualKind::none;
+}
+bool lacks_residual(const SceneDescription& scene) { return !has_residual(scene); }
+
+bool lacks_static_preload(const SceneDescription& scene) { return !has_static_preload(scene); }
+
+bool rotates(const SceneDescription& scene) {
+  return scene.rotation && scene.rotation->speed > 0.0;
+}
+bool is_at_rest(const SceneDescription& scene) { return !rotates(scene); }
+
+bool lacks_wear(const SceneDescription& scene) { return !has_wear(scene); }
+bool has_maps(const SceneDescription& scene) {
+  return scene.response && !scene.response->maps.empty();
+}
+bool lacks_maps(const SceneDescription& scene) { return !has_maps(scene); }
+
+bool searches(const SceneDescription& scene) {
+  return scene.response && scene.response->search_starts.value_or(0) > 0;
+}
+bool refuses_to_search(const SceneDescription& scene) {
+  return scene.response && scene.response->search_starts == 0;
+}
+bool goes_in_time(const SceneDescription& scene) {
+  return scene.response && scene.response->method == ResponseDescription::Method::time;
+}
+
+/// Curves beside the two limits.
+bool asks_for_preloads(const SceneDescription& scene) {
+  if (!scene.response || lacks_contact(scene)) return false;
+  const auto& preload = scene.response->preload;
+  return preload.empty() || std::ranges::any_of(preload, [](const PreloadEntry& entry) {
+           return !std::holds_alternative<LimitName>(entry);
+         });
+}
+
+bool always(const SceneDescription&) { return true; }
+
+/// What one setting of an effect cannot stand beside.
+struct Contradiction {
+  std::string_view effect, setting;
+  bool (*is_there)(const SceneDescription&);
+  std::string_view why;  ///< names the other key
+};
+
+constexpr std::string_view no_normal_stiffness =
+    "needs normal_stiffness in [contact], or at a contact point: the load is constant";
+constexpr std::string_view part_of_normal_motion =
+    "is part of the normal motion: switch effects.normal_motion off";
+constexpr std::string_view without_normal_motion =
+    "contradicts effects.normal_motion = \"off\": then the load stays that of rest";
+
+constexpr std::array contradictions{
+    Contradiction{"nonlinearity", "on", lacks_contact, "needs a [contact]"},
+    Contradiction{"nonlinearity", "off", asks_for_preloads,
+                  "contradicts response.preload (or preload_scale): contact without it is one of "
+                  "the limits, response.preload = [\"free\", \"stuck\"]"},
+    Contradiction{"normal_motion", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"normal_motion", "off", is_rough,
+                  "contradicts contact.roughness: rough surfaces are felt by normal motion"},
+    Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
+    Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"separation", "off", has_normal_motion, part_of_normal_motion},
+    Contradiction{"mean_coupling", "on", lacks_normal_motion, without_normal_motion},
+    Contradiction{"mean_coupling", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"mean_coupling", "off", has_normal_motion, part_of_normal_motion},
+    Contradiction{"second_direction", "on", lacks_motion_along_r,
+                  "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
+                  "have none)"},
+    Contradiction{"higher_harmonics", "on", lacks_harmonics, "needs response.harmonics above 1"},
+    Contradiction{"higher_harmonics", "off", has_harmonics,
+                  "contradicts response.harmonics: leave that out"},
+    Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
+    Contradiction{"roughness", "off", is_rough, "contradicts contact.roughness: leave that out"},
+    Contradiction{"rate_dependence", "on", has_constant_friction,
+                  "needs a law of contact.friction_coefficient"},
+    Contradiction{"rate_dependence", "off", is_rate_dependent,
+                  "contradicts a law of contact.friction_coefficient: leave that out"},
+    Contradiction{"moments", "on", lacks_area,
+                  "needs an area: cells and size in contact.points, or p and r of modal.points"},
+    Contradiction{"moments", "off", has_area,
+                  "contradicts the area of the contact (its cells and preload_moment): give one "
+                  "contact point"},
+    Contradiction{"residual", "on", lacks_residual,
+                  "cannot be on: modal scenes and modes.residual = \"none\" have no residual"},
+    Contradiction{"residual", "off", has_residual,
+                  "contradicts modes.residual: give modes.residual = \"none\""},
+    Contradiction{"local_frames", "on", always,
+                  "cannot be on: a contact has one frame, from contact.slip_direction and its mean "
+                  "plane; several [[contact]] have one each"},
+    Contradiction{"static_preload", "on", lacks_static_preload,
+                  "needs contact.preload = \"static\" and the loads of [static]"},
+    Contradiction{"static_preload", "off", has_static_preload,
+                  "contradicts contact.preload = \"static\": leave that out"},
+    Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
+    Contradiction{"centrifugal", "off", rotates, "contradicts static.speed: leave that out"},
+    Contradiction{"stability", "off", always,
+                  "cannot be switched off: the steps along a curve use it; expected auto or on"},
+    Contradiction{"wear", "on", lacks_wear, "needs contact.wear_coefficient"},
+    Contradiction{"wear", "on", lacks_maps, "needs response.maps, which it is drawn in"},
+    Contradiction{"wear", "off", has_wear, "contradicts contact.wear_coefficient: leave that out"},
+    Contradiction{"maps", "on", lacks_maps, "needs response.maps"},
+    Contradiction{"maps", "off", has_maps, "contradicts response.maps: leave that out"},
+    Contradiction{"coexistence", "on", refuses_to_search,
+                  "contradicts response.search_starts = 0: leave that out"},
+    Contradiction{"coexistence", "on", goes_in_time,
+                  "needs response.method = \"harmonic_balance\": integration in time follows one "
+                  "motion"},
+    Contradiction{"coexistence", "off", searches,
+                  "contradicts response.search_starts: leave that out"},
+};
+
+}  // namespace
+
+void read_effects(const SectionReader& s, SceneDescription& scene) {
+  for (const EffectRow& row : effect_table) {
+    scene.effects.emplace_back(row.name, s.word(row.name, settings));
+  }
+  for (const auto& [effect, setting, is_there, why] : contradictions) {
+    if (setting_of(scene, effect) == setting && is_there(scene)) {
+      s.fail(effect, fmt::format("\"{}\" {}", setting, why), s.node(effect));
+    }
+  }
+  using enum Discretisation::Choice;
+  const std::string both = setting_of(scene, "second_direction");
+  scene.settings.second_direction = both == "on" ? on : both == "off" ? off : automatic;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,15 @@
+/// @file
+/// [effects]: which of them a scene switches, and settings that contradict the rest of it or each other.
+#pragma once
+
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/text/section_reader.hpp"
+
+namespace microslip::pipelines {
+
+/// Sets SceneDescription::effects, in the order of the table, and the choice of directions.
+/// @param scene  read but for its effects.
+/// @throws SceneError  a setting that contradicts another key; the message names both.
+void read_effects(const SectionReader& s, SceneDescription& scene);
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,44 @@
+#include "pipelines/structure/solver_memory.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/memory_forecast.hpp"
+#include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+std::string gigabytes(double megabytes) { return fmt::format("{:.1f} GB", 1e-3 * megabytes); }
+
+}  // namespace
+
+SolverMemory solver_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
+  SolverMemory memory{solver, fem::direct_memory(mesh).total(), fem::iterative_memory(mesh).total(),
+                      fem::available_memory_here()};
+  memory.available.megabytes *= static_cast<double>(fem::n_ranks()) / fem::n_ranks_here();
+  return memory;
+}
+
+std::string memory_warning(const SolverMemory& memory) {
+  const double available = memory.available.megabytes;
+  if (memory.needed_mb() <= available) return {};
+  const bool direct = memory.solver == fem::SolverKind::direct;
+  std::string text = fmt::format("modes.solver = \"{}\" needs about {}, {} are available ({})",
+                                 direct ? "direct" : "iterative", gigabytes(memory.needed_mb()),
+                                 gigabytes(available), memory.available.limited_by);
+  if (direct && memory.iterative_mb < available) {
+    text += fmt::format("; modes.solver = \"iterative\" needs about {}",
+                        gigabytes(memory.iterative_mb));
+  }
+  return text + "; or take a coarser mesh or a machine with more memory";
+}
+
+void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
+  constexpr double at_least = 0.7;  // of the forecast
+  SolverMemory memory = solver_memory(mesh, solver);
+  if (at_least * memory.needed_mb() <= memory.available.megabytes) return;
+  throw fem::MemoryError("out of memory: " + memory_warning(memory));
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,239 @@
+#include "pipelines/structure/static_preload.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
+#include "fem/surface_load.hpp"
+#include "mesh/surface.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/nodal_load.hpp"
+#include "pipelines/structure/solver_memory.hpp"
+#include "pipelines/system/scene_error.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// The normal freedoms of all contact faces.
+struct NormalFreedoms {
+  std::vector<Eigen::Index> nodes;
+  Eigen::MatrixX3d normals;
+
+  /// Displacements along the normals, of columns over the mesh.
+  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& u) const {
+    Eigen::MatrixXd v(normals.rows(), u.cols());
+    for (Eigen::Index i = 0; i < v.rows(); ++i) {
+      v.row(i) = normals.row(i) * u.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
+    }
+    return v;
+  }
+};
+
+NormalFreedoms normal_freedoms(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  NormalFreedoms freedoms;
+  for (const ContactDescription& contact : scene.contacts) {
+    const std::vector<Eigen::Index>& own = mesh.surface(contact.surface).nodes;
+    freedoms.nodes.insert(freedoms.nodes.end(), own.begin(), own.end());
+    const Eigen::Index n = std::ssize(freedoms.nodes);
+    freedoms.normals.conservativeResize(n, 3);
+    freedoms.normals.bottomRows(std::ssize(own)).rowwise() = contact_frame(mesh, contact).row(1);
+  }
+  return freedoms;
+}
+
+Eigen::VectorXd load_of(const mesh::Mesh& mesh, const StaticLoads& loads) {
+  Eigen::VectorXd load = excitation_loads(mesh, loads.forces).col(0);
+  for (const PressureDescription& entry : loads.pressures) {
+    load -= entry.pressure * fem::normal_traction(mesh.nodes(), mesh.surface(entry.surface));
+  }
+  return load;
+}
+
+Eigen::MatrixXd flexibility(fem::Structure& structure, const mesh::Mesh& mesh,
+                            const NormalFreedoms& freedoms) {
+  constexpr Eigen::Index at_once = 64;  // of the solutions, each as long as the mesh
+  const Eigen::Index n = freedoms.normals.rows();
+  Eigen::MatrixXd C(n, n);
+  for (Eigen::Index begin = 0; begin < n; begin += at_once) {
+    const Eigen::Index count = std::min(at_once, n - begin);
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * mesh.n_nodes(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Eigen::Index node = freedoms.nodes[static_cast<std::size_t>(begin + j)];
+      forces.block<3, 1>(3 * node, j) = freedoms.normals.row(begin + j).transpose();
+    }
+    C.middleCols(begin, count) = freedoms.of(structure.solve_static(forces));
+  }
+  return 0.5 * (C + C.transpose());
+}
+
+/// A contact at rest: approach a at its points, and at the vertices of its cells [m].
+struct RestingPatch {
+  mesh::SurfaceSampling sampling;
+  Eigen::VectorXd cells;
+  Eigen::VectorXd vertices;
+};
+
+/// Points of all contacts on the freedoms of all of them.
+contact::SpringLayer layer_of(const SceneDescription& scene,
+                              const std::vector<RestingPatch>& patches, Eigen::Index n_freedoms) {
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index n_points = 0;
+  Eigen::Index first_node = 0;
+  for (const RestingPatch& patch : patches) {
+    const Eigen::SparseMatrix<double>& to = patch.sampling.to_centres;
+    for (Eigen::Index j = 0; j < to.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(to, j); it; ++it) {
+        entries.emplace_back(static_cast<int>(n_points + it.row()),
+                             static_cast<int>(first_node + it.col()), it.value());
+      }
+    }
+    n_points += to.rows();
+    first_node += to.cols();
+  }
+  contact::SpringLayer layer{Eigen::SparseMatrix<double>(n_points, n_freedoms),
+                             Eigen::VectorXd(n_points), Eigen::VectorXd(n_points),
+                             Eigen::VectorXd(n_points)};
+  layer.to_points.setFromTriplets(entries.begin(), entries.end());
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Eigen::VectorXd& weights = patches[i].sampling.weights;
+    layer.weights.segment(begin, weights.size()) = weights;
+    layer.stiffness.segment(begin, weights.size()).setConstant(*scene.contacts[i].normal_stiffness);
+    layer.gap.segment(begin, weights.size()).setConstant(scene.contacts[i].gap);
+    begin += weights.size();
+  }
+  return layer;
+}
+
+std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                          const contact::ElasticFace& face) {
+  std::vector<RestingPatch> patches;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    patches.push_back({mesh::sample_surface(mesh.nodes(), mesh.surface(scene.contacts[i].surface),
+                                            contact_points(scene.settings, i)),
+                       {},
+                       {}});
+  }
+  const Eigen::VectorXd v =
+      contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const mesh::SurfaceSampling& sampling = patches[i].sampling;
+    const auto own = v.segment(begin, sampling.to_centres.cols());
+    patches[i].cells = (sampling.to_centres * own).array() - scene.contacts[i].gap;
+    patches[i].vertices = (sampling.to_vertices * own).array() - scene.contacts[i].gap;
+    begin += own.size();
+  }
+  return patches;
+}
+
+Eigen::VectorXd pressure_of(const RestingPatch& patch, const ContactDescription& contact) {
+  return *contact.normal_stiffness * patch.cells.cwiseMax(0.0);
+}
+
+/// Of all contacts [N]. @throws RefusedError  nothing is pressed.
+double total_force(const SceneDescription& scene, const std::vector<RestingPatch>& patches) {
+  double total = 0.0;
+  double nearest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    total += patches[i].sampling.weights.dot(pressure_of(patches[i], scene.contacts[i]));
+    nearest = std::max(nearest, patches[i].cells.maxCoeff());
+  }
+  if (total > 0.0) return total;
+  throw RefusedError(fmt::format(
+      "{}: the static loads press no contact: where it is nearest it stays {:.3g} m away; turn or "
+      "raise the loads of [static] (a force acts on the blade, the contact is pressed along its "
+      "outward normal q), or make contact.gap smaller",
+      scene.contacts.front().static_preload, -nearest));
+}
+
+/// n0' [Pa]: pressure, or −k_v times a gap with the stiffness the point has in motion.
+Eigen::VectorXd rest_load(const Eigen::VectorXd& approach, double local_stiffness,
+                          const Eigen::VectorXd& point_stiffness) {
+  return (approach.array() > 0.0)
+      .select(local_stiffness * approach, point_stiffness.cwiseProduct(approach));
+}
+
+std::string line_of(const ContactDescription& contact, const RestingPatch& patch) {
+  const Eigen::VectorXd pressure = pressure_of(patch, contact);
+  const Eigen::VectorXd& weights = patch.sampling.weights;
+  std::string text =
+      fmt::format("static preload {}: {:.6g} N, pressure {:.3g} to {:.3g} Pa", contact.name,
+                  weights.dot(pressure), pressure.minCoeff(), pressure.maxCoeff());
+  const double open =
+      weights.dot((patch.cells.array() <= 0.0).cast<double>().matrix()) / weights.sum();
+  if (open == 0.0) return text + ", closed everywhere";
+  return text + fmt::format(", {:.1f} % of the area open by up to {:.3g} m", 100.0 * open,
+                            -patch.cells.minCoeff());
+}
+
+}  // namespace
+
+contact::ElasticFace static_face(fem::Structure& structure, const mesh::Mesh& mesh,
+                                 const SceneDescription& scene, const Eigen::VectorXd& rotated) {
+  const NormalFreedoms freedoms = normal_freedoms(mesh, scene);
+  contact::ElasticFace face;
+  try {
+    face.approach = freedoms.of(structure.solve_static(load_of(mesh, scene.static_loads)));
+    face.flexibility = flexibility(structure, mesh, freedoms);
+  } catch (const fem::EigenError& error) {
+    throw RefusedError(fmt::format("{}: no static solution: {}; hold the body by supports.clamped",
+                                   scene.contacts.front().static_preload, error.what()));
+  }
+  if (rotated.size() > 0) face.approach += freedoms.of(rotated);
+  return face;
+}
+
+void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
+                        const contact::ElasticFace& face) {
+  const std::vector<RestingPatch> patches = patches_at_rest(mesh, scene, face);
+  const double total = total_force(scene, patches);
+  model.static_preload = total;
+  // A patch that is open has gaps and no share of the force: patches share a load evenly, their
+  // preload does not.
+  const double unit = static_cast<double>(patches.size()) / total;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    contact::Patch& patch = model.patches[i];
+    const double k = *scene.contacts[i].normal_stiffness;
+    patch.load_share = 1.0;
+    patch.cells.preload_field = unit * rest_load(patches[i].cells, k, patch.cells.stiffness.col(1));
+    patch.vertices.preload_field =
+        unit * rest_load(patches[i].vertices, k, patch.vertices.stiffness.col(1));
+  }
+}
+
+std::string describe_static_preload(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                    const contact::ElasticFace& face) {
+  const std::vector<RestingPatch> patches = patches_at_rest(mesh, scene, face);
+  static_cast<void>(total_force(scene, patches));
+  std::string text;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (i > 0) text += '\n';
+    text += line_of(scene.contacts[i], patches[i]);
+  }
+  return text;
+}
+
+contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  if (fem::n_ranks() > 1) {
+    throw RefusedError("contact.preload = \"static\" is solved on one rank: start without mpirun");
+  }
+  const fem::SolverKind solver = scene.settings.basis.solver;
+  require_memory(mesh, solver);
+  fem::Structure structure(mesh, scene.material, scene.clamped, fem::Tet10Rule::accurate, solver);
+  Eigen::VectorXd rotated;
+  if (scene.rotation && scene.rotation->speed > 0.0) {
+    rotated = structure.rotate(mesh, scene.material, *scene.rotation);
+  }
+  return static_face(structure, mesh, scene, rotated);
+}
+
+std::string describe_static_preload(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  return describe_static_preload(mesh, scene, static_face(mesh, scene));
+}
+
+}  // namespace microslip::pipelines

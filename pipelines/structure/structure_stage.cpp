@@ -1,0 +1,232 @@
+#include "pipelines/structure/structure_stage.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
+#include "fem/slepc_session.hpp"
+#include "mesh/mesh_error.hpp"
+#include "mesh/mesh_reader.hpp"
+#include "mesh/mesher_process.hpp"
+#include "pipelines/import/given_matrices.hpp"
+#include "pipelines/import/matrix_checks.hpp"
+#include "pipelines/import/mesh_file.hpp"
+#include "pipelines/import/mesher_limits.hpp"
+#include "pipelines/import/named_points.hpp"
+#include "pipelines/import/step_mesh.hpp"
+#include "pipelines/model/contact_preload.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/nodal_load.hpp"
+#include "pipelines/structure/geometry_bytes.hpp"
+#include "pipelines/structure/given_modes.hpp"
+#include "pipelines/structure/on_all_ranks.hpp"
+#include "pipelines/structure/solver_memory.hpp"
+#include "pipelines/structure/static_preload.hpp"
+#include "pipelines/structure/structure_members.hpp"
+#include "pipelines/system/machine.hpp"
+#include "pipelines/system/output_file.hpp"
+#include "pipelines/system/result_cache.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "pipelines/system/sealed_bytes.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+/// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
+template <typename LookUp>
+void require_name(const std::string& place, const LookUp& look_up) {
+  try {
+    static_cast<void>(look_up());
+  } catch (const mesh::MeshError& error) {
+    throw SceneError(place + ": " + error.what());
+  }
+}
+
+/// Meshes the geometry of a scene.
+void make_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (const auto* step = std::get_if<StepModel>(&scene.model)) {
+    mesh_step_model(*step, mesh_file);
+  } else {
+    const auto& blade = std::get<BladeModel>(scene.model);
+    with_mesher([&](const mesh::MesherLimits& limits) {
+      mesh::mesh_blade(blade.geometry, blade.sizes, mesh_file, limits);
+    });
+  }
+}
+
+mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (const auto* given = std::get_if<MeshFileModel>(&scene.model)) return read_mesh(*given);
+  if (ResultCache* cache = ResultCache::in_use()) {
+    const ResultCache::Entry entry = cache->entry("mesh", geometry_of(scene));
+    if (const auto made = entry.find()) {
+      write_whole(mesh_file, *made);
+    } else {
+      make_mesh(scene, mesh_file);
+      entry.keep(bytes_of(mesh_file));
+    }
+  } else {
+    make_mesh(scene, mesh_file);
+  }
+  return mesh::read_gmsh(mesh_file);
+}
+
+/// The contacts as their static shapes see them. A stiffness matters where the degree is chosen by it.
+TaskFace face_of(const mesh::Mesh& mesh, const ContactDescription& contact,
+                 const BasisSettings& basis) {
+  TaskFace face{mesh.surface(contact.surface), contact_frame(mesh, contact),
+                Eigen::Vector3d::Zero()};
+  if (basis.residual != ResidualKind::attachment) return face;
+  if (!contact.tangential_stiffness || !contact.normal_stiffness) {
+    throw SceneError(contact.place +
+                     ": attachment shapes need a stiffness of the contact in N/m^3");
+  }
+  if (basis.attachment_degree) return face;
+  const double tangential = *contact.tangential_stiffness;
+  face.local_stiffness = {tangential, *contact.normal_stiffness, tangential};
+  return face;
+}
+
+StructureTask task_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  StructureTask task{mesh, scene.clamped, scene.material, {}, {}, scene.settings.basis, {}, {}};
+  if (given_matrices(scene) != nullptr) {
+    task.matrices = matrices_of(mesh, scene);
+    task.clamped.clear();
+  }
+  if (scene.rotation && scene.rotation->speed > 0.0) task.rotation = scene.rotation;
+  if (task.basis.residual == ResidualKind::none) return task;
+  for (const ContactDescription& contact : scene.contacts) {
+    task.faces.push_back(face_of(mesh, contact, task.basis));
+  }
+  if (task.basis.residual == ResidualKind::attachment && !task.faces.empty()) {
+    task.forces = loads_as_shapes(excitation_loads(mesh, scene.forces));
+  }
+  return task;
+}
+
+/// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
+std::string arithmetic() {
+  const Machine machine = describe_machine();
+  std::string text =
+      fmt::format("{}, {} threads, {} ranks", machine.blas, machine.blas_threads, fem::n_ranks());
+  for (const auto& [name, version] : fem::library_versions()) {
+    text += fmt::format(", {} {}", name, version);
+  }
+  return text;
+}
+
+StructureModes solve_on_all_ranks(const StructureTask& task) {
+  require_memory(task.mesh, task.basis.solver);
+  StructureModes modes;
+  on_all_ranks(
+      modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });
+  return modes;
+}
+
+StructureModes solved(const StructureTask& task) {
+  ResultCache* cache = ResultCache::in_use();
+  if (cache == nullptr) return solve_on_all_ranks(task);
+  const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + arithmetic());
+  StructureModes modes;
+  if (const auto made = entry.find()) {
+    ByteReader reader(*made);
+    reader(modes);
+    modes.timings = {};
+    return modes;
+  }
+  modes = solve_on_all_ranks(task);
+  ByteWriter bytes;
+  bytes(modes);
+  entry.keep(bytes.bytes());
+  return modes;
+}
+
+/// What the eigensolver finds wrong lies in the files.
+StructureModes solved_from_matrices(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const StructureTask task = task_of(mesh, scene);
+  try {
+    StructureModes modes = solved(task);
+    if (std::string question = mass_question(mesh, *task.matrices); !question.empty()) {
+      modes.warnings.push_back(std::move(question));
+    }
+    return modes;
+  } catch (const fem::EigenError& error) {
+    const MatrixFiles& files = *given_matrices(scene);
+    throw fem::EigenError(
+        fmt::format("{}; of given matrices that is most often a stiffness that is not positive "
+                    "definite: look in "
+                    "{} for an entry that is lost, of the wrong sign or size, and whether {} is of "
+                    "the same model",
+                    error.what(), files.stiffness.string(), files.mass.string()));
+  }
+}
+
+}  // namespace
+
+mesh::Mesh obtain_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  mesh::Mesh mesh = mesh_of(scene, mesh_file);
+  name_points(mesh, scene);
+  return mesh;
+}
+
+mesh::Mesh reread_mesh(const SceneDescription& scene, const std::filesystem::path& mesh_file) {
+  if (!element_size_of(scene)) return obtain_mesh(scene, mesh_file);
+  mesh::Mesh mesh = mesh::read_gmsh(mesh_file);
+  name_points(mesh, scene);
+  return mesh;
+}
+
+std::string describe_mesh(const mesh::Mesh& mesh, double density) {
+  const Eigen::Vector3d lower = mesh.lower();
+  const Eigen::Vector3d upper = mesh.upper();
+  std::string text = fmt::format(
+      "mesh: {} nodes, {} elements, volume {:.6g} m^3{}\n"
+      "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
+      "surfaces: {}",
+      mesh.n_nodes(), mesh.n_elements(), mesh.volume(),
+      density > 0.0 ? fmt::format(", mass {:.6g} kg", density * mesh.volume()) : "", lower.x(),
+      upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
+  const auto sets = mesh.node_set_names();
+  if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
+  if (mesh.n_loose_nodes() > 0) {
+    text += fmt::format("\n{} nodes belong to no volume element and are left out",
+                        mesh.n_loose_nodes());
+  }
+  return text;
+}
+
+void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  for (const std::string& name : scene.clamped) {
+    require_name(scene.clamped_place, [&] { return mesh.node_set(name); });
+  }
+  for (const ForceDescription& force : scene.forces) {
+    require_name(force.place, [&] { return mesh.node_set(force.at); });
+  }
+  for (const ForceDescription& force : scene.static_loads.forces) {
+    require_name(force.place, [&] { return mesh.node_set(force.at); });
+  }
+  for (const PressureDescription& entry : scene.static_loads.pressures) {
+    require_name(entry.place, [&] { return mesh.surface(entry.surface); });
+  }
+  if (scene.response) {
+    const OutputDescription& output = scene.response->output;
+    require_name(output.place, [&] { return mesh.node_set(output.at); });
+  }
+  for (const ContactDescription& contact : scene.contacts) {
+    require_name(contact.place, [&] { return mesh.surface(contact.surface); });
+    static_cast<void>(contact_frame(mesh, contact));
+  }
+  require_preload(mesh, scene);
+}
+
+StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
+  if (given_matrices(scene) != nullptr) return solved_from_matrices(mesh, scene);
+  StructureModes modes = solved(task_of(mesh, scene));
+  if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
+  return modes;
+}
+
+}  // namespace microslip::pipelines

@@ -1,0 +1,74 @@
+// What a run is expected to take follows what it does. The seconds themselves:
+// verification/forecasts.py.
+#include "pipelines/effects/curve_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines::test_curve_cost {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+constexpr const char* chain = R"toml([model]
+kind = "chain"
+masses = [1, 1]
+springs = [41339, 41328]
+[modes]
+damping_ratio = 0.02
+[contact]
+points = [ { slip = "m1", tangential_stiffness = 4e4, friction_coefficient = 0.5 } ]
+[excitation]
+forces = [ { at = "m2", amplitude = 10 } ]
+[response]
+output = "m2"
+frequency = [18, 28]
+harmonics = 3
+preload = ["free", 10, 30, "stuck"]
+)toml";
+
+ResponseSeconds seconds(const Overrides& overrides, bool along_r = false) {
+  const SceneDescription scene = parse_scene(chain, "scene.toml", "/nowhere", overrides);
+  return response_seconds(scene, curve_effects(scene, along_r));
+}
+
+TEST(CurveCost, LinearLimitsCostNothing) {
+  EXPECT_EQ(seconds({"response.preload=[\"free\", \"stuck\"]"}).curves, 0.0);
+  EXPECT_DOUBLE_EQ(seconds({}).curves, 2.0 * seconds({"response.preload=[10]"}).curves);
+}
+
+TEST(CurveCost, MoreEffectsCostMore) {
+  const double one = seconds({"response.harmonics=1"}).curves;
+  const double three = seconds({}).curves;
+  EXPECT_GT(three, one);
+  EXPECT_GT(seconds({"response.harmonics=9"}).curves, three);
+  EXPECT_GT(seconds({"response.harmonics=1"}, true).curves, one);
+}
+
+TEST(CurveCost, ABestValueIsToldApart) {
+  EXPECT_EQ(seconds({}).best_value, 0.0);
+  const ResponseSeconds searched =
+      seconds({"response.optimum=preload", "response.optimum_range=[10, 100]"});
+  EXPECT_EQ(searched.curves, seconds({}).curves);
+  EXPECT_GT(searched.best_value, 0.0);
+  EXPECT_GT(searched.bracket, searched.best_value);
+}
+
+TEST(CurveCost, OneFrequencyIsNoCurve) {
+  EXPECT_LT(seconds({"response.frequency=20"}).curves, 0.1 * seconds({}).curves);
+}
+
+TEST(CurveCost, AMotionInTimeCostsByItsFrequencies) {
+  const auto in_time = [](const std::string& points) {
+    return seconds({"response.method=time", "response.points=" + points}).curves;
+  };
+  EXPECT_GT(in_time("40"), seconds({"response.harmonics=1"}).curves);
+  EXPECT_GT(in_time("80"), 1.5 * in_time("40"));
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_curve_cost

@@ -1,0 +1,325 @@
+// Effects that a scene leaves out: what is simulated then, and what is told of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contact/harmonics.hpp"
+#include "pipelines/effect_table.hpp"
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/effects/effects.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/reduced_model.hpp"
+#include "pipelines/model/scene_warnings.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines::test_effects {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// One point that lifts off, one with a gap.
+constexpr const char* text = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10, 20]
+damping_ratio = 0.01
+force_sine = [1, 0]
+output = [1, 0]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e3
+normal_stiffness = 3e3
+friction_coefficient = 0.4
+preload = 20
+phi_u_1 = 1
+phi_u_2 = 0.3
+phi_v_1 = 0.5
+phi_v_2 = -1
+[[modal.points]]
+weight = 2
+tangential_stiffness = 1e3
+normal_stiffness = 1e3
+friction_coefficient = 0.4
+preload = -5
+phi_u_1 = 1
+phi_u_2 = 0.1
+phi_v_1 = 0.2
+phi_v_2 = 1
+[response]
+frequency = 12
+)toml";
+
+ReducedModel model_in(const SceneDescription& scene) {
+  ReducedModel model = reduced_model(scene);
+  model.effects = contact_effects(model, scene);
+  return model;
+}
+
+ReducedModel model_of(const Overrides& overrides) {
+  return model_in(parse_scene(text, "scene.toml", "/nowhere", overrides));
+}
+
+// Large enough for slip, separation and touching of the gap.
+contact::ForceAndJacobian force_of(const ReducedModel& model, int n_harmonics) {
+  contact::Harmonics q(n_harmonics, 2);
+  for (Eigen::Index i = 0; i < q.rows().size(); ++i) {
+    q.rows().data()[i] = 0.02 * (i % 2 == 0 ? 1.0 : -0.7) / (1.0 + static_cast<double>(i));
+  }
+  return contact_of(model, 1.0).modal_force()->evaluate(q, 70.0);
+}
+
+TEST(Effects, WithoutNormalMotionTheLoadStaysThatOfRest) {
+  for (const int n_harmonics : {1, 3}) {
+    const std::string harmonics = "response.harmonics=" + std::to_string(n_harmonics);
+    const contact::ForceAndJacobian with = force_of(model_of({harmonics}), n_harmonics);
+    const contact::ForceAndJacobian without =
+        force_of(model_of({harmonics, "effects.normal_motion=off"}), n_harmonics);
+    ReducedModel rigid = model_of({harmonics});
+    rigid.patches[0].cells.stiffness.col(1).setZero();
+    const contact::ForceAndJacobian expected = force_of(rigid, n_harmonics);
+    EXPECT_EQ((without.force.vector() - expected.force.vector()).norm(), 0.0);
+    EXPECT_EQ((without.jacobian - expected.jacobian).norm(), 0.0);
+    EXPECT_GT((with.force.vector() - expected.force.vector()).norm(),
+              0.01 * expected.force.vector().norm());
+  }
+}
+
+TEST(Effects, ThoseLeftOutAreToldWithTheKeyThatDidIt) {
+  const SceneDescription scene =
+      parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});
+  const ReducedModel model = model_in(scene);
+  int n_told = 0;
+  for (const EffectRecord& effect : effects_of(scene, &model)) {
+    if (effect.name != "normal_motion" && effect.name != "separation" &&
+        effect.name != "mean_coupling") {
+      continue;
+    }
+    ++n_told;
+    EXPECT_EQ(effect.simulated, Simulated::no) << effect.name;
+    EXPECT_NE(effect.reason.find("effects.normal_motion"), std::string::npos) << effect.reason;
+  }
+  EXPECT_EQ(n_told, 3);
+}
+
+// One mode, one point, at the resonance of the stuck limit: all numbers can be told by hand.
+constexpr const char* one = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10]
+damping_ratio = 0.01
+force_sine = [0]
+force_cosine = [1]
+output = [1]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 3e3
+normal_stiffness = 2e3
+friction_coefficient = 0.5
+preload = 4
+phi_u_1 = 1
+phi_v_1 = 0.5
+[response]
+frequency = 12
+harmonics = 1
+)toml";
+
+SceneDescription scene_of(const Overrides& overrides) {
+  return parse_scene(one, "scene.toml", "/nowhere", overrides);
+}
+
+/// Amplitude of the one mode with stiffness k added.
+double amplitude(double k, double frequency_hz) {
+  const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  const double omega_n = 2.0 * std::numbers::pi * 10.0;
+  return 1.0 / std::hypot(omega_n * omega_n + k - omega * omega, 0.02 * omega_n * omega);
+}
+
+TEST(Effects, ReachOfAPointIsThatOfItsLimits) {
+  const SceneDescription scene = scene_of({});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  const double stiffness = 3e3 + 0.25 * 2e3;
+  const double free = amplitude(0.0, 12.0);
+  const double stuck = amplitude(stiffness, 12.0);
+  EXPECT_NEAR(reach.load, 2e3 * 0.5 * std::max(free, stuck) / 4.0, 1e-12);
+  EXPECT_NEAR(reach.slip, 3e3 * stuck / (0.5 * (4.0 - 2e3 * 0.5 * stuck)), 1e-12);
+  EXPECT_EQ(reach.bias_load, 0.0);
+  // The stuck resonance lies above, the free one below: contact bends both to 12 Hz.
+  const double stuck_hz =
+      std::sqrt(std::pow(2.0 * std::numbers::pi * 10.0, 2) + stiffness) / (2.0 * std::numbers::pi);
+  EXPECT_NEAR(reach.nearby, 2e3 * 0.5 * amplitude(stiffness, stuck_hz) / 4.0, 1e-9);
+}
+
+TEST(Effects, AGapIsReachedByTheFreeLimit) {
+  const SceneDescription scene = scene_of({"modal.points[0].preload=-4"});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  EXPECT_NEAR(reach.slip, 2e3 * 0.5 * amplitude(0.0, 12.0) / 4.0, 1e-12);
+  EXPECT_NEAR(reach.nearby, 2e3 * 0.5 * amplitude(0.0, 10.0) / 4.0, 1e-9);
+}
+
+TEST(Effects, ADriftCountsThoughNothingVibrates) {
+  const SceneDescription scene =
+      scene_of({"modal.force_cosine=[1e-9]", "modal.force_static=[-40]"});
+  const ContactReach reach = contact_reach(model_in(scene), scene, 1.0);
+  const double drift = 40.0 / std::pow(2.0 * std::numbers::pi * 10.0, 2);  // free: the larger one
+  EXPECT_NEAR(reach.load, 2e3 * 0.5 * drift / 4.0, 1e-6);
+  EXPECT_GT(reach.bias_load, 1.0);
+}
+
+TEST(Effects, AResonanceWithoutDampingHasNoBound) {
+  const SceneDescription scene = scene_of({"modal.damping_ratio=0", "response.frequency=10"});
+  EXPECT_TRUE(std::isinf(contact_reach(model_in(scene), scene, 1.0).load));
+}
+
+TEST(Effects, NormalMotionIsLeftOutWhereNothingKnowsOfIt) {
+  EXPECT_TRUE(model_in(scene_of({})).effects.normal_motion);
+  EXPECT_FALSE(model_in(scene_of({"modal.points[0].phi_v_1=1e-6"})).effects.normal_motion);
+  const Overrides asked{"modal.points[0].phi_v_1=1e-6", "effects.normal_motion=on"};
+  EXPECT_TRUE(model_in(scene_of(asked)).effects.normal_motion);
+  // A load so large that it hardly varies: the springs hold the structure all the same.
+  EXPECT_TRUE(model_in(scene_of({"modal.points[0].preload=1e9"})).effects.normal_motion);
+}
+
+TEST(Effects, AMultipleOfTheFrequencyThatMeetsAModeIsSeen) {
+  const auto answer = [](const char* second) {
+    const SceneDescription scene = parse_scene(
+        text, "scene.toml", "/nowhere",
+        {"response.frequency=[9, 12]", std::string("modal.frequency=[10, ") + second + "]",
+         "modal.points[0].normal_stiffness=0", "modal.points[1].normal_stiffness=0"});
+    return harmonic_answer(model_in(scene), scene);
+  };
+  EXPECT_EQ(answer("30").order, 3);
+  EXPECT_GT(answer("30").ratio, 5.0 * answer("35").ratio);
+}
+
+TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
+  const auto starts = [](const Overrides& overrides) {
+    const SceneDescription scene = scene_of(overrides);
+    return search_starts(scene, model_in(scene), 1.0);
+  };
+  const std::string gap = "modal.points[0].preload=-4";
+  EXPECT_GT(starts({gap}), 0);
+  EXPECT_EQ(starts({"modal.points[0].preload=-4e6"}), 0);  // out of reach
+  EXPECT_EQ(starts({gap, "response.frequency=[8, 12]"}), 0);
+  EXPECT_GT(starts({gap, "response.frequency=[8, 12]", "effects.coexistence=on"}), 0);
+  EXPECT_EQ(starts({gap, "response.search_starts=3"}), 3);
+  EXPECT_EQ(starts({gap, "response.search_starts=0"}), 0);
+  EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
+}
+
+TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
+  const SceneDescription scene = scene_of({});
+  for (const char* name : {"nonlinearity", "normal_motion", "second_direction", "coexistence"}) {
+    EXPECT_EQ(effect_in(effects_of(scene, nullptr), name).simulated, Simulated::undecided) << name;
+  }
+}
+
+TEST(Effects, APreloadOfStaticLoadsIsToldAsSimulated) {
+  constexpr const char* blade = R"toml([model]
+kind = "blade"
+[material]
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+density = 7800
+[supports]
+clamped = ["root"]
+[static]
+forces = [ { at = "B", direction = [1, 0, 0], amplitude = 50 } ]
+[contact]
+surface = "contact"
+slip_direction = [0, 1, 0]
+friction_coefficient = 0.4
+normal_stiffness = 1e12
+tangential_stiffness = 1e12
+preload = "static"
+)toml";
+  const auto told = [&](const Overrides& overrides) {
+    const SceneDescription scene = parse_scene(blade, "scene.toml", "/nowhere", overrides);
+    return effect_in(effects_of(scene, nullptr), "static_preload");
+  };
+  EXPECT_EQ(told({}).simulated, Simulated::yes) << told({}).reason;
+  EXPECT_EQ(told({"effects.static_preload=on"}).simulated, Simulated::yes);
+}
+
+TEST(Effects, TheTableInTheDocumentationIsTheOneOfTheProgram) {
+  std::ifstream in(MICROSLIP_EFFECTS);
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const EffectRow& row : effect_table) {
+    const std::string quantity = row.quantity.empty() ? "–" : std::string(row.quantity);
+    const std::string threshold =
+        std::isfinite(row.threshold) ? fmt::format("{:.3g}", row.threshold) : "–";
+    const std::string line = fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.meaning,
+                                         quantity, threshold, row.lost);
+    EXPECT_NE(page.find(line), std::string::npos) << "share/doc/effects.md has not: " << line;
+  }
+}
+
+// A mode along p, and a weakly excited one along r: its peak is small, and its motion is all along
+// r.
+TEST(Effects, APeakThatMovesAlongRCountsHoweverSmallBesideAnother) {
+  constexpr const char* two = R"toml([model]
+kind = "modal"
+[modal]
+frequency = [10, 20]
+damping_ratio = 0.001
+force_sine = [1, 1e-4]
+output = [1, 1]
+[[modal.points]]
+weight = 1
+tangential_stiffness = 2e3
+tangential_stiffness_r = 2e3
+normal_stiffness = 1e3
+friction_coefficient = 0.4
+preload = 20
+phi_u_1 = 1
+phi_u_2 = 0.01
+phi_w_1 = 0.001
+phi_w_2 = 1
+[response]
+frequency = [8, 12]
+)toml";
+  const auto ratio = [&](const Overrides& overrides) {
+    return model_in(parse_scene(two, "scene.toml", "/nowhere", overrides)).effects.motion_ratio;
+  };
+  EXPECT_NEAR(ratio({}), 0.001, 1e-4);
+  EXPECT_GT(ratio({"response.frequency=[8, 25]"}), 0.5);
+  EXPECT_EQ(ratio({"response.frequency=[25, 8]"}), ratio({"response.frequency=[8, 25]"}));
+  // Far from a resonance the place of the largest motion decides.
+  EXPECT_LT(ratio({"response.frequency=[5, 6]"}), 0.01);
+}
+
+TEST(Effects, AKineticCoefficientAboveTheStaticIsWarnedOf) {
+  const auto warnings = [](const std::string& law) {
+    return scene_warnings(
+        parse_scene(text, "scene.toml", "/nowhere", {"contact.friction_law=" + law}));
+  };
+  const auto grows = warnings("{ law = \"exponential\", static = 0.3, kinetic = 0.5, rate = 1 }");
+  ASSERT_EQ(grows.size(), 1U);
+  EXPECT_NE(grows[0].find("0.5 is above the static 0.3"), std::string::npos) << grows[0];
+  EXPECT_TRUE(warnings("{ law = \"exponential\", static = 0.5, kinetic = 0.3, rate = 1 }").empty());
+  EXPECT_TRUE(warnings("{ law = \"hyperbolic\", static = 0.5, rate = 1 }").empty());
+}
+
+TEST(Effects, AMapOutsideTheRangeIsWarnedOf) {
+  const auto warnings_of = [](const std::string& maps) {
+    return scene_warnings(parse_scene(text, "scene.toml", "/nowhere",
+                                      {"response.frequency=[10, 14]", "response.maps=" + maps}));
+  };
+  EXPECT_TRUE(warnings_of("[10, 12, 14, \"peak\"]").empty());
+  const std::vector<std::string> warnings = warnings_of("[12, 15]");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("15 Hz lies outside the range 10 to 14 Hz"), std::string::npos)
+      << warnings[0];
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_effects
