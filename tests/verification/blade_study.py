@@ -68,8 +68,9 @@ class BladeStudy(unittest.TestCase):
         cls.nine = run("blade_to_ground", *coarse, "response.preload=[-500, 100, 300, 1000]", "response.optimum=",
                        "response.optimum_range=",
                        plots=False)
-        cls.x = run("blade_to_ground", ONE, cells, plots=False)
-        cls.y = run("blade_to_ground_y", ONE, cells, *coarse, plots=False)
+        unjudged = "accuracy.error_budget=off"  # one harmonic is judged by nothing here
+        cls.x = run("blade_to_ground", ONE, cells, unjudged, plots=False)
+        cls.y = run("blade_to_ground_y", ONE, cells, unjudged, *coarse, plots=False)
 
     def test_every_curve_is_complete(self):
         for study in (self.x, self.y):

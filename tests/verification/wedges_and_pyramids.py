@@ -62,6 +62,8 @@ map_phases = 4
 harmonics = 1
 [effects]
 second_direction = "off"
+[accuracy]
+error_budget = "off"
 """
 DIRECTIONS = {"top": ("[0, 0, 1]", "[0, 0.4, 1]"), "side": ("[0, 1, 0]", "[0, 1, 0.4]")}  # slip, force
 
