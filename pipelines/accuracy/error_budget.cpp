@@ -25,9 +25,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 /// Both goals of one source.
 void add_rows(CurveBudget& budget, const std::string& curve, const std::string& source,
-              const std::pair<double, double>& effects, bool solved, double seconds) {
-  budget.rows.push_back({curve, amplitude, source, effects.first, solved, seconds});
-  budget.rows.push_back({curve, frequency, source, effects.second, solved, seconds});
+              const std::pair<double, double>& effects, ErrorKind kind, double seconds) {
+  budget.rows.push_back({curve, amplitude, source, effects.first, kind, seconds});
+  budget.rows.push_back({curve, frequency, source, effects.second, kind, seconds});
 }
 
 /// Relative change of amplitude and frequency.
@@ -60,7 +60,8 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
   }
   auto [by_amplitude, by_frequency] = changes(*peak);
   add_rows(budget, result.name, richer.source,
-           {richer.share * by_amplitude, richer.share * by_frequency}, true, seconds_since(begin));
+           {richer.share * by_amplitude, richer.share * by_frequency}, ErrorKind::solved,
+           seconds_since(begin));
 }
 
 /// The choice of harmonics was cut short, or did not end.
@@ -80,18 +81,19 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
     add_rows(budget, result.name, "harmonics",
              {change + std::copysign(settled.left_out, change),
               settled.frequency / peak.frequency - 1.0},
-             true, 0.0);
+             ErrorKind::solved, 0.0);
   } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer && is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
-    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, false, 0.0);
+    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, ErrorKind::estimated,
+             0.0);
   } else if (result.richer->change) {
     add_rows(budget, result.name, "harmonics",
              {result.richer->amplitude / peak.amplitude - 1.0,
               result.richer->frequency / peak.frequency - 1.0},
-             true, result.richer->seconds);
+             ErrorKind::solved, result.richer->seconds);
   } else {
     budget.unknown.emplace_back("harmonics");
   }
@@ -101,13 +103,44 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
 /// friction's work of how well the cycle is sampled.
 void add_certificates(CurveBudget& budget, const ReducedModel& model, const CurveResult& result,
                       const solver::ResponsePoint& peak) {
-  add_rows(budget, result.name, "newton", {peak.energy_imbalance, 0.0}, false, 0.0);
+  add_rows(budget, result.name, "newton", {peak.energy_imbalance, 0.0}, ErrorKind::estimated, 0.0);
   if (contact::is_sampled(model.patches, model.effects)) {
-    add_rows(budget, result.name, "instants", {peak.dissipation_mismatch, 0.0}, false, 0.0);
+    add_rows(budget, result.name, "instants", {peak.dissipation_mismatch, 0.0},
+             ErrorKind::estimated, 0.0);
   }
 }
 
+/// Of one source and goal, over all curves that know it.
+const ErrorRow* largest_row(const std::vector<CurveBudget>& budgets, const std::string& source,
+                            const char* goal) {
+  const ErrorRow* largest = nullptr;
+  for (const CurveBudget& budget : budgets) {
+    for (const ErrorRow& row : budget.rows) {
+      const bool told = row.source == source && row.goal == goal && row.kind != ErrorKind::borrowed;
+      if (told && (largest == nullptr || std::abs(row.effect) > std::abs(largest->effect))) {
+        largest = &row;
+      }
+    }
+  }
+  return largest;
+}
+
 }  // namespace
+
+void borrow_unknown(std::vector<CurveBudget>& budgets) {
+  for (CurveBudget& budget : budgets) {
+    if (budget.rows.empty() || !budget.has_bar()) continue;
+    const std::string curve = budget.rows.front().curve;
+    std::erase_if(budget.unknown, [&](const std::string& source) {
+      const ErrorRow* of_amplitude = largest_row(budgets, source, amplitude);
+      const ErrorRow* of_frequency = largest_row(budgets, source, frequency);
+      if (of_amplitude == nullptr || of_frequency == nullptr) return false;
+      add_rows(budget, curve, source, std::pair(of_amplitude->effect, of_frequency->effect),
+               ErrorKind::borrowed, 0.0);
+      return true;
+    });
+  }
+}
 
 bool CurveBudget::has_bar() const {
   return !rows.empty() && std::ranges::find(unknown, "harmonics") == unknown.end();
@@ -162,6 +195,7 @@ std::string budget_text(const CurveBudget& budget) {
   for (std::size_t i = 0; i < std::min(most, parts.size()); ++i) {
     text += fmt::format("{} {} {:+.2g} %", i > 0 ? "," : "", parts[i].source,
                         percent * parts[i].effect);
+    if (parts[i].kind == ErrorKind::borrowed) text += " (as of another curve)";
   }
   if (!budget.unknown.empty()) {
     text += fmt::format("; not known: {}", fmt::join(budget.unknown, ", "));

@@ -23,6 +23,9 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
+/// Sources that one curve could not be followed with, and others could: the largest of those stands in for it.
+void borrow_unknown(std::vector<CurveBudget>& budgets);
+
 /// One line: the bar and its largest parts. Empty without rows.
 [[nodiscard]] std::string budget_text(const CurveBudget& budget);
 

@@ -115,10 +115,11 @@ std::vector<ErrorRow> rows_left_out(const ReducedModel& model, const SceneDescri
     const Changes changes = changes_with(own, with, options, result.curve, peak->amplitude);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const ErrorKind kind = changes.found ? ErrorKind::solved : ErrorKind::estimated;
     rows.push_back(
-        {result.name, peak_amplitude_goal, other.name, changes.amplitude, changes.found, seconds});
+        {result.name, peak_amplitude_goal, other.name, changes.amplitude, kind, seconds});
     rows.push_back(
-        {result.name, peak_frequency_goal, other.name, changes.frequency, changes.found, seconds});
+        {result.name, peak_frequency_goal, other.name, changes.frequency, kind, seconds});
   }
   return rows;
 }

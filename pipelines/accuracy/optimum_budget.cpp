@@ -124,7 +124,7 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
     }
     const double seconds = seconds_of(budgets, source);
     const auto add = [&](const char* goal, double effect) {
-      result.rows.push_back({optimum_name, goal, source, effect, true, seconds});
+      result.rows.push_back({optimum_name, goal, source, effect, ErrorKind::solved, seconds});
     };
     add(best_value_goal, shift(amplitudes_given, *known));
     add(best_amplitude_goal, (*known)[middle]);

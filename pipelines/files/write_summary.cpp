@@ -141,14 +141,16 @@ Json digits_json(const Json& bar) {
   return digits;
 }
 
+const char* kind_text(ErrorKind kind) {
+  if (kind == ErrorKind::borrowed) return "borrowed";
+  return kind == ErrorKind::solved ? "solved" : "estimated";
+}
+
 Json to_json(const ErrorRow& row) {
   const double gain = row.seconds > 0.0 ? std::abs(row.effect) / row.seconds : 0.0;
-  return {{"curve", row.curve},
-          {"goal", row.goal},
-          {"source", row.source},
-          {"effect", row.effect},
-          {"kind", row.solved ? "solved" : "estimated"},
-          {"seconds", row.seconds},
+  return {{"curve", row.curve},          {"goal", row.goal},
+          {"source", row.source},        {"effect", row.effect},
+          {"kind", kind_text(row.kind)}, {"seconds", row.seconds},
           {"gain_per_second", gain}};
 }
 

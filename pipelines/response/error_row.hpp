@@ -2,6 +2,7 @@
 /// What one choice of the discretisation does to one number a user reads: a row of the error budget.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";
 inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve's, of a best value
 
+enum class ErrorKind : std::uint8_t {
+  estimated,
+  solved,    ///< with the richer model
+  borrowed,  ///< from the curve of the same study where it is largest: this one could not be followed
+};
+
 struct ErrorRow {
   std::string curve;  ///< its name, or "optimum"
   std::string goal;   ///< one of the above
@@ -21,7 +28,7 @@ struct ErrorRow {
       source;  ///< mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver
   double effect =
       0.0;  ///< relative, signed: what would be added with the source refined to its end
-  bool solved = false;   ///< the richer model was solved; else estimated
+  ErrorKind kind = ErrorKind::estimated;
   double seconds = 0.0;  ///< of the refined solution
 };
 

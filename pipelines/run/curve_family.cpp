@@ -114,10 +114,13 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     stop_if_interrupted("curves");
     budgets[i] = error_budget(model, scene, richer, curves[i]);
     if (!cut_short()) budgets[i].left_out = rows_left_out(model, scene, curves[i]);
+  });
+  borrow_unknown(budgets);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
     if (budgets[i].has_bar()) {
       curves[i].bar = bar_of(budgets[i].rows, curves[i].name, peak_amplitude_goal);
     }
-  });
+  }
   return budgets;
 }
 

@@ -21,9 +21,9 @@ EffectRecord left_out(const char* name, const char* objection = "") {
 TEST(EffectBounds, TheLargestChangeOfAnyPeakIsTold) {
   std::vector<EffectRecord> effects{left_out("second_direction"), left_out("higher_harmonics"),
                                     left_out("roughness")};
-  tell_bounds({{"a", peak_amplitude_goal, "second_direction", -7e-4, true, 0.1},
-               {"b", peak_amplitude_goal, "second_direction", 2e-4, true, 0.1},
-               {"b", peak_frequency_goal, "mesh", 0.5, true, 0.1}},
+  tell_bounds({{"a", peak_amplitude_goal, "second_direction", -7e-4, ErrorKind::solved, 0.1},
+               {"b", peak_amplitude_goal, "second_direction", 2e-4, ErrorKind::solved, 0.1},
+               {"b", peak_frequency_goal, "mesh", 0.5, ErrorKind::solved, 0.1}},
               tolerance, effects);
   EXPECT_EQ(effects[0].bound, 7e-4);
   EXPECT_FALSE(effects[1].bound.has_value());  // not told
@@ -33,8 +33,8 @@ TEST(EffectBounds, TheLargestChangeOfAnyPeakIsTold) {
 TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
   const auto objection = [](double change) {
     std::vector<EffectRecord> effects{left_out("normal_motion", "the indicator says so")};
-    tell_bounds({{"a", peak_amplitude_goal, "normal_motion", change, true, 0.1}}, tolerance,
-                effects);
+    tell_bounds({{"a", peak_amplitude_goal, "normal_motion", change, ErrorKind::solved, 0.1}},
+                tolerance, effects);
     return effects[0].objection;
   };
   EXPECT_NE(objection(-0.3).find("30 %"), std::string::npos) << objection(-0.3);
@@ -46,7 +46,8 @@ TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
 TEST(EffectBounds, WhatIsSimulatedHasNone) {
   std::vector<EffectRecord> effects{left_out("second_direction")};
   effects[0].simulated = Simulated::yes;
-  tell_bounds({{"a", peak_amplitude_goal, "second_direction", 0.5, true, 0.1}}, tolerance, effects);
+  tell_bounds({{"a", peak_amplitude_goal, "second_direction", 0.5, ErrorKind::solved, 0.1}},
+              tolerance, effects);
   EXPECT_FALSE(effects[0].bound.has_value());
   EXPECT_EQ(effects[0].objection, "");
 }
@@ -60,13 +61,14 @@ std::vector<std::string> missed_names(const std::vector<ErrorRow>& rows,
 }
 
 const std::vector<ErrorRow> both_matter{
-    {"a", peak_amplitude_goal, "normal_motion", 0.25, true, 0.1},
-    {"a", peak_frequency_goal, "second_direction", -0.03, true, 0.1}};
+    {"a", peak_amplitude_goal, "normal_motion", 0.25, ErrorKind::solved, 0.1},
+    {"a", peak_frequency_goal, "second_direction", -0.03, ErrorKind::solved, 0.1}};
 
 TEST(MissedEffects, ThoseThatAutoLeavesOutAndThatMatterArePutBack) {
   EXPECT_EQ(missed_names(both_matter, {left_out("normal_motion"), left_out("second_direction")}),
             (std::vector<std::string>{"normal_motion", "second_direction"}));
-  const std::vector<ErrorRow> little{{"a", peak_amplitude_goal, "normal_motion", 0.019, true, 0.1}};
+  const std::vector<ErrorRow> little{
+      {"a", peak_amplitude_goal, "normal_motion", 0.019, ErrorKind::solved, 0.1}};
   EXPECT_TRUE(missed_names(little, {left_out("normal_motion")}).empty());
 }
 
@@ -78,8 +80,8 @@ TEST(MissedEffects, ASwitchOfTheUserIsObeyed) {
 }
 
 TEST(MissedEffects, WhatARunCannotPutBackIsNotMissed) {
-  EXPECT_TRUE(missed_names({{"a", peak_amplitude_goal, "harmonics", 0.5, true, 0.1},
-                            {"a", peak_amplitude_goal, "mesh", 0.5, true, 0.1}},
+  EXPECT_TRUE(missed_names({{"a", peak_amplitude_goal, "harmonics", 0.5, ErrorKind::solved, 0.1},
+                            {"a", peak_amplitude_goal, "mesh", 0.5, ErrorKind::solved, 0.1}},
                            {left_out("higher_harmonics"), left_out("roughness")})
                   .empty());
 }
@@ -104,8 +106,8 @@ TEST(MissedEffects, AreToldByWhatThePeakWouldLose) {
 TEST(MissedEffects, APeakThatIsLostWithTheEffectIsBeyondEveryTolerance) {
   constexpr double lost = std::numeric_limits<double>::infinity();
   const auto missed =
-      missed_effects({{"a", peak_amplitude_goal, "normal_motion", lost, false, 0.1}}, tolerance,
-                     {left_out("normal_motion")});
+      missed_effects({{"a", peak_amplitude_goal, "normal_motion", lost, ErrorKind::estimated, 0.1}},
+                     tolerance, {left_out("normal_motion")});
   ASSERT_EQ(missed.size(), 1U);
   EXPECT_TRUE(std::isinf(missed[0].change));
 }

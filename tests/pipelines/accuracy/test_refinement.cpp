@@ -24,7 +24,7 @@ SceneDescription blade() {
 CurveBudget budget(const std::vector<std::pair<std::string, double>>& effects) {
   CurveBudget result;
   for (const auto& [source, effect] : effects) {
-    result.rows.push_back({"curve", peak_amplitude_goal, source, effect, true, 1.0});
+    result.rows.push_back({"curve", peak_amplitude_goal, source, effect, ErrorKind::solved, 1.0});
   }
   return result;
 }
