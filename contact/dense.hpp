@@ -39,8 +39,9 @@ class LuFactors {
                                      const Eigen::Ref<const Eigen::MatrixXd>& B);
 [[nodiscard]] Eigen::MatrixXcd solved(const Eigen::MatrixXcd& A,
                                       const Eigen::Ref<const Eigen::MatrixXcd>& B);
-[[nodiscard]] Eigen::MatrixXd inverted(const Eigen::MatrixXd& A);
-[[nodiscard]] Eigen::MatrixXcd inverted(const Eigen::MatrixXcd& A);
+/// Empty: a pivot vanishes.
+[[nodiscard]] std::optional<Eigen::MatrixXd> inverted(const Eigen::MatrixXd& A);
+[[nodiscard]] std::optional<Eigen::MatrixXcd> inverted(const Eigen::MatrixXcd& A);
 
 /// Dimension of the kernel to rounding, by complete pivoting.
 [[nodiscard]] Eigen::Index nullity(const Eigen::MatrixXd& A);

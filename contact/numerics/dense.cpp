@@ -21,6 +21,13 @@ constexpr Eigen::Index large = 64;
 
 bool is_large(const Eigen::MatrixXd& A) { return has_lapack && A.rows() >= large; }
 
+template <class Matrix>
+std::optional<Matrix> inverse_of(const Matrix& A) {
+  const Eigen::PartialPivLU<Matrix> factors(A);
+  if ((factors.matrixLU().diagonal().array() == 0.0).any()) return std::nullopt;
+  return factors.inverse();
+}
+
 /// Eigenvalues, and vectors where `vectors` is not null. @return false: they do not converge.
 bool general_problem(Eigen::MatrixXd A, Eigen::VectorXcd& values, Eigen::MatrixXd* vectors) {
   if (!A.allFinite()) return false;
@@ -132,9 +139,9 @@ Eigen::MatrixXcd solved(const Eigen::MatrixXcd& A, const Eigen::Ref<const Eigen:
   return A.partialPivLu().solve(B);
 }
 
-Eigen::MatrixXd inverted(const Eigen::MatrixXd& A) { return A.partialPivLu().inverse(); }
+std::optional<Eigen::MatrixXd> inverted(const Eigen::MatrixXd& A) { return inverse_of(A); }
 
-Eigen::MatrixXcd inverted(const Eigen::MatrixXcd& A) { return A.partialPivLu().inverse(); }
+std::optional<Eigen::MatrixXcd> inverted(const Eigen::MatrixXcd& A) { return inverse_of(A); }
 
 Eigen::Index nullity(const Eigen::MatrixXd& A) {
   return Eigen::FullPivLU<Eigen::MatrixXd>(A).dimensionOfKernel();

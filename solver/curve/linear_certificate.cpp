@@ -47,10 +47,14 @@ class Proof {
     load_ = Q.sine().transpose() + std::complex<double>(0.0, 1.0) * Q.cosine().transpose();
     mean_ = Eigen::VectorXd::Zero(n_);
     if (Q.mean().norm() > 0.0) {
-      const Eigen::MatrixXd inverse = contact::inverted(K_);
-      mean_ = inverse * Q.mean().transpose();
+      const auto inverse = contact::inverted(K_);
+      if (!inverse) {
+        mean_error_ = std::numeric_limits<double>::infinity();
+        return;
+      }
+      mean_ = *inverse * Q.mean().transpose();
       mean_error_ =
-          backward_errors(n_) * (inverse.cwiseAbs() * (K_.cwiseAbs() * mean_.cwiseAbs())).norm();
+          backward_errors(n_) * (inverse->cwiseAbs() * (K_.cwiseAbs() * mean_.cwiseAbs())).norm();
     }
   }
 
@@ -102,9 +106,10 @@ class Proof {
     Eigen::MatrixXcd D = K_.cast<std::complex<double>>();
     D.diagonal().array() += std::complex<double>(-omega * omega, 0.0);
     D.diagonal() += std::complex<double>(0.0, omega) * damping_.cast<std::complex<double>>();
-    const Eigen::MatrixXcd inverse = contact::inverted(D);
-    const Eigen::VectorXcd A = inverse * load_;
-    const Eigen::MatrixXd G = inverse.cwiseAbs();
+    const auto inverse = contact::inverted(D);
+    if (!inverse) return {};  // an undamped resonance
+    const Eigen::VectorXcd A = *inverse * load_;
+    const Eigen::MatrixXd G = inverse->cwiseAbs();
     const Eigen::VectorXd size = A.cwiseAbs();
     const Eigen::VectorXd error =
         backward_errors(n_) * (G * (D.cwiseAbs() * size + load_.cwiseAbs()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -51,6 +52,12 @@ InternalPolynomials internal_polynomials(const Eigen::VectorXd& begin, const Eig
   InternalPolynomials c(begin.size(), 5);
   c << begin, change, bend, change - length * rate.col(n_stages - 1) - bend, length * (rate * d);
   return c;
+}
+
+/// Of a scale that vanishes where nothing moves yet.
+double over(double error, double scale) {
+  if (error == 0.0) return 0.0;
+  return scale > 0.0 ? error / scale : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -133,9 +140,7 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
   const double displacement_error = length * (velocity * weights).norm();
   const double velocity_error = length * (acceleration_of * weights).norm();
   step.error =
-      displacement_error == 0.0 && velocity_error == 0.0
-          ? 0.0
-          : std::max(displacement_error / size.displacement, velocity_error / size.velocity);
+      std::max(over(displacement_error, size.displacement), over(velocity_error, size.velocity));
   if (n_internal > 0) {
     step.internal =
         internal_polynomials(state.memory.internal, moved.internal, length, internal_rate);

@@ -1,5 +1,5 @@
 /// @file
-/// Divisions by zero, invalid operations and overflows end the tests of contact where they happen
+/// Divisions by zero, invalid operations and overflows end the tests of contact and solver where they happen
 /// (SIGFPE), instead of going on as infinities and NaN.
 #pragma once
 

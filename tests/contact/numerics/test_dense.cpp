@@ -73,6 +73,15 @@ TEST(Dense, ExponentialsOfOneMatrixMultiply) {
   EXPECT_LT((exponential(A) - product).norm(), 1e-13 * product.norm());
 }
 
+TEST(Dense, InverseOrNone) {
+  const Eigen::MatrixXd A = random_matrix(7, 5);
+  const auto inverse = inverted(A);
+  ASSERT_TRUE(inverse.has_value());
+  EXPECT_LT((*inverse * A - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-12);
+  EXPECT_FALSE(inverted(Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 3))).has_value());
+  EXPECT_FALSE(inverted(Eigen::MatrixXcd(Eigen::MatrixXcd::Ones(2, 2))).has_value());
+}
+
 TEST(Dense, WhatIsNotFiniteHasNoEigenvalues) {
   const tests::UntrappedFloatingPoint nan_is_compared;  // by OpenBLAS
   Eigen::MatrixXd A = random_matrix(100, 4);

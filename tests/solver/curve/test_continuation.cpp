@@ -14,6 +14,7 @@
 #include "contact/plane/planar_cycle.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
+#include "tests/support/floating_point_traps.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -220,6 +221,7 @@ TEST(Continuation, AsksForTheResidualItIsTold) {
 }
 
 TEST(Continuation, RefusesAResidualToleranceThatIsNone) {
+  const tests::UntrappedFloatingPoint nan_is_compared;
   const Duffing duffing;
   for (const double tolerance : {0.0, -1e-11, std::nan("")}) {
     ContinuationOptions options = frequency_range(0.5, 2.5);
@@ -229,6 +231,7 @@ TEST(Continuation, RefusesAResidualToleranceThatIsNone) {
 }
 
 TEST(Continuation, RefusesFrequenciesThatAreNone) {
+  const tests::UntrappedFloatingPoint nan_is_compared;
   EXPECT_THROW(static_cast<void>(trace_response(Duffing{}.scene(), frequency_range(0.0, 1.0))),
                std::invalid_argument);
   EXPECT_THROW(
