@@ -63,15 +63,9 @@ void require_address_space() {
   munmap(space, needed);
 }
 
-/// Started by mpirun or by a cluster's own launcher.
-bool is_one_of_many_ranks() {
-  const auto told = [](const char* name) { return std::getenv(name) != nullptr; };
-  return told("OMPI_COMM_WORLD_SIZE") || told("PMIX_RANK") || told("PMI_RANK");
-}
-
-/// A process that nobody's mpirun started starts no others, and looks for no network: without the
-/// first, Open MPI looks for ssh in PATH and ends where there is none; without the second it starts
-/// a daemon; without the third it waits 0.2 s for network cards. What the user set stays.
+/// A single process starts no others, and looks for no network: without the first setting, Open MPI
+/// looks for ssh in PATH and ends where there is none; without the second it starts a daemon;
+/// without the third it waits 0.2 s for network cards. What the user set stays.
 void stay_alone() {
   setenv("OMPI_MCA_plm", "isolated", 0);
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
@@ -90,9 +84,7 @@ SlepcSession::SlepcSession() {
   // Ranks that wait for each other leave the core to those that work, where others use the machine
   // as well.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  if (!is_one_of_many_ranks()) {
-    stay_alone();
-  }
+  if (!started_in_parallel()) stay_alone();
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));
