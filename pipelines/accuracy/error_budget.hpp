@@ -23,7 +23,8 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
-/// Sources that one curve could not be followed with, and others could: the largest of those stands in for it.
+/// Sources that one curve could not be followed with, or had no time for, and others could: the largest effect of those
+/// stands in for its own.
 void borrow_unknown(std::vector<CurveBudget>& budgets);
 
 /// One line: the bar and its largest parts. Empty without rows.

@@ -263,7 +263,9 @@ std::string effects_text(const JsonEntry& run, const std::string& curve, const s
   for (const JsonEntry& row : run.list("error_budget")) {
     if (row.text("curve") != curve || row.text("goal") != goal) continue;
     if (std::abs(row.number("effect")) < least) continue;
-    parts.emplace_back(row.number("effect"), row.text("source"));
+    const bool borrowed = row.has("kind") && row.text("kind") == "borrowed";
+    parts.emplace_back(row.number("effect"),
+                       row.text("source") + (borrowed ? " (as of another curve)" : ""));
   }
   std::ranges::stable_sort(
       parts, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
@@ -304,7 +306,7 @@ std::string budget_text(const JsonEntry& run) {
   std::string text =
       "\n## How far the peaks can be trusted\n\n" + accuracy_text(run) +
       "What would be added to the amplitude of the highest peak if one choice were refined to its "
-      "end, solved for each; all of them together are the half width.\n\n"
+      "end; all of them together are the half width.\n\n"
       "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | not known |\n"
       "|---|---:|---:|---:|---|---|\n";
   for (const JsonEntry& curve : run.list("curves")) {
