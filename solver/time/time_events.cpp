@@ -54,8 +54,8 @@ InternalPolynomials internal_polynomials(const Eigen::VectorXd& begin, const Eig
   return c;
 }
 
-/// Of a scale that vanishes where nothing moves yet.
-double over(double error, double scale) {
+/// The scale vanishes where nothing moves yet.
+double relative_error(double error, double scale) {
   if (error == 0.0) return 0.0;
   return scale > 0.0 ? error / scale : std::numeric_limits<double>::infinity();
 }
@@ -139,8 +139,8 @@ EventStepper::Step EventStepper::try_step(double time, double length, const Time
   const Eigen::Map<const Eigen::VectorXd> weights(error_weights.data(), n_stages);
   const double displacement_error = length * (velocity * weights).norm();
   const double velocity_error = length * (acceleration_of * weights).norm();
-  step.error =
-      std::max(over(displacement_error, size.displacement), over(velocity_error, size.velocity));
+  step.error = std::max(relative_error(displacement_error, size.displacement),
+                        relative_error(velocity_error, size.velocity));
   if (n_internal > 0) {
     step.internal =
         internal_polynomials(state.memory.internal, moved.internal, length, internal_rate);

@@ -68,7 +68,7 @@ class BladeStudy(unittest.TestCase):
         cls.nine = run("blade_to_ground", *coarse, "response.preload=[-500, 100, 300, 1000]", "response.optimum=",
                        "response.optimum_range=",
                        plots=False)
-        unjudged = "accuracy.error_budget=off"  # one harmonic is judged by nothing here
+        unjudged = "accuracy.error_budget=off"  # of one harmonic: nothing below reads its bars
         cls.x = run("blade_to_ground", ONE, cells, unjudged, plots=False)
         cls.y = run("blade_to_ground_y", ONE, cells, unjudged, *coarse, plots=False)
 
