@@ -18,9 +18,10 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
 constexpr int n_cubics = 4;
-// Where forces jump, as sampled ones may by 1e-5 of their scale, nothing solves the equations:
-// places of one step.
-constexpr int most_failed = 12;
+// Places of one step where nothing solves the equations: where the branch turns back between its ends, or where
+// forces jump, as sampled ones may by 1e-5 of their scale. There each costs as much as twenty that are solved.
+constexpr int most_failed = 12;  // one after the other
+constexpr int most_failed_of_sampled = 4;
 constexpr double steep = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;
@@ -80,6 +81,7 @@ class Segment {
         balance_(balance),
         kind_(kind),
         most_splits_(walker.is_sampled() ? max_splits_of_sampled : max_splits),
+        most_failed_(walker.is_sampled() ? most_failed_of_sampled : most_failed),
         slight_turn_(walker.is_sampled() ? slight_turn_of_sampled : slight_turn) {}
 
   [[nodiscard]] std::vector<SpecialPoint> search() {
@@ -137,13 +139,13 @@ class Segment {
   }
 
   [[nodiscard]] std::optional<Node> between(const Node& a, const Node& b, double share) {
-    if (n_failed_ >= most_failed) return std::nullopt;
+    if (n_failed_ >= most_failed_) return std::nullopt;
     auto point = walker_.between(a.at, b.at, share);
     if (!point) {
       ++n_failed_;
       return std::nullopt;
     }
-    n_failed_ = 0;
+    if (!walker_.is_sampled()) n_failed_ = 0;
     return node(std::move(*point));
   }
 
@@ -319,6 +321,7 @@ class Segment {
   const HarmonicBalance& balance_;
   PointMark kind_;
   int most_splits_;
+  int most_failed_;
   double slight_turn_;
   int n_failed_ = 0;
   std::vector<SpecialPoint> found_;
