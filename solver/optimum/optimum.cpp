@@ -289,27 +289,48 @@ class Search {
     const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
     if (peaks.empty()) return true;
     result_.best = *lowest(peaks);
+    search_edges();
+    trace_proofs();
     if (!peaks_.confirm(result_.best.parameter, options_.search_starts)) return false;
     // Following it once more may have found a peak that was missed before.
     const double confirmed = peaks_.highest(result_.best.parameter).amplitude;
     if (confirmed > the_same * result_.best.amplitude) return false;
+    search_edges();
+    const std::vector<PeakOfParameter> all = peaks_.result().peaks;
+    return lowest(all)->amplitude * the_same >= result_.best.amplitude && edges_hold();
+  }
+
+  /// Ends of the interval called as good.
+  [[nodiscard]] std::vector<double> edges() const {
+    const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
+    const auto [left, right] = below(peaks, result_.best, as_good * result_.best.amplitude);
+    return {left->parameter, std::prev(right)->parameter};
+  }
+
+  /// The curves of the best value and of the edges, which are confirmed one after the other, side by side.
+  void trace_proofs() {
+    if (options_.search_starts == 0) return;
+    std::vector<double> values = edges();
+    values.push_back(result_.best.parameter);
+    std::ranges::sort(values);
+    const auto twice = std::ranges::unique(values);
+    values.erase(twice.begin(), twice.end());
+    peaks_.prepare(values, options_.search_starts);
+  }
+
+  /// No higher peak, of the curves or beside them, at the edges.
+  bool edges_hold() {
+    if (options_.search_starts == 0) return true;
+    return std::ranges::all_of(
+        edges(), [&](double end) { return peaks_.confirm(end, options_.search_starts); });
+  }
+
+  void search_edges() {
     const bool flat = flat_interval(peaks_.result().peaks).has_value();
     for (const double direction : {-1.0, 1.0}) {
       if (flat) search_edge(direction, the_same * result_.best.amplitude);
       search_edge(direction, as_good * result_.best.amplitude);
     }
-    const std::vector<PeakOfParameter> all = peaks_.result().peaks;
-    return lowest(all)->amplitude * the_same >= result_.best.amplitude && edges_hold(all);
-  }
-
-  /// No higher peak, of the curves or beside them, at the ends of the interval called as good.
-  bool edges_hold(const std::vector<PeakOfParameter>& trace) {
-    if (options_.search_starts == 0) return true;
-    const auto [left, right] = below(trace, result_.best, as_good * result_.best.amplitude);
-    const std::vector<double> ends{left->parameter, std::prev(right)->parameter};
-    peaks_.prepare(ends, options_.search_starts);
-    return std::ranges::all_of(
-        ends, [&](double end) { return peaks_.confirm(end, options_.search_starts); });
   }
 
   /// Solves for where the amplitude passes a limit, from the last value known to be lower towards the first
@@ -330,7 +351,7 @@ class Search {
       const double at = position(peak.parameter);
       if ((at - inside) * direction > 0.0 && (outside - at) * direction > 0.0) inside = at;
     }
-    const double tolerance = on_scale(options_, enough);
+    const double tolerance = on_scale(options_, std::max(enough, options_.relative_tolerance));
     while (std::abs(outside - inside) > tolerance) {
       const double middle = 0.5 * (inside + outside);
       (peaks_.highest(parameter(middle)).amplitude <= limit ? inside : outside) = middle;

@@ -141,7 +141,7 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
       return made_peak(balance, peak->solution, walker.now().tangent, scaling);
     }
     const WalkerPoint& now = walker.now();
-    if (distance(now.solution.point, guess, now.scaling) > 2.0 * farthest) return std::nullopt;
+    if (distance(now.solution.point, guess, now.scaling) > farthest) return std::nullopt;
   }
   return std::nullopt;
 }
