@@ -41,11 +41,12 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     record.tell_effects();
     if (solution.structure)
       ask(record.progress(), scene, solution.structure->mesh, solution.curves);
-    if (options.maps) {
+    if (scene.response->optimum) {
+      draw_maps_and_find_best_value(solution, options, record);
+    } else if (options.maps) {
       record.stage("maps");
       draw_maps(solution, options.jobs, record);
     }
-    if (scene.response->optimum) find_best_value(solution, options, record);
     record.stage("report");
     record.keep_report();
   });

@@ -1,12 +1,17 @@
 #include "pipelines/run/best_value.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <exception>
+#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/optimum_stage.hpp"
+#include "pipelines/run/solution_maps.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 
@@ -22,30 +27,44 @@ CurveBudget budget_of(const Solution& solution, const solver::Optimum& best, int
 
 }  // namespace
 
-void find_best_value(const Solution& solution, const RunOptions& options, RunRecord& record) {
-  record.stage("optimum");
+void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& options,
+                                   RunRecord& record) {
   const SceneDescription& scene = solution.scene;
+  // The search itself keeps little more than one core busy. Where time may run out it comes before its bracket;
+  // another number than the preload may need other modes, which one thread alone may ask for.
+  const bool beside = options.jobs > 1 && !std::isfinite(seconds_left()) &&
+                      scene.response->optimum->of_preload();
+  if (options.maps && !beside) {
+    record.stage("maps");
+    draw_maps(solution, options.jobs, record);
+  }
+  record.stage("optimum");
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
   solver::Optimum best;
   std::optional<OptimumBracket> bracket;
-  // The search itself keeps little more than one core busy. Where time may run out it comes first;
-  // another number than the preload may need other modes, which one thread alone may ask for.
-  const bool beside = options.bracket && options.jobs > 1 && !std::isfinite(seconds_left()) &&
-                      scene.response->optimum->of_preload() && search.bracket_by_few();
-  std::exception_ptr failure;  // of the bracket: what the search has found is kept all the same
-  in_parallel(beside ? 2 : 1, 2, [&](std::size_t task) {
-    if (task == 0) best = search.best();
-    if (task == 0) return;
+  std::vector<std::function<void()>> tasks{[&] { best = search.best(); }};
+  if (beside && options.maps) {
+    tasks.emplace_back([&] { draw_maps(solution, options.jobs - 1, record); });
+  }
+  if (beside && options.bracket && search.bracket_by_few()) {
+    tasks.emplace_back([&] { bracket = search.bracket(options.jobs - 1); });
+  }
+  std::vector<std::exception_ptr> failures(tasks.size());
+  in_parallel(tasks.size(), 2, [&](std::size_t i) {
     try {
-      bracket = search.bracket(options.jobs - 1);
+      tasks[i]();
     } catch (...) {
-      failure = std::current_exception();
+      failures[i] = std::current_exception();
     }
   });
+  if (failures[0]) std::rethrow_exception(failures[0]);
+  // What the search has found is kept though maps or bracket have failed.
   record.keep_optimum(solution.model, *scene.response->optimum, best,
                       budget_of(solution, best, options.jobs));
-  if (failure) std::rethrow_exception(failure);
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
   if (!bracket && options.bracket && !cut_short()) bracket = search.bracket(options.jobs);
   if (bracket) record.keep_bracket(std::move(*bracket));
 }
