@@ -27,6 +27,9 @@ struct ContinuationOptions {
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;
+  /// Whether points are told to be stable or not: a tenth of the time of a curve with several harmonics, much more in
+  /// scenes of few modes. Where curves are traced for their peaks alone, nobody asks.
+  bool judge_stability = true;
   /// Asked between the steps of choices, searches and followed peaks: true ends them with what there is. A curve itself
   /// is stopped by its observer.
   std::function<bool()> stop{};

@@ -149,9 +149,10 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int hig
   richer.effects.n_harmonics = highest;
   Factors more;
   more.n_harmonics = highest;
+  solver::ContinuationOptions range = continuation_options(scene_, model_);
+  range.judge_stability = false;
   try {
-    const solver::ResponseCurve curve =
-        solver::trace_response(scene_at(value, {}), continuation_options(scene_, model_), go_on);
+    const solver::ResponseCurve curve = solver::trace_response(scene_at(value, {}), range, go_on);
     if (interrupt_requested() || cut_short()) return std::nullopt;
     return solver::richer_peak(scene_at(value, more), continuation_options(scene_, richer), curve,
                                highest);

@@ -283,6 +283,7 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   model.effects.n_harmonics = highest;
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
+  options.judge_stability = false;
   result.richer = solver::richer_peak(solver_scene(model, load), options, curve, highest);
   const bool missed = result.richer && !result.richer->change;
   if (missed && options.frequency_begin != options.frequency_end) {

@@ -32,6 +32,7 @@ class CurveTracer {
  private:
   [[nodiscard]] Scaling scaling_at(const NewtonResult& at);
   [[nodiscard]] StabilityReport stability_at(const NewtonResult& at);
+  [[nodiscard]] StabilityReport judged(const NewtonResult& at, PointMark mark);
   [[nodiscard]] ResponsePoint certified(const NewtonResult& at, PointMark mark);
   /// False: the observer asked to stop.
   [[nodiscard]] bool add(const NewtonResult& at, PointMark mark = PointMark::none);

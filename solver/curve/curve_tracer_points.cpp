@@ -19,16 +19,22 @@ std::string CurveTracer::at_hertz(const std::string& text, double frequency) {
   return stream.str();
 }
 
-ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
-  StabilityReport stability =
-      hill_stability(*balance_, at.evaluation.jacobian, at.point.parameter, stability_at(at));
-  if (mark != PointMark::fold) {
-    const bool is_peak = mark == PointMark::peak;
-    stability =
-        stability_in_time(*balance_, balance_->harmonics(at.point.x), at.point.parameter, stability,
-                          is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
+StabilityReport CurveTracer::judged(const NewtonResult& at, PointMark mark) {
+  StabilityReport slow = stability_at(at);
+  if (!options_.judge_stability) {
+    slow.stability = Stability::not_assessed;
+    return slow;
   }
-  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, stability);
+  const double frequency = at.point.parameter;
+  const StabilityReport hill = hill_stability(*balance_, at.evaluation.jacobian, frequency, slow);
+  if (mark == PointMark::fold) return hill;
+  const bool is_peak = mark == PointMark::peak;
+  return stability_in_time(*balance_, balance_->harmonics(at.point.x), frequency, hill,
+                           is_peak ? PeriodMapEffort::few_points : PeriodMapEffort::every_point);
+}
+
+ResponsePoint CurveTracer::certified(const NewtonResult& at, PointMark mark) {
+  ResponsePoint point = certified_point(*balance_, at, at.point.parameter, judged(at, mark));
   point.mark = mark;
   // At a fold a multiplier is 1: on which side it falls is rounding.
   if (mark == PointMark::fold) point.stability = Stability::not_assessed;

@@ -496,9 +496,11 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
 
 }  // namespace
 
-Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
+Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& given,
                       const OptimumOptions& options) {
   check(options);
+  ContinuationOptions range = given;
+  range.judge_stability = false;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const bool many = range.harmonic_tolerance > 0.0 || range.n_harmonics > few;
