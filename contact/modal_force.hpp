@@ -8,6 +8,7 @@
 ///   (Ω − k²ω² + ikωC_r) A^(k) + G^(k)(B, A) = Q^(k),        Ω B + G_b(B, A) = Q_b.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -51,9 +52,26 @@ struct Asked {
   int n_harmonics = 0;
 };
 
-/// Storage is kept from one question to the next: an object serves one thread at a time.
+/// A force does not change: what an evaluation leaves for the next lies in a workspace that the caller owns.
 class ModalForce {
  public:
+  /// Storage, and what was found at the motion evaluated last. It saves time and decides no answer: equal
+  /// questions give equal bits, whatever was asked before. Of one force, for one thread at a time.
+  class Workspace {
+   public:
+    explicit Workspace(const ModalForce& owner) : owner_(&owner) {}
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+    Workspace(Workspace&&) = delete;
+    Workspace& operator=(Workspace&&) = delete;
+    virtual ~Workspace() = default;
+
+    [[nodiscard]] bool is_of(const ModalForce& force) const { return owner_ == &force; }
+
+   private:
+    const ModalForce* owner_;
+  };
+
   /// @param n_modes  of all motions asked for.
   explicit ModalForce(Eigen::Index n_modes) : n_modes_(n_modes) {}
   ModalForce(const ModalForce&) = delete;
@@ -63,25 +81,30 @@ class ModalForce {
   virtual ~ModalForce() = default;
 
   [[nodiscard]] Eigen::Index n_modes() const { return n_modes_; }
+  /// A new one, of this force or of the one that answers in its place, which outlives it.
+  [[nodiscard]] virtual std::unique_ptr<Workspace> workspace() const {
+    return std::make_unique<Workspace>(*this);
+  }
 
   /// The equations.
   /// @param q          harmonics of the modal coordinates [m√kg].
   /// @param frequency  ω [rad/s].
   /// @return           derivatives by the rows asked for and by these alone: n = rows · n_modes.
   /// @throws std::invalid_argument  another number of modes than n_modes(), harmonics that the force does not know,
-  ///                                derivatives of more harmonics than the motion has.
-  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency, const Asked& asked);
-  /// By all rows.
-  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency);
+  ///                                derivatives of more harmonics than the motion has, a workspace of another force.
+  [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency, const Asked& asked,
+                                          Workspace& work) const;
 
   /// What a solution did: shares of the states and work of slip.
   /// @throws std::invalid_argument  as evaluate().
-  [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency) = 0;
+  [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency,
+                                           Workspace& work) const = 0;
   /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
-  /// next to nothing at the motion evaluated last, elsewhere an evaluation.
+  /// next to nothing at the motion evaluated last with this workspace, elsewhere an evaluation.
   /// @param result  written whole, storage is used again; empty: not told.
   /// @throws std::invalid_argument  as evaluate().
-  virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result) {
+  virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result,
+                      Workspace& /*work*/) const {
     result.clear();
   }
 
@@ -97,7 +120,7 @@ class ModalForce {
  private:
   /// See evaluate().
   [[nodiscard]] virtual ForceAndJacobian evaluated(const Harmonics& q, double frequency,
-                                                   const Asked& asked) = 0;
+                                                   const Asked& asked, Workspace& work) const = 0;
 
   Eigen::Index n_modes_;
 };

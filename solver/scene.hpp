@@ -14,16 +14,16 @@ namespace microslip::solver {
 
 using contact::Harmonics;
 
-/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates. Its forces keep storage of their own:
-/// whatever is solved with one scene is solved one after the other, threads have a scene each.
+/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates. Nothing that solves it changes it:
+/// threads may share a scene, each with a HarmonicBalance of its own.
 struct Scene {
-  Eigen::VectorXd natural_frequency;             ///< ω_n [rad/s], n_modes, ≥ 0
-  Eigen::VectorXd damping_ratio;                 ///< ζ_n [-], n_modes
-  Harmonics excitation;                          ///< Q [N/√kg], mean row included
-  Eigen::VectorXd output;                        ///< y = output · q [1/√kg], n_modes
-  std::unique_ptr<contact::ModalForce> contact;  ///< nullptr: linear
+  Eigen::VectorXd natural_frequency;                   ///< ω_n [rad/s], n_modes, ≥ 0
+  Eigen::VectorXd damping_ratio;                       ///< ζ_n [-], n_modes
+  Harmonics excitation;                                ///< Q [N/√kg], mean row included
+  Eigen::VectorXd output;                              ///< y = output · q [1/√kg], n_modes
+  std::unique_ptr<const contact::ModalForce> contact;  ///< nullptr: linear
   /// The same contact for time integration; nullptr: linear, or not offered by this contact.
-  std::unique_ptr<contact::TransientForce> transient;
+  std::unique_ptr<const contact::TransientForce> transient;
 
   [[nodiscard]] Eigen::Index n_modes() const { return natural_frequency.size(); }
 };

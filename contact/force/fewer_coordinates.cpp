@@ -34,12 +34,17 @@ Harmonics FewerCoordinates::coordinates(const Harmonics& q) const {
   return x;
 }
 
-CycleReport FewerCoordinates::report(const Harmonics& q, double frequency) {
-  return force_->report(coordinates(q), frequency);
+std::unique_ptr<ModalForce::Workspace> FewerCoordinates::workspace() const {
+  return force_->workspace();
 }
 
-void FewerCoordinates::states(const Harmonics& q, double frequency, ContactStates& result) {
-  force_->states(coordinates(q), frequency, result);
+CycleReport FewerCoordinates::report(const Harmonics& q, double frequency, Workspace& work) const {
+  return force_->report(coordinates(q), frequency, work);
+}
+
+void FewerCoordinates::states(const Harmonics& q, double frequency, ContactStates& result,
+                              Workspace& work) const {
+  force_->states(coordinates(q), frequency, result, work);
 }
 
 Eigen::MatrixXd FewerCoordinates::stuck_stiffness() const {
@@ -66,8 +71,8 @@ Eigen::MatrixXd FewerCoordinates::expanded(const Eigen::MatrixXd& jacobian) cons
 }
 
 ForceAndJacobian FewerCoordinates::evaluated(const Harmonics& q, double frequency,
-                                             const Asked& asked) {
-  const ForceAndJacobian few = force_->evaluate(coordinates(q), frequency, asked);
+                                             const Asked& asked, Workspace& work) const {
+  const ForceAndJacobian few = force_->evaluate(coordinates(q), frequency, asked, work);
   ForceAndJacobian result;
   result.force = Harmonics(few.force.n_harmonics(), n_modes());
   result.force.rows().noalias() = few.force.rows() * of_modes_;

@@ -19,21 +19,25 @@ class FewerCoordinates final : public ModalForce {
   /// @throws std::invalid_argument  another number of modes than r.
   FewerCoordinates(Eigen::MatrixXd of_modes, std::unique_ptr<ModalForce> force);
 
-  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency) override;
-  void states(const Harmonics& q, double frequency, ContactStates& result) override;
+  /// That of the force it asks.
+  [[nodiscard]] std::unique_ptr<Workspace> workspace() const override;
+  [[nodiscard]] CycleReport report(const Harmonics& q, double frequency,
+                                   Workspace& work) const override;
+  void states(const Harmonics& q, double frequency, ContactStates& result,
+              Workspace& work) const override;
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const override;
 
  private:
-  [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency,
-                                           const Asked& asked) override;
+  [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,
+                                           Workspace& work) const override;
   [[nodiscard]] Harmonics coordinates(const Harmonics& q) const;
   /// Tᵀ J T of every pair of harmonic rows.
   [[nodiscard]] Eigen::MatrixXd expanded(const Eigen::MatrixXd& jacobian) const;
 
   Eigen::MatrixXd of_modes_;
   double norm_;  // of T
-  std::unique_ptr<ModalForce> force_;
+  std::unique_ptr<const ModalForce> force_;
 };
 
 }  // namespace microslip::contact

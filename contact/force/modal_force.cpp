@@ -1,24 +1,17 @@
 #include "contact/modal_force.hpp"
 
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 namespace microslip::contact {
 
-ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency, const Asked& asked) {
+ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency, const Asked& asked,
+                                      Workspace& work) const {
   if (asked.n_harmonics > q.n_harmonics() && !asked.rows.empty()) {
     throw std::invalid_argument(
         "contact force: derivatives with more harmonics than the motion has");
   }
-  return evaluated(q, frequency, asked);
-}
-
-ForceAndJacobian ModalForce::evaluate(const Harmonics& q, double frequency) {
-  Asked all;
-  all.rows.resize(static_cast<std::size_t>(q.rows().rows()));
-  std::iota(all.rows.begin(), all.rows.end(), Eigen::Index{0});
-  return evaluated(q, frequency, all);
+  return evaluated(q, frequency, asked, work);
 }
 
 ForceAndJacobian restricted(ForceAndJacobian all, const std::vector<Eigen::Index>& rows) {

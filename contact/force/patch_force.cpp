@@ -162,25 +162,26 @@ ForceAndJacobian unpacked(const ModalSums& sums, std::size_t n) {
   return result;
 }
 
+PointMotion motion_of(Eigen::Index point, const PatchMotion& motion) {
+  const PointRows x = motion.of(point);
+  return {x.u[0], x.u[1], x.u[2], x.v[0], x.v[1], x.v[2]};
+}
+
 }  // namespace
 
 PatchForce::PatchForce(ContactPatch patch, ModalShapes shapes)
     : PointwiseForce(at_rest(patch), along_p(std::move(shapes))), patch_(std::move(patch)) {}
 
-PointMotion PatchForce::motion_of(Eigen::Index point) const {
-  const PointRows x = motion().of(point);
-  return {x.u[0], x.u[1], x.u[2], x.v[0], x.v[1], x.v[2]};
-}
-
-ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& asked) {
-  require_one(motion().n_harmonics());
+ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& asked,
+                                         PointwiseWork& work) const {
+  require_one(work.motion.n_harmonics());
   require_one(std::max(asked.n_harmonics, 1));
   const auto n = static_cast<std::size_t>(n_modes());
   std::vector<double> phi(2 * n * block_points);  // of one block: [u, v][mode][point of the block]
   double* const phi_u = phi.data();
   double* const phi_v = phi_u + n * block_points;
   ModalSums sums(n);
-  for (std::span<const Eigen::Index> rest(awake()); !rest.empty();) {
+  for (std::span<const Eigen::Index> rest(work.sleep.awake()); !rest.empty();) {
     const auto block = rest.first(std::min(block_points, rest.size()));
     rest = rest.subspan(block.size());
     pack(shapes().u, block, phi_u);
@@ -188,13 +189,13 @@ ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& aske
     BlockForces forces{};
     for (std::size_t i = 0; i < block.size(); ++i) {
       const PointParameters& point = patch_.points()[static_cast<std::size_t>(block[i])];
-      const PointMotion at = motion_of(block[i]);
+      const PointMotion at = motion_of(block[i], work.motion);
       const SlipFunctions w = slip_functions(point, at);
       const CycleRegime regime = cycle_regime(w);
       const CyclePhases phases = cycle_phases(w, regime);
       forces.set(i, points().weights[block[i]], points().reference_load[block[i]],
                  cycle_force(point, at, w, regime, phases));
-      keep(block[i], cycle_states(regime, phases));
+      keep(block[i], cycle_states(regime, phases), work);
     }
     const std::size_t n_lanes = (block.size() + lane_points - 1) / lane_points * lane_points;
     add_block(sums, n, n_lanes, phi_u, phi_v, forces, !asked.rows.empty());
@@ -203,11 +204,11 @@ ForceAndJacobian PatchForce::awake_force(double /*frequency*/, const Asked& aske
 }
 
 void PatchForce::add_cycles(std::span<const Eigen::Index> points, double /*frequency*/,
-                            ReportSum& sum) {
-  require_one(motion().n_harmonics());
+                            PointwiseWork& work, ReportSum& sum) const {
+  require_one(work.motion.n_harmonics());
   for (const Eigen::Index i : points) {
     const FrictionCycle cycle =
-        friction_cycle(patch_.points()[static_cast<std::size_t>(i)], motion_of(i));
+        friction_cycle(patch_.points()[static_cast<std::size_t>(i)], motion_of(i, work.motion));
     sum.add(cycle.segments(), cycle.dissipated_energy, this->points().weights[i]);
   }
 }

@@ -31,9 +31,10 @@ class PatchForce final : public PointwiseForce {
  private:
   /// The force does not depend on the frequency.
   /// @throws std::invalid_argument  more harmonics than one, of the motion or of the force.
-  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked) override;
-  void add_cycles(std::span<const Eigen::Index> points, double frequency, ReportSum& sum) override;
-  [[nodiscard]] PointMotion motion_of(Eigen::Index point) const;
+  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked,
+                                             PointwiseWork& work) const override;
+  void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,
+                  ReportSum& sum) const override;
 
   ContactPatch patch_;
 };

@@ -32,30 +32,32 @@ PointMethodForce::PointMethodForce(Eigen::VectorXd weights,
   if (this->shapes().w.size() > 0) shape_.push_back(&this->shapes().w);
 }
 
-ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& asked) {
-  const int n_harmonics = motion().n_harmonics();
-  if (asked.n_harmonics > n_harmonics) return wider_force(frequency, asked.n_harmonics);
+ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& asked,
+                                               PointwiseWork& work) const {
+  const int n_harmonics = work.motion.n_harmonics();
+  if (asked.n_harmonics > n_harmonics) return wider_force(frequency, asked.n_harmonics, work);
   PointProjection sum;
   sum.start(shape_, n_harmonics, asked.rows);
   Harmonics at;
   PointTraction traction;
-  for (const Eigen::Index i : awake()) {
+  for (const Eigen::Index i : work.sleep.awake()) {
     const PointMethod& method = *methods_[static_cast<std::size_t>(i)];
-    motion().copy(i, at);
+    work.motion.copy(i, at);
     traction.defect = 0.0;  // a method that is exact does not mention it
     method.traction(at, frequency, traction);
     sum.add(i, points().weights[i], points().reference_load[i], traction);
-    keep(i, {traction.regime, traction.period});
+    keep(i, {traction.regime, traction.period}, work);
   }
   return sum.take();
 }
 
 /// Harmonics that the motion does not have: the force alone.
-ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics) {
+ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics,
+                                               const PointwiseWork& work) const {
   ForceAndJacobian result{Harmonics(n_harmonics, n_modes()), {}, {}};
   Harmonics at;
-  for (const Eigen::Index i : awake()) {
-    motion().copy(i, at);
+  for (const Eigen::Index i : work.sleep.awake()) {
+    work.motion.copy(i, at);
     Harmonics force =
         methods_[static_cast<std::size_t>(i)]->force_up_to(at, frequency, n_harmonics);
     force.rows()(0, 1) -= points().reference_load[i];
@@ -68,10 +70,10 @@ ForceAndJacobian PointMethodForce::wider_force(double frequency, int n_harmonics
 }
 
 void PointMethodForce::add_cycles(std::span<const Eigen::Index> points, double frequency,
-                                  ReportSum& sum) {
+                                  PointwiseWork& work, ReportSum& sum) const {
   Harmonics at;
   for (const Eigen::Index i : points) {
-    motion().copy(i, at);
+    work.motion.copy(i, at);
     const PointHistory history =
         methods_[static_cast<std::size_t>(i)]->history(at, frequency, {}, 0);
     sum.add(history.segments, history.dissipated_energy, this->points().weights[i]);

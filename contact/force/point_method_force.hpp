@@ -28,9 +28,12 @@ class PointMethodForce final : public PointwiseForce {
 
  private:
   /// Points cost what all harmonics of the motion do, their sum over the patch what the rows do.
-  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked) override;
-  [[nodiscard]] ForceAndJacobian wider_force(double frequency, int n_harmonics);
-  void add_cycles(std::span<const Eigen::Index> points, double frequency, ReportSum& sum) override;
+  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked,
+                                             PointwiseWork& work) const override;
+  [[nodiscard]] ForceAndJacobian wider_force(double frequency, int n_harmonics,
+                                             const PointwiseWork& work) const;
+  void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,
+                  ReportSum& sum) const override;
 
   std::vector<std::shared_ptr<const PointMethod>> methods_;
   std::vector<const Eigen::MatrixXd*> shape_;  // of u, v and, unless empty, w

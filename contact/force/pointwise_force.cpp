@@ -38,36 +38,62 @@ void add_sleeping(ForceAndJacobian& result, const SleepingPart& part, const Harm
   }
 }
 
+void keep_sleeping(const SleepingSet& sleep, std::vector<CycleStates>& cycles) {
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const SleepState state = sleep.state(static_cast<Eigen::Index>(i));
+    if (state == SleepState::awake) continue;
+    const bool stuck = state == SleepState::stuck;
+    cycles[i] = {stuck ? CycleRegime::full_stick : CycleRegime::separated,
+                 PeriodStates(stuck ? ContactState::stick : ContactState::separated)};
+  }
+}
+
 }  // namespace
+
+PointwiseForce::PointwiseWork::PointwiseWork(const PointwiseForce& force)
+    : Workspace(force), sleep(force.points_, force.shapes_), cycles(force.points_.ranges.size()) {}
 
 PointwiseForce::PointwiseForce(RestingPoints points, ModalShapes&& shapes)
     : ModalForce(shapes.u.cols()), points_(std::move(points)), shapes_(std::move(shapes)) {
   check(points_, shapes_);
-  sleep_ = SleepingSet(points_.weights, points_.reference_load, points_.ranges, shapes_);
-  cycles_.resize(points_.ranges.size());
 }
 
-void PointwiseForce::look_at(const Harmonics& q, double frequency) {
-  motion_.set(shapes_, q);
-  sleep_.look_at(motion_, frequency, shapes_);
+std::unique_ptr<ModalForce::Workspace> PointwiseForce::workspace() const {
+  return std::make_unique<PointwiseWork>(*this);
 }
 
-ForceAndJacobian PointwiseForce::evaluated(const Harmonics& q, double frequency,
-                                           const Asked& asked) {
-  look_at(q, frequency);
-  kept_q_.reset();
-  keep_sleeping();
-  ForceAndJacobian result = awake_force(frequency, asked);
-  if (asked.n_harmonics <= q.n_harmonics()) {
-    kept_q_ = q;
-    kept_frequency_ = frequency;
+PointwiseForce::PointwiseWork& PointwiseForce::own(Workspace& work) const {
+  if (!work.is_of(*this)) {
+    throw std::invalid_argument("contact force: the workspace is that of another force");
   }
-  if (const SleepingPart* part = sleep_.part()) add_sleeping(result, *part, q, asked.rows.size());
+  return static_cast<PointwiseWork&>(work);  // workspace() makes no others
+}
+
+void PointwiseForce::look_at(const Harmonics& q, double frequency, PointwiseWork& work) const {
+  work.motion.set(shapes_, q);
+  work.sleep.look_at(work.motion, frequency, points_, shapes_);
+}
+
+ForceAndJacobian PointwiseForce::evaluated(const Harmonics& q, double frequency, const Asked& asked,
+                                           Workspace& workspace) const {
+  PointwiseWork& work = own(workspace);
+  look_at(q, frequency, work);
+  work.kept_q.reset();
+  keep_sleeping(work.sleep, work.cycles);
+  ForceAndJacobian result = awake_force(frequency, asked, work);
+  if (asked.n_harmonics <= q.n_harmonics()) {
+    work.kept_q = q;
+    work.kept_frequency = frequency;
+  }
+  if (const SleepingPart* part = work.sleep.part()) {
+    add_sleeping(result, *part, q, asked.rows.size());
+  }
   return result;
 }
 
-void PointwiseForce::keep(Eigen::Index point, const CycleStates& cycle) {
-  cycles_[static_cast<std::size_t>(point)] = is_frictionless(point) ? cycle.without_slip() : cycle;
+void PointwiseForce::keep(Eigen::Index point, const CycleStates& cycle, PointwiseWork& work) const {
+  work.cycles[static_cast<std::size_t>(point)] =
+      is_frictionless(point) ? cycle.without_slip() : cycle;
 }
 
 /// Of rough surfaces the range tells where they are open alone, nothing of friction.
@@ -76,35 +102,31 @@ bool PointwiseForce::is_frictionless(Eigen::Index point) const {
   return range && range->sticks_linearly && !range->rubs();
 }
 
-void PointwiseForce::keep_sleeping() {
-  for (std::size_t i = 0; i < cycles_.size(); ++i) {
-    const SleepState state = sleep_.state(static_cast<Eigen::Index>(i));
-    if (state == SleepState::awake) continue;
-    const bool stuck = state == SleepState::stuck;
-    cycles_[i] = {stuck ? CycleRegime::full_stick : CycleRegime::separated,
-                  PeriodStates(stuck ? ContactState::stick : ContactState::separated)};
-  }
-}
-
-void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates& result) {
-  const bool known = kept_q_ && frequency == kept_frequency_ &&
-                     q.rows().rows() == kept_q_->rows().rows() && q.vector() == kept_q_->vector();
-  if (!known) static_cast<void>(evaluated(q, frequency, {}));
+void PointwiseForce::states(const Harmonics& q, double frequency, ContactStates& result,
+                            Workspace& workspace) const {
+  PointwiseWork& work = own(workspace);
+  const bool known = work.kept_q && frequency == work.kept_frequency &&
+                     q.rows().rows() == work.kept_q->rows().rows() &&
+                     q.vector() == work.kept_q->vector();
+  if (!known) static_cast<void>(evaluated(q, frequency, {}, work));
   const double area = points_.weights.sum();
   result.clear();
-  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+  for (std::size_t i = 0; i < work.cycles.size(); ++i) {
     const double weight = points_.weights[static_cast<Eigen::Index>(i)];
-    if (weight > 0.0) result.push_back({weight / area, cycles_[i]});
+    if (weight > 0.0) result.push_back({weight / area, work.cycles[i]});
   }
 }
 
-CycleReport PointwiseForce::report(const Harmonics& q, double frequency) {
-  look_at(q, frequency);
+CycleReport PointwiseForce::report(const Harmonics& q, double frequency,
+                                   Workspace& workspace) const {
+  PointwiseWork& work = own(workspace);
+  look_at(q, frequency, work);
+  const std::size_t n = points_.ranges.size();
   ReportSum sum;
   std::vector<Eigen::Index> others;
-  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const auto point = static_cast<Eigen::Index>(i);
-    const SleepState state = sleep_.state(point);
+    const SleepState state = work.sleep.state(point);
     const double weight = points_.weights[point];
     if (weight == 0.0) continue;
     const bool open = state == SleepState::open;
@@ -117,14 +139,14 @@ CycleReport PointwiseForce::report(const Harmonics& q, double frequency) {
                              0.0};
     sum.add({&whole, 1}, 0.0, weight);
   }
-  add_cycles(others, frequency, sum);
+  add_cycles(others, frequency, work, sum);
   CycleReport report = sum.result();
-  report.awake_share = static_cast<double>(awake().size()) / static_cast<double>(cycles_.size());
+  report.awake_share = static_cast<double>(work.sleep.awake().size()) / static_cast<double>(n);
   return report;
 }
 
 LinearState PointwiseForce::linear_state(const Harmonics& centre, double radius) const {
-  return sleep_.linear_state(shapes_, centre, radius);
+  return contact::linear_state(points_, shapes_, centre, radius);
 }
 
 Eigen::MatrixXd PointwiseForce::stuck_stiffness() const {

@@ -41,33 +41,31 @@ void PatchMotion::copy(Eigen::Index point, Harmonics& result) const {
   if (w.size() > 0) result.rows().col(2) = w.row(point).transpose();
 }
 
-SleepingSet::SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd reference_load,
-                         std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes)
-    : weights_(std::move(weights)),
-      reference_load_(std::move(reference_load)),
-      range_(std::move(ranges)) {
-  const Eigen::Index n = weights_.size();
+SleepingSet::SleepingSet(const RestingPoints& points, const ModalShapes& shapes) {
+  const Eigen::Index n = points.weights.size();
   group_ = std::max(smallest_group, (n + largest_n_groups - 1) / largest_n_groups);
-  state_.assign(range_.size(), SleepState::awake);
-  awake_.resize(range_.size());
+  state_.assign(points.ranges.size(), SleepState::awake);
+  awake_.resize(points.ranges.size());
   std::iota(awake_.begin(), awake_.end(), Eigen::Index{0});
   part_.resize(static_cast<std::size_t>(n_groups(n, group_)));
   rows_.resize(n_point_signals * group_, shapes.u.cols());
 }
 
-void SleepingSet::decide(const PatchMotion& motion, double frequency) {
+void SleepingSet::decide(const PatchMotion& motion, double frequency, const RestingPoints& points) {
+  const auto& ranges = points.ranges;
   if (table_.n_harmonics != motion.n_harmonics()) table_ = PhaseTable(motion.n_harmonics());
-  next_.resize(range_.size());
-  for (std::size_t i = 0; i < range_.size(); ++i) {
+  next_.resize(ranges.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
     next_[i] =
-        range_[i].has_value()
-            ? sleep_state(*range_[i], motion.of(static_cast<Eigen::Index>(i)), table_, frequency)
+        ranges[i].has_value()
+            ? sleep_state(*ranges[i], motion.of(static_cast<Eigen::Index>(i)), table_, frequency)
             : SleepState::awake;
   }
 }
 
-void SleepingSet::look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes) {
-  decide(motion, frequency);
+void SleepingSet::look_at(const PatchMotion& motion, double frequency, const RestingPoints& points,
+                          const ModalShapes& shapes) {
+  decide(motion, frequency, points);
   if (next_ == state_) return;
   const auto n = static_cast<Eigen::Index>(next_.size());
   std::swap(state_, next_);  // next_ is what was
@@ -77,7 +75,7 @@ void SleepingSet::look_at(const PatchMotion& motion, double frequency, const Mod
     const Eigen::Index begin = g * group_;
     const Eigen::Index end = std::min(n, begin + group_);
     if (!std::equal(state_.begin() + begin, state_.begin() + end, next_.begin() + begin))
-      add_up(g, shapes);
+      add_up(g, points, shapes);
     const SleepingPart& part = part_[static_cast<std::size_t>(g)];
     if (part.mean.size() == 0) continue;
     sum_.stiffness += part.stiffness;
@@ -89,27 +87,29 @@ void SleepingSet::look_at(const PatchMotion& motion, double frequency, const Mod
   }
 }
 
-void SleepingSet::add_up(Eigen::Index group, const ModalShapes& shapes) {
+void SleepingSet::add_up(Eigen::Index group, const RestingPoints& points,
+                         const ModalShapes& shapes) {
   const Eigen::Index begin = group * group_;
   const Eigen::Index end = std::min(static_cast<Eigen::Index>(state_.size()), begin + group_);
   SleepingPart& part = part_[static_cast<std::size_t>(group)];
   part.stiffness.setZero(shapes.u.cols(), shapes.u.cols());
   part.mean.setZero(shapes.u.cols());
   n_rows_ = 0;
-  for (Eigen::Index i = begin; i < end; ++i) add_point(i, shapes, part);
+  for (Eigen::Index i = begin; i < end; ++i) add_point(i, points, shapes, part);
   if (n_rows_ == 0) return;
   part.stiffness.selfadjointView<Eigen::Lower>().rankUpdate(rows_.topRows(n_rows_).transpose());
   part.stiffness.triangularView<Eigen::StrictlyUpper>() = part.stiffness.transpose();
 }
 
-void SleepingSet::add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part) {
+void SleepingSet::add_point(Eigen::Index point, const RestingPoints& points,
+                            const ModalShapes& shapes, SleepingPart& part) {
   const auto i = static_cast<std::size_t>(point);
-  const double weight = weights_[point];
+  const double weight = points.weights[point];
   if (state_[i] == SleepState::awake || weight == 0.0) return;
-  const double load = state_[i] == SleepState::stuck ? range_[i]->rest_load : 0.0;
-  part.mean += weight * (load - reference_load_[point]) * shapes.v.row(point).transpose();
+  const double load = state_[i] == SleepState::stuck ? points.ranges[i]->rest_load : 0.0;
+  part.mean += weight * (load - points.reference_load[point]) * shapes.v.row(point).transpose();
   if (state_[i] == SleepState::open) return;
-  const Eigen::Vector3d& k = range_[i]->stiffness;
+  const Eigen::Vector3d& k = points.ranges[i]->stiffness;
   const auto add = [&](double stiffness, const Eigen::MatrixXd& phi) {
     if (stiffness == 0.0 || phi.size() == 0) return;
     rows_.row(n_rows_++) = std::sqrt(weight * stiffness) * phi.row(point);
@@ -123,16 +123,16 @@ const SleepingPart* SleepingSet::part() const {
   return awake_.size() < state_.size() ? &sum_ : nullptr;
 }
 
-LinearState SleepingSet::linear_state(const ModalShapes& shapes, const Harmonics& centre,
-                                      double radius) const {
+LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
+                         const Harmonics& centre, double radius) {
   PatchMotion motion;
   motion.set(shapes, centre);
   const PhaseTable table(centre.n_harmonics());
   bool stuck = true;
   bool open = true;
-  for (Eigen::Index i = 0; i < weights_.size() && (stuck || open); ++i) {
-    const std::optional<LinearRange>& range = range_[static_cast<std::size_t>(i)];
-    if (weights_[i] == 0.0) continue;
+  for (Eigen::Index i = 0; i < points.weights.size() && (stuck || open); ++i) {
+    const std::optional<LinearRange>& range = points.ranges[static_cast<std::size_t>(i)];
+    if (points.weights[i] == 0.0) continue;
     if (!range.has_value()) return LinearState::unknown;
     if (range->sticks_linearly && !range->rubs() && range->stiffness[1] == 0.0) continue;
     const Eigen::Vector3d sizes(shapes.u.row(i).norm(), shapes.v.row(i).norm(),
@@ -141,7 +141,7 @@ LinearState SleepingSet::linear_state(const ModalShapes& shapes, const Harmonics
     const SleepState state = sleep_state(*range, motion.of(i), table, 0.0, reserve);
     const bool any_speed = !range->friction.is_rate_dependent();
     stuck = stuck && any_speed && state == SleepState::stuck && range->rest_load >= 0.0;
-    open = open && state == SleepState::open && reference_load_[i] == 0.0;
+    open = open && state == SleepState::open && points.reference_load[i] == 0.0;
   }
   if (stuck) return LinearState::stuck;
   return open ? LinearState::free : LinearState::unknown;

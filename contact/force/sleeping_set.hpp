@@ -43,15 +43,30 @@ struct SleepingPart {
   Eigen::VectorXd mean;  ///< g: of rest loads that are gone, and of gaps that are closed [N/√kg]
 };
 
+/// What is known of the points of a patch before they move; n of each.
+struct RestingPoints {
+  Eigen::VectorXd weights;                         ///< area [m²], ≥ 0
+  Eigen::VectorXd reference_load;                  ///< n_ref [Pa]
+  Eigen::MatrixX3d stuck_stiffness;                ///< along p, q, r [N/m³]
+  std::vector<std::optional<LinearRange>> ranges;  ///< none: always evaluated
+};
+
+/// Whether the patch answers every motion of a ball like a linear spring through the origin: all points stuck with
+/// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion takes away, or a gap that it closes,
+/// leaves a constant force: unknown. Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not
+/// count.
+/// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
+[[nodiscard]] LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
+                                       const Harmonics& centre, double radius);
+
+/// Of one patch, in a workspace: its points and shapes are those of the constructor, here and below.
 class SleepingSet {
  public:
-  SleepingSet() = default;
-  /// All of the same size n. @param ranges  none: the point is always evaluated.
-  SleepingSet(Eigen::VectorXd weights, Eigen::VectorXd reference_load,
-              std::vector<std::optional<LinearRange>> ranges, const ModalShapes& shapes);
+  SleepingSet(const RestingPoints& points, const ModalShapes& shapes);
 
-  /// Decides for this motion. @param shapes  those of the constructor, here and below.
-  void look_at(const PatchMotion& motion, double frequency, const ModalShapes& shapes);
+  /// Decides for this motion.
+  void look_at(const PatchMotion& motion, double frequency, const RestingPoints& points,
+               const ModalShapes& shapes);
   /// After look_at(): points to be evaluated, ascending.
   [[nodiscard]] const std::vector<Eigen::Index>& awake() const { return awake_; }
   /// After look_at().
@@ -61,22 +76,12 @@ class SleepingSet {
   /// After look_at(): (1); nullptr: none sleeps.
   [[nodiscard]] const SleepingPart* part() const;
 
-  /// Whether the patch answers every motion of a ball like a linear spring through the origin: all points stuck with
-  /// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion takes away, or a gap that it closes,
-  /// leaves a constant force: unknown. Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not
-  /// count.
-  /// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
-  [[nodiscard]] LinearState linear_state(const ModalShapes& shapes, const Harmonics& centre,
-                                         double radius) const;
-
  private:
-  void decide(const PatchMotion& motion, double frequency);
-  void add_up(Eigen::Index group, const ModalShapes& shapes);
-  void add_point(Eigen::Index point, const ModalShapes& shapes, SleepingPart& part);
+  void decide(const PatchMotion& motion, double frequency, const RestingPoints& points);
+  void add_up(Eigen::Index group, const RestingPoints& points, const ModalShapes& shapes);
+  void add_point(Eigen::Index point, const RestingPoints& points, const ModalShapes& shapes,
+                 SleepingPart& part);
 
-  Eigen::VectorXd weights_;
-  Eigen::VectorXd reference_load_;
-  std::vector<std::optional<LinearRange>> range_;
   PhaseTable table_;        // for the harmonics of the motion
   Eigen::Index group_ = 0;  // points of a group
   std::vector<SleepState> state_;

@@ -62,16 +62,20 @@ PatchForce::PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces
   require(instants_ >= 16, std::to_string(instants_) + " instants, must be 16 or more");
 }
 
+std::unique_ptr<ModalForce::Workspace> PatchForce::workspace() const {
+  return std::make_unique<Work>(*this);
+}
+
 /// Grows with the harmonics by halves, so that what is chosen for few is not upset by many.
-PatchForce::Grid PatchForce::grid(int n_harmonics, int force_harmonics) {
+PatchForce::Grid PatchForce::grid(int n_harmonics, int force_harmonics, Work& work) const {
   const int needed = std::max(8 * (n_harmonics + 1), 4 * (force_harmonics + 1));
   int n = instants_;
   while (n + n / 2 < needed) n *= 2;
   if (n < needed) n += n / 2;
   const auto table = [&](int harmonics) {
-    auto found = tables_.find({n, harmonics});
-    if (found == tables_.end()) {
-      found = tables_.emplace(std::pair(n, harmonics), Instants(n, harmonics)).first;
+    auto found = work.tables.find({n, harmonics});
+    if (found == work.tables.end()) {
+      found = work.tables.emplace(std::pair(n, harmonics), Instants(n, harmonics)).first;
     }
     return &found->second;
   };
@@ -79,31 +83,32 @@ PatchForce::Grid PatchForce::grid(int n_harmonics, int force_harmonics) {
 }
 
 /// As many parts as there may be cores, of as many points each as pay for joining their sums.
-void PatchForce::divide() {
+void PatchForce::Work::divide() {
   constexpr std::size_t points_of_two = 4 * block_size;
   constexpr std::size_t most = 8;
-  const std::span<const Eigen::Index> awake(this->awake());
-  n_parts_ = std::clamp<std::size_t>(awake.size() / points_of_two * 2, 1, most);
-  if (parts_.size() < n_parts_) parts_.resize(n_parts_);
+  const std::span<const Eigen::Index> awake(sleep.awake());
+  n_parts = std::clamp<std::size_t>(awake.size() / points_of_two * 2, 1, most);
+  if (parts.size() < n_parts) parts.resize(n_parts);
   const std::size_t blocks = (awake.size() + block_size - 1) / block_size;
   const auto begin = [&](std::size_t i) {
-    return std::min(awake.size(), i * blocks / n_parts_ * block_size);
+    return std::min(awake.size(), i * blocks / n_parts * block_size);
   };
-  for (std::size_t i = 0; i < n_parts_; ++i) {
-    parts_[i].points = awake.subspan(begin(i), begin(i + 1) - begin(i));
+  for (std::size_t i = 0; i < n_parts; ++i) {
+    parts[i].points = awake.subspan(begin(i), begin(i + 1) - begin(i));
   }
 }
 
-void PatchForce::sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid) {
+void PatchForce::sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid,
+                           Work& work) const {
   PlaneBlock& plane = part.plane;
   const auto ask = derivatives ? PlaneBlock::Ask::derivatives : PlaneBlock::Ask::force;
   for (std::size_t begin = 0; begin < part.points.size(); begin += block_size) {
     const auto block = part.points.subspan(begin, std::min(block_size, part.points.size() - begin));
-    plane.evaluate(surfaces_, motion(), block, frequency, ask, *grid.of_motion, *grid.of_force);
+    plane.evaluate(surfaces_, work.motion, block, frequency, ask, *grid.of_motion, *grid.of_force);
     for (std::size_t p = 0; p < block.size(); ++p) {
       const Eigen::Index i = block[p];
       const auto& surface = surfaces_[static_cast<std::size_t>(i)];
-      keep(i, cycle_states(plane.runs(p), grid.of_motion->size()));
+      keep(i, cycle_states(plane.runs(p), grid.of_motion->size()), work);
       part.defect += points().weights[i] * plane.defect(p) *
                      std::hypot(shapes().u.row(i).norm(), shapes().w.row(i).norm());
       PointDerivatives of_point;
@@ -122,16 +127,17 @@ void PatchForce::sum_plane(Part& part, double frequency, bool derivatives, const
   }
 }
 
-void PatchForce::sum_line(Part& part, double frequency, bool derivatives, const Grid& grid) {
+void PatchForce::sum_line(Part& part, double frequency, bool derivatives, const Grid& grid,
+                          Work& work) const {
   LineBlock& line = part.line;
   const std::size_t n = grid.of_motion->size();
   for (std::size_t begin = 0; begin < part.points.size(); begin += block_size) {
     const auto block = part.points.subspan(begin, std::min(block_size, part.points.size() - begin));
-    line.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
+    line.evaluate(surfaces_, work.motion, block, frequency, *grid.of_motion, *grid.of_force);
     for (std::size_t p = 0; p < block.size(); ++p) {
       const Eigen::Index i = block[p];
       const auto& surface = surfaces_[static_cast<std::size_t>(i)];
-      keep(i, cycle_states(line.runs(p), n));
+      keep(i, cycle_states(line.runs(p), n), work);
       PointDerivatives of_point;
       if (derivatives) {
         const LineDerivatives& J = line.derivatives(p);
@@ -146,25 +152,27 @@ void PatchForce::sum_line(Part& part, double frequency, bool derivatives, const 
   }
 }
 
-ForceAndJacobian PatchForce::awake_force(double frequency, const Asked& asked) {
-  const int n_harmonics = motion().n_harmonics();
-  const Grid grid = this->grid(n_harmonics, std::max(n_harmonics, asked.n_harmonics));
+ForceAndJacobian PatchForce::awake_force(double frequency, const Asked& asked,
+                                         PointwiseWork& own) const {
+  Work& work = static_cast<Work&>(own);
+  const int n_harmonics = work.motion.n_harmonics();
+  const Grid grid = this->grid(n_harmonics, std::max(n_harmonics, asked.n_harmonics), work);
   const bool derivatives = !asked.rows.empty();
-  divide();
-  run_on_spare_cores(n_parts_, [&](std::size_t i) {
-    Part& part = parts_[i];
+  work.divide();
+  run_on_spare_cores(work.n_parts, [&](std::size_t i) {
+    Part& part = work.parts[i];
     part.defect = 0.0;
     part.projection.start(shapes(), *grid.of_motion, *grid.of_force, asked.rows);
     if (shapes().w.size() > 0) {
-      sum_plane(part, frequency, derivatives, grid);
+      sum_plane(part, frequency, derivatives, grid, work);
     } else {
-      sum_line(part, frequency, derivatives, grid);
+      sum_line(part, frequency, derivatives, grid, work);
     }
   });
-  Part& whole = parts_.front();
-  for (std::size_t i = 1; i < n_parts_; ++i) {
-    whole.projection.join(parts_[i].projection);
-    whole.defect += parts_[i].defect;
+  Part& whole = work.parts.front();
+  for (std::size_t i = 1; i < work.n_parts; ++i) {
+    whole.projection.join(work.parts[i].projection);
+    whole.defect += work.parts[i].defect;
   }
   ForceAndJacobian result = whole.projection.take();
   result.defect = whole.defect;
@@ -172,19 +180,20 @@ ForceAndJacobian PatchForce::awake_force(double frequency, const Asked& asked) {
 }
 
 void PatchForce::add_cycles(std::span<const Eigen::Index> points, double frequency,
-                            ReportSum& sum) {
-  const int n_harmonics = motion().n_harmonics();
-  const Grid grid = this->grid(n_harmonics, n_harmonics);
+                            PointwiseWork& own, ReportSum& sum) const {
+  Work& work = static_cast<Work&>(own);
+  const int n_harmonics = work.motion.n_harmonics();
+  const Grid grid = this->grid(n_harmonics, n_harmonics, work);
   const bool planar = shapes().w.size() > 0;
-  PlaneBlock& plane = parts_.front().plane;
-  LineBlock& line = parts_.front().line;
+  PlaneBlock& plane = work.parts.front().plane;
+  LineBlock& line = work.parts.front().line;
   for (std::size_t begin = 0; begin < points.size(); begin += block_size) {
     const auto block = points.subspan(begin, std::min(block_size, points.size() - begin));
     if (planar) {
-      plane.evaluate(surfaces_, motion(), block, frequency, PlaneBlock::Ask::force, *grid.of_motion,
-                     *grid.of_force);
+      plane.evaluate(surfaces_, work.motion, block, frequency, PlaneBlock::Ask::force,
+                     *grid.of_motion, *grid.of_force);
     } else {
-      line.evaluate(surfaces_, motion(), block, frequency, *grid.of_motion, *grid.of_force);
+      line.evaluate(surfaces_, work.motion, block, frequency, *grid.of_motion, *grid.of_force);
     }
     for (std::size_t p = 0; p < block.size(); ++p) {
       const auto& surface = surfaces_[static_cast<std::size_t>(block[p])];

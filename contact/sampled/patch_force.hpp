@@ -15,6 +15,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,13 +40,9 @@ class PatchForce final : public PointwiseForce {
   PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces, ModalShapes shapes,
              int instants);
 
+  [[nodiscard]] std::unique_ptr<Workspace> workspace() const override;
+
  private:
-  struct Grid {
-    const Instants* of_motion;
-    const Instants* of_force;
-  };
-  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked) override;
-  void add_cycles(std::span<const Eigen::Index> points, double frequency, ReportSum& sum) override;
   /// Of the awake points that are summed by one core.
   struct Part {
     std::span<const Eigen::Index> points;
@@ -54,16 +51,30 @@ class PatchForce final : public PointwiseForce {
     Projection projection;
     double defect = 0.0;
   };
-  [[nodiscard]] Grid grid(int n_harmonics, int force_harmonics);
-  void divide();
-  void sum_line(Part& part, double frequency, bool derivatives, const Grid& grid);
-  void sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid);
+  struct Work : PointwiseWork {
+    explicit Work(const PatchForce& force) : PointwiseWork(force) {}
+    void divide();
+
+    std::map<std::pair<int, int>, Instants> tables;  ///< by (instants, harmonics)
+    std::vector<Part> parts{1};
+    std::size_t n_parts = 1;  ///< of the evaluation under way
+  };
+  struct Grid {
+    const Instants* of_motion;
+    const Instants* of_force;
+  };
+  [[nodiscard]] ForceAndJacobian awake_force(double frequency, const Asked& asked,
+                                             PointwiseWork& work) const override;
+  void add_cycles(std::span<const Eigen::Index> points, double frequency, PointwiseWork& work,
+                  ReportSum& sum) const override;
+  [[nodiscard]] Grid grid(int n_harmonics, int force_harmonics, Work& work) const;
+  /// @param work  shared by the parts: each keeps what its own points do.
+  void sum_line(Part& part, double frequency, bool derivatives, const Grid& grid, Work& work) const;
+  void sum_plane(Part& part, double frequency, bool derivatives, const Grid& grid,
+                 Work& work) const;
 
   std::vector<SurfaceLaw> surfaces_;
   int instants_;
-  std::map<std::pair<int, int>, Instants> tables_;  // by (instants, harmonics)
-  std::vector<Part> parts_{1};
-  std::size_t n_parts_ = 1;  // of the evaluation under way
 };
 
 }  // namespace microslip::contact::sampled

@@ -7,14 +7,13 @@
 #include <petscsys.h>
 
 #include "fem/assembly/dof_map.hpp"
+#include "mesh/element_type.hpp"
 
 namespace microslip::fem {
 
-inline constexpr std::size_t max_nodes = 20;
-
 /// Solver node numbers of one element, −1 where held: what MatSetValuesBlocked ignores.
 struct ElementDofs {
-  std::array<PetscInt, max_nodes> index{};
+  std::array<PetscInt, mesh::most_element_nodes> index{};
   int n = 0;
 };
 

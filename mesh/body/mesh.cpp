@@ -100,7 +100,7 @@ class SurfaceBuilder {
 
   const std::vector<ElementBlock>& elements_;
   const FaceMap& owners_;
-  std::array<FacesOfType, 4> lists_;
+  std::array<FacesOfType, all_face_types.size()> lists_;
   Eigen::Index missing_ = 0;
   Eigen::Index inside_ = 0;
 };

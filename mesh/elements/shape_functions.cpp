@@ -1,6 +1,8 @@
 #include "mesh/shape_functions.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace microslip::mesh {
 namespace {
@@ -300,9 +302,11 @@ std::span<const std::vector<int>> faces(ElementType type) {
 }
 
 FaceType face_type(ElementType type, std::size_t face) {
-  const bool triangle = faces(type)[face].size() % 3 == 0;
-  if (is_quadratic(type)) return triangle ? FaceType::tri6 : FaceType::quad8;
-  return triangle ? FaceType::tri3 : FaceType::quad4;
+  // No two types of face have as many nodes.
+  const auto* found = std::ranges::find(all_face_types, static_cast<int>(faces(type)[face].size()),
+                                        [](FaceType t) { return n_nodes(t); });
+  assert(found != all_face_types.end());
+  return *found;
 }
 
 }  // namespace microslip::mesh

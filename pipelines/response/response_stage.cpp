@@ -72,10 +72,11 @@ void add_patch_shares(const ReducedModel& model, double load, CurveResult& resul
   const contact::ContactForce contact = contact_of(model, load);
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     const auto force = contact.modal_force(i);
+    const auto work = force->workspace();
     PatchShares& shares = result.patch_shares.emplace_back();
     shares.patch = model.patches[i].name;
     for (const solver::ResponsePoint& point : result.curve.points) {
-      shares.reports.push_back(force->report(point.q, point.frequency));
+      shares.reports.push_back(force->report(point.q, point.frequency, *work));
     }
   }
 }

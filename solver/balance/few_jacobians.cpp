@@ -118,7 +118,7 @@ NewtonResult solve_with_few_jacobians(const EconomicSystem& system, const Branch
   return Corrector(system, constraint, scaling, options).run(start);
 }
 
-NewtonResult solve_balance(const HarmonicBalance& balance, ContinuationOptions::Corrector corrector,
+NewtonResult solve_balance(HarmonicBalance& balance, ContinuationOptions::Corrector corrector,
                            const BranchVector& guess, const BranchVector& constraint,
                            const Scaling& scaling, const NewtonOptions& options) {
   const ParametricSystem whole = [&](const Eigen::VectorXd& x, double frequency) {

@@ -24,7 +24,7 @@ namespace microslip::solver {
                                                     const NewtonOptions& options);
 
 /// On the plane of the constraint, by the corrector that the forces of the scene call for.
-[[nodiscard]] NewtonResult solve_balance(const HarmonicBalance& balance,
+[[nodiscard]] NewtonResult solve_balance(HarmonicBalance& balance,
                                          ContinuationOptions::Corrector corrector,
                                          const BranchVector& guess, const BranchVector& constraint,
                                          const Scaling& scaling, const NewtonOptions& options);

@@ -53,6 +53,7 @@ HarmonicBalance::HarmonicBalance(const Scene& scene, HarmonicSet set)
     if (scene.natural_frequency[i] == 0.0) rigid_.push_back(i);
   }
   stuck_stiffness_ = scene.contact ? scene.contact->stuck_stiffness() : Eigen::MatrixXd::Zero(n, n);
+  if (scene.contact) work_ = scene.contact->workspace();
 }
 
 Harmonics HarmonicBalance::harmonics(const Eigen::VectorXd& x) const {
@@ -84,9 +85,8 @@ Eigen::VectorXd HarmonicBalance::unknowns(const Eigen::VectorXd& full) const {
 }
 
 /// Force and derivatives in the unknowns alone; all rows of the force.
-contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x,
-                                                      double frequency) const {
-  return scene_.contact->evaluate(harmonics(x), frequency, {.rows = rows_});
+contact::ForceAndJacobian HarmonicBalance::contact_at(const Eigen::VectorXd& x, double frequency) {
+  return scene_.contact->evaluate(harmonics(x), frequency, {.rows = rows_}, *work_);
 }
 
 void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequency,
@@ -151,7 +151,7 @@ void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double fac
   for (Eigen::Index i = 0; i < size(); i += n) matrix.block(i, i, n, n) += factor * stiffness;
 }
 
-BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) const {
+BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) {
   BalanceEvaluation result;
   if (scene_.contact) {
     contact::ForceAndJacobian contact = contact_at(x, frequency);
@@ -171,11 +171,12 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
   return result;
 }
 
-BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double frequency) const {
+BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double frequency) {
   BalanceEvaluation result;
   result.contact_force = Eigen::VectorXd::Zero(size());
   if (scene_.contact) {
-    const contact::ForceAndJacobian contact = scene_.contact->evaluate(harmonics(x), frequency, {});
+    const contact::ForceAndJacobian contact =
+        scene_.contact->evaluate(harmonics(x), frequency, {}, *work_);
     result.contact_force = unknowns(contact.force);
     result.defect = contact.defect;
   }
@@ -184,9 +185,26 @@ BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double fre
   return result;
 }
 
+Harmonics HarmonicBalance::contact_force(const Eigen::VectorXd& x, double frequency,
+                                         int n_harmonics) {
+  if (!scene_.contact) return Harmonics(n_harmonics, scene_.n_modes());
+  return scene_.contact->evaluate(harmonics(x), frequency, {.n_harmonics = n_harmonics}, *work_)
+      .force;
+}
+
+contact::CycleReport HarmonicBalance::report(const Harmonics& q, double frequency) {
+  return scene_.contact ? scene_.contact->report(q, frequency, *work_) : contact::CycleReport{};
+}
+
+void HarmonicBalance::states(const Eigen::VectorXd& x, double frequency,
+                             contact::ContactStates& result) {
+  result.clear();
+  if (scene_.contact) scene_.contact->states(harmonics(x), frequency, result, *work_);
+}
+
 BalanceEvaluation HarmonicBalance::evaluate_homotopy(const Eigen::VectorXd& x, double frequency,
                                                      double share,
-                                                     const Eigen::MatrixXd& stiffness) const {
+                                                     const Eigen::MatrixXd& stiffness) {
   BalanceEvaluation result;
   const contact::ForceAndJacobian contact = contact_at(x, frequency);
   result.contact_force = unknowns(contact.force);

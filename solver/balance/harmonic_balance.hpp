@@ -10,6 +10,7 @@
 ///                  [ 2ζ_n ω_n kω    ω_n² − k²ω²   ]
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,7 @@ struct BalanceEvaluation {
   double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
 };
 
+/// With the workspace of its contact: whoever may evaluate has it without const, for one thread at a time.
 class HarmonicBalance {
  public:
   /// @param scene  borrowed; must outlive this.
@@ -45,15 +47,21 @@ class HarmonicBalance {
   /// The same of a vector in the order of harmonics(x).vector(), of a gradient say.
   [[nodiscard]] Eigen::VectorXd unknowns(const Eigen::VectorXd& full) const;
 
-  [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency) const;
+  [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency);
   /// The same without derivatives, which are empty; several times cheaper.
-  [[nodiscard]] BalanceEvaluation residual(const Eigen::VectorXd& x, double frequency) const;
+  [[nodiscard]] BalanceEvaluation residual(const Eigen::VectorXd& x, double frequency);
   /// λ of the contact and 1 − λ of a linear stiffness in its place; the parameter is λ:
   ///   R = L x + λ G + (1 − λ) S x − Q
   /// @param stiffness  S on every harmonic [1/s²], n_modes × n_modes; zero: from the free limit.
   [[nodiscard]] BalanceEvaluation evaluate_homotopy(const Eigen::VectorXd& x, double frequency,
-                                                    double share,
-                                                    const Eigen::MatrixXd& stiffness) const;
+                                                    double share, const Eigen::MatrixXd& stiffness);
+  /// Contact force up to a harmonic that the set may not have; without contact none.
+  [[nodiscard]] Harmonics contact_force(const Eigen::VectorXd& x, double frequency,
+                                        int n_harmonics);
+  /// What the contact did under a solution, see ModalForce::report(); all zero without contact.
+  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency);
+  /// See ModalForce::states(); empty without contact.
+  void states(const Eigen::VectorXd& x, double frequency, contact::ContactStates& result);
   /// Response of the linear structure with a stiffness added: (L + S) x = Q. A resonance without
   /// damping gives entries that are not finite.
   [[nodiscard]] Eigen::VectorXd linear_response(double frequency,
@@ -75,8 +83,7 @@ class HarmonicBalance {
   /// Where nothing holds a rigid body at rest, free or with every point that could hold it slipping, its place is any: the
   /// derivative gets a stiffness there, by which Newton's method leaves the place as it is.
   void hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const;
-  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x,
-                                                     double frequency) const;
+  [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x, double frequency);
 
   const Scene& scene_;
   HarmonicSet set_;
@@ -85,7 +92,8 @@ class HarmonicBalance {
   Eigen::VectorXd stiffness_;  // ω_n²
   Eigen::VectorXd damping_;    // 2ζ_n ω_n
   Eigen::MatrixXd stuck_stiffness_;
-  std::vector<Eigen::Index> rigid_;  // modes of frequency 0
+  std::vector<Eigen::Index> rigid_;                       // modes of frequency 0
+  std::unique_ptr<contact::ModalForce::Workspace> work_;  // nullptr: no contact
 };
 
 }  // namespace microslip::solver

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "contact/modal_force.hpp"
@@ -18,13 +19,17 @@ class LinearForce final : public contact::ModalForce {
       : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), report_(report) {}
   /// In the place of a contact that is known to be linear: its reports are the contact's own.
   /// @param contact  borrowed.
-  LinearForce(Eigen::MatrixXd stiffness, contact::ModalForce& contact)
+  LinearForce(Eigen::MatrixXd stiffness, const contact::ModalForce& contact)
       : ModalForce(stiffness.rows()), stiffness_(std::move(stiffness)), contact_(&contact) {}
 
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override { return stiffness_; }
-  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q,
-                                            double frequency) override {
-    return contact_ != nullptr ? contact_->report(q, frequency) : report_;
+  /// That of the contact, which reports.
+  [[nodiscard]] std::unique_ptr<Workspace> workspace() const override {
+    return contact_ != nullptr ? contact_->workspace() : ModalForce::workspace();
+  }
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q, double frequency,
+                                            Workspace& work) const override {
+    return contact_ != nullptr ? contact_->report(q, frequency, work) : report_;
   }
   /// The free limit, or one of contact that sticks, whatever the motion.
   [[nodiscard]] contact::LinearState linear_state(const contact::Harmonics& /*centre*/,
@@ -35,7 +40,8 @@ class LinearForce final : public contact::ModalForce {
  private:
   [[nodiscard]] contact::ForceAndJacobian evaluated(const contact::Harmonics& q,
                                                     double /*frequency*/,
-                                                    const contact::Asked& asked) override {
+                                                    const contact::Asked& asked,
+                                                    Workspace& /*work*/) const override {
     contact::ForceAndJacobian result;
     result.force = contact::Harmonics(std::max(q.n_harmonics(), asked.n_harmonics), n_modes());
     result.force.rows().topRows(q.rows().rows()) = q.rows() * stiffness_.transpose();
@@ -49,7 +55,7 @@ class LinearForce final : public contact::ModalForce {
 
   Eigen::MatrixXd stiffness_;
   contact::CycleReport report_;
-  contact::ModalForce* contact_ = nullptr;
+  const contact::ModalForce* contact_ = nullptr;
 };
 
 }  // namespace microslip::solver

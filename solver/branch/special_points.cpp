@@ -76,7 +76,7 @@ double angle(const BranchVector& a, const BranchVector& b) {
 
 class Segment {
  public:
-  Segment(BranchWalker& walker, const HarmonicBalance& balance, PointMark kind)
+  Segment(BranchWalker& walker, HarmonicBalance& balance, PointMark kind)
       : walker_(walker),
         balance_(balance),
         kind_(kind),
@@ -170,11 +170,10 @@ class Segment {
 
   /// A few points, and one of them begins or ceases to slip or to separate on the way.
   [[nodiscard]] bool crosses_kink(const Node& a, const Node& b) const {
-    const auto& contact = balance_.scene().contact;
-    if (!contact) return false;
+    if (!balance_.scene().contact) return false;
     const auto read = [&](const Node& at, contact::ContactStates& states) {
       const BranchVector& point = at.at.point.solution.point;
-      contact->states(balance_.harmonics(point.x), point.parameter, states);
+      balance_.states(point.x, point.parameter, states);
     };
     contact::ContactStates before;
     contact::ContactStates after;
@@ -318,7 +317,7 @@ class Segment {
   }
 
   BranchWalker& walker_;  ///< counts what the search costs
-  const HarmonicBalance& balance_;
+  HarmonicBalance& balance_;
   PointMark kind_;
   int most_splits_;
   int most_failed_;
@@ -329,11 +328,11 @@ class Segment {
 
 }  // namespace
 
-std::vector<SpecialPoint> peaks_between(BranchWalker& walker, const HarmonicBalance& balance) {
+std::vector<SpecialPoint> peaks_between(BranchWalker& walker, HarmonicBalance& balance) {
   return Segment(walker, balance, PointMark::peak).search();
 }
 
-std::vector<SpecialPoint> special_points(BranchWalker& walker, const HarmonicBalance& balance) {
+std::vector<SpecialPoint> special_points(BranchWalker& walker, HarmonicBalance& balance) {
   std::vector<SpecialPoint> found = peaks_between(walker, balance);
   for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
     found.push_back(std::move(fold));

@@ -28,10 +28,10 @@ struct SpecialPoint {
 
 /// The peaks alone, in the order of the branch.
 [[nodiscard]] std::vector<SpecialPoint> peaks_between(BranchWalker& walker,
-                                                      const HarmonicBalance& balance);
+                                                      HarmonicBalance& balance);
 
 /// In the order of the branch. Their frequencies carry rounding error only, some 1e-13 relative.
 [[nodiscard]] std::vector<SpecialPoint> special_points(BranchWalker& walker,
-                                                       const HarmonicBalance& balance);
+                                                       HarmonicBalance& balance);
 
 }  // namespace microslip::solver

@@ -36,7 +36,7 @@ std::vector<Guess> guesses(const HarmonicBalance& balance, double frequency) {
 }
 
 /// Follows the solutions from the linear limit (λ = 0) to the contact (λ = 1).
-NewtonResult follow_homotopy(const HarmonicBalance& balance, const Guess& guess, double frequency,
+NewtonResult follow_homotopy(HarmonicBalance& balance, const Guess& guess, double frequency,
                              const NewtonOptions& options, StartPoint& count) {
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double share) {
     return balance.evaluate_homotopy(x, frequency, share, guess.stiffness);
@@ -83,8 +83,8 @@ Scaling natural_scaling(const HarmonicBalance& balance, const Eigen::VectorXd& x
   return scaling;
 }
 
-NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& guess,
-                      double frequency, const NewtonOptions& options) {
+NewtonResult solve_at(HarmonicBalance& balance, const Eigen::VectorXd& guess, double frequency,
+                      const NewtonOptions& options) {
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double omega) {
     return balance.evaluate(x, omega);
   };
@@ -92,7 +92,7 @@ NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& gue
                       options);
 }
 
-StartPoint find_start(const HarmonicBalance& balance, double frequency, double tolerance,
+StartPoint find_start(HarmonicBalance& balance, double frequency, double tolerance,
                       const Harmonics* near) {
   StartPoint start;
   NewtonOptions options;

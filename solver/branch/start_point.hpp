@@ -19,11 +19,11 @@ struct StartPoint {
 
 /// @param tolerance  of ResponsePoint::residual.
 /// @param near       a motion near the solution, tried first; nullptr: none is known.
-[[nodiscard]] StartPoint find_start(const HarmonicBalance& balance, double frequency,
-                                    double tolerance, const Harmonics* near = nullptr);
+[[nodiscard]] StartPoint find_start(HarmonicBalance& balance, double frequency, double tolerance,
+                                    const Harmonics* near = nullptr);
 
 /// Newton at a fixed frequency from a guess, on the scale of the balance there.
-[[nodiscard]] NewtonResult solve_at(const HarmonicBalance& balance, const Eigen::VectorXd& guess,
+[[nodiscard]] NewtonResult solve_at(HarmonicBalance& balance, const Eigen::VectorXd& guess,
                                     double frequency, const NewtonOptions& options);
 
 /// Scale of unknowns: ‖x‖, or the linear responses' where x vanishes; of residuals: force_scale.

@@ -35,7 +35,7 @@ double viscous_work(const Harmonics& q, const Scene& scene, double frequency) {
 
 }  // namespace
 
-ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult& solution,
+ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solution,
                               double frequency, const StabilityReport& stability) {
   const Scene& scene = balance.scene();
   ResponsePoint point;
@@ -52,7 +52,7 @@ ResponsePoint certified_point(const HarmonicBalance& balance, const NewtonResult
   point.stability = stability.stability;
   point.stability_basis = stability.basis;
   point.determinant_sign = stability.determinant_sign;
-  if (scene.contact) point.report = scene.contact->report(point.q, frequency);
+  point.report = balance.report(point.q, frequency);
 
   const double excited = work(point.q, balance.harmonics(balance.excitation()));
   const double damped = viscous_work(point.q, scene, frequency);

@@ -17,8 +17,7 @@
 namespace microslip::solver {
 
 /// @param frequency  ω of `solution` [rad/s].
-[[nodiscard]] ResponsePoint certified_point(const HarmonicBalance& balance,
-                                            const NewtonResult& solution, double frequency,
-                                            const StabilityReport& stability);
+[[nodiscard]] ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solution,
+                                            double frequency, const StabilityReport& stability);
 
 }  // namespace microslip::solver

@@ -134,7 +134,7 @@ ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, doub
 std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const ContinuationOptions& options,
                                            const PointObserver& observe) {
   if (!scene.contact || !scene.excitation.rows().isZero(0.0)) return std::nullopt;
-  const HarmonicBalance balance(scene, first_harmonics(scene, options));
+  HarmonicBalance balance(scene, first_harmonics(scene, options));
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(balance.size());
   const BalanceEvaluation at = balance.evaluate(rest, options.frequency_begin);
   if (!(at.residual.norm() <= options.residual_tolerance)) return std::nullopt;
@@ -202,13 +202,13 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   if (options.harmonic_tolerance > 0.0) return trace_choosing(scene, here, {});
   const Stopwatch watch;
   const HarmonicSet set = first_harmonics(scene, options);
-  StartPoint start = find_start(HarmonicBalance(scene, set), frequency, options.residual_tolerance,
+  HarmonicBalance balance(scene, set);
+  StartPoint start = find_start(balance, frequency, options.residual_tolerance,
                                 options.near_begin ? &*options.near_begin : nullptr);
   ResponseCurve curve;
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
-    const HarmonicBalance balance(scene, set);
     curve.points.push_back(solved_point(balance, *start.solution));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();

@@ -183,7 +183,7 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   }
   if (scene_.contact) {
     walker.watch([this](const BranchVector& at, contact::ContactStates& states) {
-      scene_.contact->states(balance_->harmonics(at.x), at.parameter, states);
+      balance_->states(at.x, at.parameter, states);
     });
   }
   return walker;

@@ -5,7 +5,7 @@
 
 namespace microslip::solver {
 
-ResponsePoint solved_point(const HarmonicBalance& balance, const NewtonResult& solution) {
+ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solution) {
   const double frequency = solution.point.parameter;
   const auto stability =
       stability_in_time(balance, balance.harmonics(solution.point.x), frequency,

@@ -8,7 +8,6 @@
 
 namespace microslip::solver {
 
-[[nodiscard]] ResponsePoint solved_point(const HarmonicBalance& balance,
-                                         const NewtonResult& solution);
+[[nodiscard]] ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solution);
 
 }  // namespace microslip::solver

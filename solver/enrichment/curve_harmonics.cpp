@@ -29,7 +29,7 @@ struct Place {
 std::vector<Place> places_of(const Scene& scene, const ContinuationOptions& range,
                              const HarmonicSet& set, const ResponseCurve& curve) {
   const ContinuationOptions given = with_harmonics(range, set);
-  const HarmonicBalance balance(scene, set);
+  HarmonicBalance balance(scene, set);
   std::vector<Place> places;
   double highest = 0.0;
   for (const HighPoint& high : high_points(scene, curve, given)) {

@@ -10,8 +10,7 @@
 
 namespace microslip::solver {
 
-std::vector<DroppedHarmonic> dropped_harmonics(const HarmonicBalance& balance,
-                                               const LocalPeak& peak) {
+std::vector<DroppedHarmonic> dropped_harmonics(HarmonicBalance& balance, const LocalPeak& peak) {
   const BalanceEvaluation at = balance.evaluate(peak.point.x, peak.point.parameter);
   const Scaling& scaling = peak.scaling;
   const Eigen::Index n = peak.point.x.size();

@@ -20,7 +20,7 @@ struct DroppedHarmonic {
 
 /// @param peak  solved with `balance`.
 /// @return all orders of the set, those that do least first; infinite where it cannot be told.
-[[nodiscard]] std::vector<DroppedHarmonic> dropped_harmonics(const HarmonicBalance& balance,
+[[nodiscard]] std::vector<DroppedHarmonic> dropped_harmonics(HarmonicBalance& balance,
                                                              const LocalPeak& peak);
 
 }  // namespace microslip::solver

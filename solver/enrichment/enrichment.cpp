@@ -18,7 +18,7 @@ LocalPeak embedded(const LocalPeak& peak, const HarmonicBalance& coarse,
   return result;
 }
 
-std::vector<RicherShare> richer_shares(const HarmonicBalance& richer, const LocalPeak& peak) {
+std::vector<RicherShare> richer_shares(HarmonicBalance& richer, const LocalPeak& peak) {
   const Eigen::Index size = peak.point.x.size();
   const Scaling& scaling = peak.scaling;
   const BalanceEvaluation at = richer.evaluate(peak.point.x, peak.point.parameter);

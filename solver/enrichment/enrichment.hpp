@@ -32,7 +32,7 @@ struct RicherShare {
 /// nothing finite, or the peak has no amplitude.
 /// @param peak  in the unknowns of `richer`, solved in a coarser model; its tangent is that of the coarse
 ///              branch.
-[[nodiscard]] std::vector<RicherShare> richer_shares(const HarmonicBalance& richer,
+[[nodiscard]] std::vector<RicherShare> richer_shares(HarmonicBalance& richer,
                                                      const LocalPeak& peak);
 
 }  // namespace microslip::solver

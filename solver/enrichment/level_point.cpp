@@ -30,7 +30,7 @@ struct Step {
 
 class Climb {
  public:
-  Climb(const HarmonicBalance& balance, const LocalPeak& start, const ContinuationOptions& range,
+  Climb(HarmonicBalance& balance, const LocalPeak& start, const ContinuationOptions& range,
         PeakWork& work, double farthest)
       : balance_(balance), start_(start), range_(range), work_(work), farthest_(farthest) {}
 
@@ -115,7 +115,7 @@ class Climb {
     return peak;
   }
 
-  const HarmonicBalance& balance_;
+  HarmonicBalance& balance_;
   const LocalPeak& start_;
   const ContinuationOptions& range_;
   PeakWork& work_;
@@ -128,7 +128,7 @@ class Climb {
 
 }  // namespace
 
-std::optional<LocalPeak> level_point(const HarmonicBalance& balance, const LocalPeak& start,
+std::optional<LocalPeak> level_point(HarmonicBalance& balance, const LocalPeak& start,
                                      const ContinuationOptions& range, PeakWork& work,
                                      double farthest) {
   return Climb(balance, start, range, work, farthest).run();

@@ -18,8 +18,7 @@ namespace microslip::solver {
 /// @param range  a peak outside of its frequencies is none.
 /// @param farthest  way along the branch, in amplitudes or widths of the resonance.
 /// @return empty: Newton's method failed, or the peak is farther away.
-[[nodiscard]] std::optional<LocalPeak> level_point(const HarmonicBalance& balance,
-                                                   const LocalPeak& start,
+[[nodiscard]] std::optional<LocalPeak> level_point(HarmonicBalance& balance, const LocalPeak& start,
                                                    const ContinuationOptions& range, PeakWork& work,
                                                    double farthest);
 

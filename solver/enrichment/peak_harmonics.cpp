@@ -54,15 +54,12 @@ PeakHarmonicsChoice::Estimate PeakHarmonicsChoice::estimate(const HarmonicSet& s
                                                             const LocalPeak& peak) {
   Estimate result;
   if (!scene_.contact) return result;
-  const HarmonicBalance coarse(scene_, set);
+  HarmonicBalance coarse(scene_, set);
   const int highest = std::max(set.highest(), std::min(highest_probed, range_.n_harmonics));
-  const Harmonics force =
-      scene_.contact
-          ->evaluate(coarse.harmonics(peak.point.x), peak.point.parameter, {.n_harmonics = highest})
-          .force;
+  const Harmonics force = coarse.contact_force(peak.point.x, peak.point.parameter, highest);
   const std::vector<int> orders = beyond(set, force, peak.scaling.residual);
   if (orders.empty()) return result;
-  const HarmonicBalance richer(scene_, set.united(orders));
+  HarmonicBalance richer(scene_, set.united(orders));
   const std::vector<RicherShare> shares = richer_shares(richer, embedded(peak, coarse, richer));
   const BalanceEvaluation at = coarse.evaluate(peak.point.x, peak.point.parameter);
   work_.contact_evaluations += 3;
@@ -109,7 +106,7 @@ bool PeakHarmonicsChoice::same(const LocalPeak& a, const LocalPeak& b, double to
 std::optional<LocalPeak> PeakHarmonicsChoice::solved(const HarmonicSet& from, const LocalPeak& peak,
                                                      const HarmonicSet& to) {
   const HarmonicBalance coarse(scene_, from);
-  const HarmonicBalance richer(scene_, to);
+  HarmonicBalance richer(scene_, to);
   const LocalPeak start = embedded(peak, coarse, richer);
   return level_point(richer, start, range_, work_, too_far);
 }
@@ -189,7 +186,7 @@ std::optional<PeakHarmonics> PeakHarmonicsChoice::without(const PeakHarmonics& r
 void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least) {
   const double allowed = may_be_pruned * range_.harmonic_tolerance;
   const PeakHarmonics rich = result;
-  const HarmonicBalance balance(scene_, rich.set);
+  HarmonicBalance balance(scene_, rich.set);
   const std::vector<DroppedHarmonic> dropped = dropped_harmonics(balance, *rich.peak);
   ++work_.contact_evaluations;
   std::vector<int> order;  // the least first

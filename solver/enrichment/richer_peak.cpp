@@ -44,7 +44,7 @@ std::optional<LocalPeak> through(const Scene& scene, const ContinuationOptions& 
     if (!peak) break;
     const HarmonicBalance coarse(scene, set);
     set = set.united(HarmonicSet(next).orders());
-    const HarmonicBalance richer(scene, set);
+    HarmonicBalance richer(scene, set);
     peak = level_point(richer, embedded(*peak, coarse, richer), range, work, farthest);
   }
   return peak;
@@ -56,7 +56,7 @@ struct Top {
   LocalPeak peak;
 };
 
-std::optional<Top> solved_top(const Scene& scene, const HarmonicBalance& balance,
+std::optional<Top> solved_top(const Scene& scene, HarmonicBalance& balance,
                               const ContinuationOptions& range, const ResponseCurve& curve) {
   const std::optional<HighPoint> top = top_of(high_points(scene, curve, range));
   if (!top) return std::nullopt;
@@ -88,7 +88,7 @@ Eigen::VectorXd in_modes(const HarmonicBalance& from, const HarmonicBalance& to,
 /// From the peak of one model to that of another.
 struct Carrier {
   const HarmonicBalance& from;
-  const HarmonicBalance& to;
+  HarmonicBalance& to;
   const OtherModel& other;
   ContinuationOptions range;
 
@@ -104,7 +104,7 @@ struct Carrier {
 };
 
 /// Points of the curve on either side of its highest, as long as they are nearly as high.
-std::vector<LocalPeak> places_beside(const HarmonicBalance& balance, const ResponseCurve& curve,
+std::vector<LocalPeak> places_beside(HarmonicBalance& balance, const ResponseCurve& curve,
                                      const ResponsePoint& top) {
   constexpr double nearly = 0.8;
   constexpr std::ptrdiff_t most = 4;
@@ -128,7 +128,7 @@ std::vector<LocalPeak> places_beside(const HarmonicBalance& balance, const Respo
 std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOptions& range,
                                       const ResponseCurve& curve, int highest) {
   if (curve.points.empty() || !scene.contact) return std::nullopt;
-  const HarmonicBalance coarse(scene, first_harmonics(scene, range));
+  HarmonicBalance coarse(scene, first_harmonics(scene, range));
   const std::optional<Top> top = solved_top(scene, coarse, range, curve);
   if (!top) return std::nullopt;
   using Clock = std::chrono::steady_clock;
@@ -155,10 +155,10 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
 std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationOptions& range,
                                          const ResponseCurve& curve, const OtherModel& other) {
   if (curve.points.empty()) return std::nullopt;
-  const HarmonicBalance balance(scene, set_of(scene, range, curve));
+  HarmonicBalance balance(scene, set_of(scene, range, curve));
   const std::optional<Top> top = solved_top(scene, balance, range, curve);
   if (!top) return std::nullopt;
-  const HarmonicBalance elsewhere(other.scene, balance.set());
+  HarmonicBalance elsewhere(other.scene, balance.set());
   const Carrier carrier{balance, elsewhere, other, widened(range)};
   std::optional<LocalPeak> found = carrier.carried(top->peak);
   // Much lower is another peak: the highest may be reached from points beside that of the curve.

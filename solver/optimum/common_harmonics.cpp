@@ -32,7 +32,8 @@ ContinuationOptions with_common_harmonics(const SceneFamily& family,
 double left_out_at(const Scene& scene, const ResponsePoint& peak,
                    const ContinuationOptions& range) {
   const HarmonicSet set(peak.orders);
-  const auto place = local_peak(HarmonicBalance(scene, set), peak);
+  HarmonicBalance balance(scene, set);
+  const auto place = local_peak(balance, peak);
   return place ? PeakHarmonicsChoice(scene, range).left_out(set, *place) : 0.0;
 }
 

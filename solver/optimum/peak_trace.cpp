@@ -295,7 +295,7 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
     guess.parameter += ahead / base * (other->second.point.parameter - a.point.parameter);
   }
   const Scene scene = family_(parameter(target));
-  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
+  HarmonicBalance balance(scene, first_harmonics(scene, range_));
   PeakWork work;
   std::optional<LocalPeak> peak = follow_peak(balance, a, guess, range_, work);
   if (!peak && predicted) peak = follow_peak(balance, a, a.point, range_, work);
@@ -379,7 +379,7 @@ void PeakFamilies::seed(double position, int search_starts) {
     }
   }
   const Scene scene = family_(parameter(position));
-  const HarmonicBalance balance(scene, first_harmonics(scene, range_));
+  HarmonicBalance balance(scene, first_harmonics(scene, range_));
   for (std::size_t i = 0; i < std::min(most_seeds, curve.high.size()); ++i) {
     const HighPoint& high = curve.high[i];
     const bool known = std::any_of(families_.begin(), families_.end(), [&](const Peaks& peaks) {

@@ -26,7 +26,7 @@ bool is_passed_peak(const std::vector<ResponsePoint>& points, std::size_t i) {
 }
 
 /// The peak uphill from a point of the curve; the point itself, unsolved, where none is found.
-HighPoint climbed(const HarmonicBalance& balance, const ResponsePoint& from,
+HighPoint climbed(HarmonicBalance& balance, const ResponsePoint& from,
                   const ContinuationOptions& range) {
   HighPoint high{from, PeakPlace::unsolved};
   const std::optional<LocalPeak> start = local_peak(balance, from);
@@ -49,7 +49,7 @@ struct Branch {
   bool closed = false;
 };
 
-void add_high_points(const HarmonicBalance& balance, const Branch& branch,
+void add_high_points(HarmonicBalance& balance, const Branch& branch,
                      const ContinuationOptions& range, std::vector<HighPoint>& high) {
   const std::vector<ResponsePoint>& points = branch.points;
   const auto is_edge = [&](const ResponsePoint& point) {
@@ -74,7 +74,7 @@ void add_high_points(const HarmonicBalance& balance, const Branch& branch,
 
 std::vector<HighPoint> high_points(const Scene& scene, const ResponseCurve& curve,
                                    const ContinuationOptions& range) {
-  const HarmonicBalance balance(scene, first_harmonics(scene, range));
+  HarmonicBalance balance(scene, first_harmonics(scene, range));
   std::vector<HighPoint> high;
   add_high_points(balance, {curve.points}, range, high);
   for (const DetachedBranch& branch : curve.detached) {

@@ -84,7 +84,7 @@ LocalPeak made_end(const HarmonicBalance& balance, const NewtonResult& at, Branc
 }
 
 /// A solution on the plane of the constraint.
-NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
+NewtonResult solved(HarmonicBalance& balance, const BranchVector& guess,
                     const BranchVector& constraint, const Scaling& scaling,
                     const ContinuationOptions& range, PeakWork& work) {
   const NewtonOptions newton{.tolerance = range.residual_tolerance};
@@ -94,7 +94,7 @@ NewtonResult solved(const HarmonicBalance& balance, const BranchVector& guess,
   return result;
 }
 
-std::optional<LocalPeak> follow_end(const HarmonicBalance& balance, const LocalPeak& from,
+std::optional<LocalPeak> follow_end(HarmonicBalance& balance, const LocalPeak& from,
                                     BranchVector guess, const ContinuationOptions& range,
                                     PeakWork& work) {
   guess.parameter = from.point.parameter;
@@ -109,7 +109,7 @@ std::optional<LocalPeak> follow_end(const HarmonicBalance& balance, const LocalP
 }
 
 /// A solved point of a curve with the evaluation there.
-NewtonResult evaluated(const HarmonicBalance& balance, const ResponsePoint& point) {
+NewtonResult evaluated(HarmonicBalance& balance, const ResponsePoint& point) {
   NewtonResult at;
   at.point = {balance.unknowns(point.q), point.frequency};
   at.evaluation = balance.evaluate(at.point.x, point.frequency);
@@ -123,14 +123,14 @@ Scaling widest_scaling(const HarmonicBalance& balance, const BranchVector& at) {
 }
 
 /// The first peak of the last step.
-std::optional<SpecialPoint> peak_of_step(const HarmonicBalance& balance, BranchWalker& walker) {
+std::optional<SpecialPoint> peak_of_step(HarmonicBalance& balance, BranchWalker& walker) {
   std::vector<SpecialPoint> found = peaks_between(walker, balance);
   if (found.empty()) return std::nullopt;
   return std::move(found.front());
 }
 
 /// Uphill from a point of the branch until a peak is passed.
-std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& walker,
+std::optional<LocalPeak> climb(HarmonicBalance& balance, BranchWalker& walker,
                                const BranchVector& guess, const ContinuationOptions& range) {
   for (int i = 0; i < max_steps && walker.advance(); ++i) {
     if (const auto peak = peak_of_step(balance, walker)) {
@@ -148,7 +148,7 @@ std::optional<LocalPeak> climb(const HarmonicBalance& balance, BranchWalker& wal
 
 }  // namespace
 
-std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const ResponsePoint& peak) {
+std::optional<LocalPeak> local_peak(HarmonicBalance& balance, const ResponsePoint& peak) {
   const NewtonResult at = evaluated(balance, peak);
   const Scaling scaling = widest_scaling(balance, at.point);
   const auto tangent = null_vector(at.evaluation, scaling, 1.0);
@@ -156,7 +156,7 @@ std::optional<LocalPeak> local_peak(const HarmonicBalance& balance, const Respon
   return made_peak(balance, at, *tangent, scaling);
 }
 
-std::optional<LocalPeak> local_end(const HarmonicBalance& balance, const ResponsePoint& end,
+std::optional<LocalPeak> local_end(HarmonicBalance& balance, const ResponsePoint& end,
                                    const ContinuationOptions& range) {
   const NewtonResult at = evaluated(balance, end);
   const Scaling scaling = widest_scaling(balance, at.point);
@@ -165,7 +165,7 @@ std::optional<LocalPeak> local_end(const HarmonicBalance& balance, const Respons
   return made_end(balance, at, *tangent, scaling, range);
 }
 
-std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance, const LocalPeak& from,
+std::optional<LocalPeak> follow_peak(HarmonicBalance& balance, const LocalPeak& from,
                                      const BranchVector& guess, const ContinuationOptions& range,
                                      PeakWork& work) {
   if (from.place == PeakPlace::range_end) return follow_end(balance, from, guess, range, work);

@@ -45,12 +45,11 @@ struct PeakWork {
 };
 
 /// A peak of a curve as a place to start from. Empty: the branch has no tangent there.
-[[nodiscard]] std::optional<LocalPeak> local_peak(const HarmonicBalance& balance,
+[[nodiscard]] std::optional<LocalPeak> local_peak(HarmonicBalance& balance,
                                                   const ResponsePoint& peak);
 
 /// The same of a solution at an end of the range.
-[[nodiscard]] std::optional<LocalPeak> local_end(const HarmonicBalance& balance,
-                                                 const ResponsePoint& end,
+[[nodiscard]] std::optional<LocalPeak> local_end(HarmonicBalance& balance, const ResponsePoint& end,
                                                  const ContinuationOptions& range);
 
 /// The peak, or the solution at the end of the range, that `from` has become in another scene.
@@ -60,8 +59,8 @@ struct PeakWork {
 /// @param range    a peak outside of its frequencies is none.
 /// @return empty: no peak within half an amplitude, or half a resonance width, of the guess; it vanished,
 ///         left the range, or the step between the scenes is too long.
-[[nodiscard]] std::optional<LocalPeak> follow_peak(const HarmonicBalance& balance,
-                                                   const LocalPeak& from, const BranchVector& guess,
+[[nodiscard]] std::optional<LocalPeak> follow_peak(HarmonicBalance& balance, const LocalPeak& from,
+                                                   const BranchVector& guess,
                                                    const ContinuationOptions& range,
                                                    PeakWork& work);
 

@@ -21,10 +21,12 @@
 
 #include "contact/patch/preload_equilibrium.hpp"
 #include "contact/surface/surface_law.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace {
 
 using namespace microslip::contact;
+namespace tests = microslip::tests;
 
 constexpr Eigen::Index n_modes = 10;
 
@@ -73,10 +75,11 @@ void count_points(benchmark::State& state, std::size_t n) {
 void patch_force(benchmark::State& state) {
   const Setup s = setup(state.range(0));
   PatchForce force(s.patch, s.shapes);
+  const auto work = force.workspace();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(force.evaluate(s.q, 1000.0));
+    benchmark::DoNotOptimize(tests::evaluate(force, s.q, 1000.0, *work));
   }
-  const CycleReport report = force.report(s.q, 1000.0);
+  const CycleReport report = force.report(s.q, 1000.0, *work);
   state.counters["slip"] = report.slip_share;
   state.counters["separated"] = report.separated_share;
   count_points(state, static_cast<std::size_t>(state.range(0)));

@@ -29,10 +29,12 @@
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace {
 
 using namespace microslip::contact;
+namespace tests = microslip::tests;
 
 constexpr Eigen::Index n_modes = 10;
 constexpr double frequency = 1.0;
@@ -198,15 +200,16 @@ struct Trial {
   double microseconds = 0.0;  // of one evaluation
 };
 
-Trial tried(ModalForce& force, const std::vector<Harmonics>& motions, const Effort& effort) {
+Trial tried(const ModalForce& force, const std::vector<Harmonics>& motions, const Effort& effort) {
   Trial trial;
+  const auto work = force.workspace();
   std::vector<double> times;
   for (const Harmonics& q : motions) {
     int repeats = 1;
     const double begin = seconds_spent();
-    trial.values.push_back(force.evaluate(q, frequency));
+    trial.values.push_back(tests::evaluate(force, q, frequency, *work));
     for (; seconds_spent() - begin < effort.seconds; ++repeats) {
-      static_cast<void>(force.evaluate(q, frequency));
+      static_cast<void>(tests::evaluate(force, q, frequency, *work));
     }
     times.push_back(1e6 * (seconds_spent() - begin) / repeats);
   }
@@ -246,10 +249,11 @@ void title(const std::string& text, const char* unit) {
               "dG/dq", unit);
 }
 
-std::string shares(ModalForce& force, const std::vector<Harmonics>& motions) {
+std::string shares(const ModalForce& force, const std::vector<Harmonics>& motions) {
+  const auto work = force.workspace();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Harmonics& q : motions) {
-    const CycleReport report = force.report(q, frequency);
+    const CycleReport report = force.report(q, frequency, *work);
     sum += Eigen::Vector3d(report.stick_share, report.slip_share, report.separated_share);
   }
   sum /= static_cast<double>(motions.size());

@@ -20,10 +20,12 @@
 #include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace {
 
 using namespace microslip::contact;
+namespace tests = microslip::tests;
 using sampled::PatchForce;
 
 constexpr Eigen::Index n_modes = 10;
@@ -75,22 +77,23 @@ struct Timed {
   double force = 0.0;
 };
 
-Timed timed(ModalForce& force, const Harmonics& q, Eigen::Index n) {
+Timed timed(const ModalForce& force, const Harmonics& q, Eigen::Index n) {
   Timed result;
-  result.value = force.evaluate(q, 1.0);
-  const auto measure = [&](const std::function<void()>& work) {
+  const auto work = force.workspace();
+  result.value = tests::evaluate(force, q, 1.0, *work);
+  const auto measure = [&](const std::function<void()>& run) {
     double best = 1e30;
     for (int round = 0; round < 3; ++round) {
       int repeats = 0;
       const double begin = seconds_spent();
       double spent = 0.0;
-      for (; spent < 0.05; ++repeats, spent = seconds_spent() - begin) work();
+      for (; spent < 0.05; ++repeats, spent = seconds_spent() - begin) run();
       best = std::min(best, spent / repeats);
     }
     return 1e6 * best / static_cast<double>(n);
   };
-  result.whole = measure([&] { static_cast<void>(force.evaluate(q, 1.0)); });
-  result.force = measure([&] { static_cast<void>(force.evaluate(q, 1.0, {})); });
+  result.whole = measure([&] { static_cast<void>(tests::evaluate(force, q, 1.0, *work)); });
+  result.force = measure([&] { static_cast<void>(force.evaluate(q, 1.0, {}, *work)); });
   return result;
 }
 
@@ -122,9 +125,9 @@ void compare(int H, bool second_direction, Eigen::Index n) {
   const Timed exact = timed(reference, q, n);
   const std::string name = second_direction ? "plane" : "line";
   PatchForce first(weights, surfaces, shapes, {32});
+  const CycleReport report = tests::report(first, q, 1.0);
   std::printf("%s: awake %.2f, stick %.2f, slip %.2f, apart %.2f\n", name.c_str(),
-              first.report(q, 1.0).awake_share, first.report(q, 1.0).stick_share,
-              first.report(q, 1.0).slip_share, first.report(q, 1.0).separated_share);
+              report.awake_share, report.stick_share, report.slip_share, report.separated_share);
   for (int instants = 32; instants <= 2048; instants *= 2) {
     if (instants < 8 * (H + 1)) continue;
     PatchForce patch(weights, surfaces, shapes, instants);

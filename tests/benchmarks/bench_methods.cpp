@@ -18,11 +18,13 @@
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/sleepless_method.hpp"
 
 namespace {
 
 using namespace microslip::contact;
+namespace tests = microslip::tests;
 
 constexpr Eigen::Index n_modes = 10;
 
@@ -91,7 +93,8 @@ void event_patch(benchmark::State& state) {
   const ModalShapes shapes = shapes_of(n, false);
   PointMethodForce force(Eigen::VectorXd::Ones(n), methods, shapes);
   const Harmonics q = motion_of(H);
-  for (auto _ : state) benchmark::DoNotOptimize(force.evaluate(q, 1.0));
+  const auto work = force.workspace();
+  for (auto _ : state) benchmark::DoNotOptimize(tests::evaluate(force, q, 1.0, *work));
   state.counters["ns_per_point"] = benchmark::Counter(
       1e-9 * n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   PatchMotion motion;
@@ -115,10 +118,14 @@ void compare(benchmark::State& state, const Methods& methods, const ModalShapes&
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(shapes.u.rows());
   PointMethodForce force(weights, methods, shapes);
   PointMethodForce all(weights, sleepless(methods), shapes);
-  benchmark::DoNotOptimize(all.evaluate(q, 1.0));
+  const auto work = force.workspace();
+  const auto work_of_all = all.workspace();
+  benchmark::DoNotOptimize(tests::evaluate(all, q, 1.0, *work_of_all));
   const double begin = seconds_spent();
   constexpr int repeats = 3;
-  for (int i = 0; i < repeats; ++i) benchmark::DoNotOptimize(all.evaluate(q, 1.0));
+  for (int i = 0; i < repeats; ++i) {
+    benchmark::DoNotOptimize(tests::evaluate(all, q, 1.0, *work_of_all));
+  }
   const double whole = (seconds_spent() - begin) / repeats;
   double spent = 0.0;
   // Another motion each time, as in an iteration: every decision is made anew.
@@ -127,12 +134,12 @@ void compare(benchmark::State& state, const Methods& methods, const ModalShapes&
     Harmonics moved = q;
     moved.vector() *= 1.0 + (nudge = -nudge);
     const double start = seconds_spent();
-    benchmark::DoNotOptimize(force.evaluate(moved, 1.0));
+    benchmark::DoNotOptimize(tests::evaluate(force, moved, 1.0, *work));
     spent += seconds_spent() - start;
   }
   state.counters["all_us"] = 1e6 * whole;
   state.counters["ratio"] = whole / (spent / static_cast<double>(state.iterations()));
-  state.counters["awake_share"] = force.report(q, 1.0).awake_share;
+  state.counters["awake_share"] = force.report(q, 1.0, *work).awake_share;
 }
 
 void sleeping_event(benchmark::State& state) {

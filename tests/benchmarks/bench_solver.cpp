@@ -58,7 +58,7 @@ solver::ContinuationOptions range() {
 
 void one_frequency_point(benchmark::State& state) {
   const solver::Scene scene = strip(state.range(0));
-  const solver::HarmonicBalance balance(scene, 1);
+  solver::HarmonicBalance balance(scene, 1);
   const auto curve = solver::trace_response(scene, range());
   const auto& start = curve.points[curve.points.size() / 2];
   const double omega = start.frequency * 1.001;  // as far as a step of continuation

@@ -14,6 +14,7 @@
 
 #include "contact/force/patch_force.hpp"
 #include "contact/patch/modal_contact_field.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace microslip::contact::contact_patch {
 namespace {
@@ -42,8 +43,8 @@ PatchForce equal_points(Eigen::Index n) {
 TEST(ContactPatchHard, AMillionPointsAreThePointOfTheirArea) {  // row 16
   Harmonics motion(1, 3);
   motion.rows() << 1e-5, 0, 2e-5, 3e-4, -1e-4, 2e-4, 1e-4, 2e-4, 0;
-  const ForceAndJacobian one = equal_points(1).evaluate(motion, 100.0);
-  const ForceAndJacobian many = equal_points(1'000'000).evaluate(motion, 100.0);
+  const ForceAndJacobian one = tests::evaluate(equal_points(1), motion, 100.0);
+  const ForceAndJacobian many = tests::evaluate(equal_points(1'000'000), motion, 100.0);
   EXPECT_GT(one.force.vector().norm(), 0.0);
   // A sum of a million equal terms.
   EXPECT_LT((many.force.vector() - one.force.vector()).norm(), 1e-10 * one.force.vector().norm());

@@ -19,8 +19,8 @@ class CubicSpring final : public FullForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
-  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) override {
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
     return {};
   }
   /// α (q³) on mean and first harmonic: b³ + 3/2 b A² and (3b² + ¾A²)(q_s, q_c).

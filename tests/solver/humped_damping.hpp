@@ -20,8 +20,8 @@ class HumpedDamping final : public FullForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
-  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) override {
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
     return {};
   }
   static double damping(double square) { return 0.1 + std::exp(-(square - 4.0) * (square - 4.0)); }

@@ -18,7 +18,8 @@ class FullForce : public contact::ModalForce {
   [[nodiscard]] virtual contact::ForceAndJacobian by_all(const contact::Harmonics& q,
                                                          double frequency) const = 0;
   [[nodiscard]] contact::ForceAndJacobian evaluated(const contact::Harmonics& q, double frequency,
-                                                    const contact::Asked& asked) override {
+                                                    const contact::Asked& asked,
+                                                    Workspace& /*work*/) const override {
     contact::Harmonics wide(std::max(q.n_harmonics(), asked.n_harmonics), n_modes());
     wide.rows().topRows(q.rows().rows()) = q.rows();
     return contact::restricted(by_all(wide, frequency), asked.rows);

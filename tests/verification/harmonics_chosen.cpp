@@ -46,8 +46,8 @@ struct Count {
 /// Difference of the amplitude, over it; negative: the large set was not solved for.
 double error_of(const solver::Scene& scene, const solver::HighPoint& high,
                 const solver::ContinuationOptions& range) {
-  const solver::HarmonicBalance few(scene, solver::HarmonicSet(high.point.orders));
-  const solver::HarmonicBalance many(scene, all_up_to);
+  solver::HarmonicBalance few(scene, solver::HarmonicSet(high.point.orders));
+  solver::HarmonicBalance many(scene, all_up_to);
   const auto peak = high.place == solver::PeakPlace::peak
                         ? solver::local_peak(few, high.point)
                         : solver::local_end(few, high.point, range);

@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/asked_force.hpp"
+
 namespace microslip::contact::test_contact_force {
 namespace {
 
@@ -97,13 +99,13 @@ TEST(ContactForce, TwoPatchesAreTheOneTheyMakeUp) {
       const ContactForce one(whole, c.effects, load);
       const ContactForce two(halves, c.effects, load);
       const Harmonics q = motion(c.effects.n_harmonics);
-      const ForceAndJacobian a = one.modal_force()->evaluate(q, 1.3);
-      const ForceAndJacobian b = two.modal_force()->evaluate(q, 1.3);
+      const ForceAndJacobian a = tests::evaluate(*one.modal_force(), q, 1.3);
+      const ForceAndJacobian b = tests::evaluate(*two.modal_force(), q, 1.3);
       EXPECT_LT(difference(b.force.vector(), a.force.vector()), 1e-11) << c.name;
       EXPECT_LT((a.jacobian - b.jacobian).norm(), 1e-9 * (1.0 + a.jacobian.norm())) << c.name;
-      const CycleReport all = one.modal_force()->report(q, 1.3);
-      const CycleReport near = two.modal_force(0)->report(q, 1.3);
-      const CycleReport far = two.modal_force(1)->report(q, 1.3);
+      const CycleReport all = tests::report(*one.modal_force(), q, 1.3);
+      const CycleReport near = tests::report(*two.modal_force(0), q, 1.3);
+      const CycleReport far = tests::report(*two.modal_force(1), q, 1.3);
       EXPECT_NEAR((8.0 * near.slip_share + 4.0 * far.slip_share) / 12.0, all.slip_share, 1e-11);
       EXPECT_NEAR(near.slip_work + far.slip_work, all.slip_work, 1e-10 * (1.0 + all.slip_work));
       const TransientMemory memory = one.transient_force()->virgin_memory();
@@ -144,19 +146,18 @@ TEST(ContactForce, IsThatOfAllModesThroughAsManyCoordinatesAsThePatchHasMotions)
     const auto few = ContactForce(patches, effects, 40.0, two).modal_force();
     for (const std::vector<Eigen::Index>& rows :
          {std::vector<Eigen::Index>{0, 1, 2, 3, 4, 5, 6}, {0, 1, 2, 5, 6}, {}}) {
-      const ForceAndJacobian a = all->evaluate(q, 1.3, {.rows = rows});
-      const ForceAndJacobian b = few->evaluate(q, 1.3, {.rows = rows});
+      const ForceAndJacobian a = tests::evaluate(*all, q, 1.3, {.rows = rows});
+      const ForceAndJacobian b = tests::evaluate(*few, q, 1.3, {.rows = rows});
       EXPECT_LT(difference(b.force.vector(), a.force.vector()), 1e-12);
       ASSERT_EQ(b.jacobian.rows(), a.jacobian.rows());
       EXPECT_LT((a.jacobian - b.jacobian).norm(), 1e-11 * (1.0 + a.jacobian.norm()));
     }
     EXPECT_LT((all->stuck_stiffness() - few->stuck_stiffness()).norm(),
               1e-13 * all->stuck_stiffness().norm());
-    EXPECT_NEAR(all->report(q, 1.3).slip_work, few->report(q, 1.3).slip_work, 1e-10);
-    ContactStates of_all;
-    ContactStates of_few;
-    all->states(q, 1.3, of_all);
-    few->states(q, 1.3, of_few);
+    EXPECT_NEAR(tests::report(*all, q, 1.3).slip_work, tests::report(*few, q, 1.3).slip_work,
+                1e-10);
+    const ContactStates of_all = tests::states(*all, q, 1.3);
+    const ContactStates of_few = tests::states(*few, q, 1.3);
     EXPECT_LT(state_change(of_all, of_few).largest, 1e-9);
     // Proved of few only where it is of all: their ball of motions is no smaller.
     for (const double radius : {1e-6, 1e-3, 1.0}) {
@@ -166,10 +167,9 @@ TEST(ContactForce, IsThatOfAllModesThroughAsManyCoordinatesAsThePatchHasMotions)
     }
   }
   two.of_modes.conservativeResize(2, 2);
-  EXPECT_THROW(
-      static_cast<void>(
-          ContactForce(patches, {.n_harmonics = 3}, 40.0, two).modal_force()->evaluate(q, 1.3)),
-      std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(tests::evaluate(
+                   *ContactForce(patches, {.n_harmonics = 3}, 40.0, two).modal_force(), q, 1.3)),
+               std::invalid_argument);
 }
 
 TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
@@ -180,7 +180,7 @@ TEST(ContactForce, MapsShowTheForceThatIsSimulated) {
     const Harmonics q = motion(c.effects.n_harmonics);
     constexpr int n_phases = 4096;
     const ContactMap map = contact.map(0, Places::cells, q, 1.3, n_phases);
-    const Harmonics force = contact.modal_force()->evaluate(q, 1.3).force;
+    const Harmonics force = tests::evaluate(*contact.modal_force(), q, 1.3).force;
     const PatchSamples& cells = patches[0].cells;
     Eigen::VectorXd sine = Eigen::VectorXd::Zero(n_modes);
     for (int j = 0; j < n_phases; ++j) {

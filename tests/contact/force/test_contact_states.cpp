@@ -15,6 +15,7 @@
 #include "contact/line/line_events.hpp"
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace microslip::contact::test_contact_states {
 namespace {
@@ -116,10 +117,10 @@ TEST(ContactStates, OfAPatchAreTheSameByClosedFormAndByLaws) {
   PointMethodForce by_methods(weights, methods, shapes_of(200));
   Harmonics q(1, 1);
   q.rows().col(0) << 0.1, 0.6, 0.7;
-  ContactStates a;
+  const ContactStates a = tests::states(closed, q, 1.0);
   ContactStates b;
-  closed.states(q, 1.0, a);
-  by_methods.states(q, 1.0, b);
+  const auto work = by_methods.workspace();
+  by_methods.states(q, 1.0, b, *work);
   ASSERT_EQ(a.size(), 199U);
   ASSERT_EQ(b.size(), 199U);
   double area = 0.0;
@@ -130,7 +131,7 @@ TEST(ContactStates, OfAPatchAreTheSameByClosedFormAndByLaws) {
   }
   EXPECT_DOUBLE_EQ(state_change(a, b).share, 0.0);
   EXPECT_NEAR(area, 1.0, 1e-14);
-  by_methods.states(q, 1.0, b);  // what it keeps
+  by_methods.states(q, 1.0, b, *work);  // what it keeps
   EXPECT_EQ(state_change(a, b).n_regimes, 0);
   EXPECT_DOUBLE_EQ(state_change(a, b).share, 0.0);
 }

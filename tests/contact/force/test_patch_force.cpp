@@ -11,6 +11,7 @@
 
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/point_motions.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace microslip::contact::test_patch_force {
 namespace {
@@ -75,7 +76,7 @@ TEST_P(PatchForceSizes, IsTheWeightedSumOverThePoints) {
   for (const double preload : {-2.0, 0.0, 0.5, 3.0}) {
     PatchForce patch(random_patch(n, preload, 1), random_shapes(n, 2));
     const Harmonics q = random_motion(3);
-    const ForceAndJacobian ours = patch.evaluate(q, 1.0);
+    const ForceAndJacobian ours = tests::evaluate(patch, q, 1.0);
     const ForceAndJacobian expected = by_definition(patch, q);
     const double rounding = 1e-15 * static_cast<double>(n);
     EXPECT_LE((ours.force.vector() - expected.force.vector()).cwiseAbs().maxCoeff(),
@@ -90,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, PatchForceSizes, testing::Values(1, 2, 63, 64, 
 TEST(PatchForce, JacobianAgreesWithCentralDifferences) {
   PatchForce patch(random_patch(50, 1.0, 4), random_shapes(50, 5));
   const Harmonics q = random_motion(6);
-  const Eigen::MatrixXd J = patch.evaluate(q, 1.0).jacobian;
+  const Eigen::MatrixXd J = tests::evaluate(patch, q, 1.0).jacobian;
   // 50 points: none within h = 1e-6 of a kink at this seed; truncation h² times curvatures that
   // grow near kinks, rounding 1e-15/h = 1e-9.
   const double h = 1e-6;
@@ -99,9 +100,9 @@ TEST(PatchForce, JacobianAgreesWithCentralDifferences) {
     Harmonics down = q;
     up.vector()[k] += h;
     down.vector()[k] -= h;
-    const Eigen::VectorXd difference =
-        (patch.evaluate(up, 1.0).force.vector() - patch.evaluate(down, 1.0).force.vector()) /
-        (2.0 * h);
+    const Eigen::VectorXd difference = (tests::evaluate(patch, up, 1.0).force.vector() -
+                                        tests::evaluate(patch, down, 1.0).force.vector()) /
+                                       (2.0 * h);
     EXPECT_LE((difference - J.col(k)).cwiseAbs().maxCoeff(), 1e-7) << k;
   }
 }
@@ -109,8 +110,8 @@ TEST(PatchForce, JacobianAgreesWithCentralDifferences) {
 TEST(PatchForce, EqualInputGivesEqualBits) {
   PatchForce patch(random_patch(777, 1.0, 7), random_shapes(777, 8));
   const Harmonics q = random_motion(9);
-  const ForceAndJacobian a = patch.evaluate(q, 1.0);
-  const ForceAndJacobian b = patch.evaluate(q, 2.0);
+  const ForceAndJacobian a = tests::evaluate(patch, q, 1.0);
+  const ForceAndJacobian b = tests::evaluate(patch, q, 2.0);
   EXPECT_EQ(a.force.vector(), b.force.vector());
   EXPECT_EQ(a.jacobian, b.jacobian);
 }
@@ -119,19 +120,19 @@ TEST(PatchForce, EqualInputGivesEqualBits) {
 TEST(PatchForce, GivesTheSameBitsWhateverWasAskedBefore) {
   const ContactPatch points = random_patch(300, 6.0, 10);
   const ModalShapes shapes = random_shapes(300, 11);
-  PatchForce walked(points, shapes);
+  const PatchForce force(points, shapes);
+  const auto walked = force.workspace();
   Harmonics q = random_motion(12);
   q.vector() *= 30.0;
   double least_awake = 1.0;
   double most_awake = 0.0;
   for (int step = 0; step < 40; ++step) {
     q.vector() *= step < 20 ? 0.8 : 1.2;
-    PatchForce fresh(points, shapes);
-    const ForceAndJacobian a = walked.evaluate(q, 1.0);
-    const ForceAndJacobian b = fresh.evaluate(q, 1.0);
+    const ForceAndJacobian a = tests::evaluate(force, q, 1.0, *walked);
+    const ForceAndJacobian b = tests::evaluate(force, q, 1.0);
     ASSERT_EQ(a.force.vector(), b.force.vector());
     ASSERT_EQ(a.jacobian, b.jacobian);
-    const double awake = walked.report(q, 1.0).awake_share;
+    const double awake = force.report(q, 1.0, *walked).awake_share;
     least_awake = std::min(least_awake, awake);
     most_awake = std::max(most_awake, awake);
   }
@@ -150,9 +151,9 @@ TEST(PatchForce, PowersOfTwoScaleBitByBit) {
   const Harmonics q = random_motion(12);
   Harmonics small = q;
   small.vector() *= 0.125;
-  const ForceAndJacobian a = PatchForce(patch, shapes).evaluate(q, 1.0);
+  const ForceAndJacobian a = tests::evaluate(PatchForce(patch, shapes), q, 1.0);
   const ForceAndJacobian b =
-      PatchForce(ContactPatch(patch.weights(), points), shapes).evaluate(small, 1.0);
+      tests::evaluate(PatchForce(ContactPatch(patch.weights(), points), shapes), small, 1.0);
   EXPECT_EQ((0.125 * a.force.vector()).eval(), b.force.vector());
   EXPECT_EQ(a.jacobian, b.jacobian);
 }
@@ -163,7 +164,7 @@ TEST(PatchForce, StuckLimitIsTheStuckStiffness) {
                                 std::vector<PointParameters>(70, {2.0, 3.0, 0.5, 1e3})),
                    random_shapes(70, 13));
   const Harmonics q = random_motion(14);
-  const ForceAndJacobian ours = patch.evaluate(q, 1.0);
+  const ForceAndJacobian ours = tests::evaluate(patch, q, 1.0);
   const Eigen::MatrixXd K = patch.stuck_stiffness();
   const Eigen::MatrixXd expected = q.rows() * K;
   // The load is a difference from 1000: 1e3 · 70 points · 1e-16.
@@ -189,11 +190,11 @@ TEST(PatchForce, WorkOfTheModalForceIsTheWorkOfSlip) {
   for (const double preload : {-1.0, 0.0, 0.6, 2.0}) {
     PatchForce patch(random_patch(200, preload, 16), random_shapes(200, 17));
     const Harmonics q = random_motion(18);
-    const ForceAndJacobian f = patch.evaluate(q, 1.0);
+    const ForceAndJacobian f = tests::evaluate(patch, q, 1.0);
     const double work =
         std::numbers::pi * (q.sine().dot(f.force.cosine()) - q.cosine().dot(f.force.sine()));
     // 200 points of work of order one.
-    EXPECT_NEAR(work, patch.report(q, 1.0).slip_work, 1e-12);
+    EXPECT_NEAR(work, tests::report(patch, q, 1.0).slip_work, 1e-12);
   }
 }
 
@@ -208,8 +209,9 @@ TEST(PatchForce, SplittingAPointInTwoHalvesChangesNothing) {
   twice.u << shapes.u, shapes.u;
   twice.v << shapes.v, shapes.v;
   const Harmonics q = random_motion(21);
-  const ForceAndJacobian a = PatchForce(whole, shapes).evaluate(q, 1.0);
-  const ForceAndJacobian b = PatchForce(ContactPatch(weights, points), twice).evaluate(q, 1.0);
+  const ForceAndJacobian a = tests::evaluate(PatchForce(whole, shapes), q, 1.0);
+  const ForceAndJacobian b =
+      tests::evaluate(PatchForce(ContactPatch(weights, points), twice), q, 1.0);
   // Six products of order one in another order.
   EXPECT_LE((a.force.vector() - b.force.vector()).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_LE((a.jacobian - b.jacobian).cwiseAbs().maxCoeff(), 1e-14);
@@ -225,14 +227,13 @@ TEST(PatchForce, TellsTheRegimeOfEachPoint) {
   PatchForce force(ContactPatch(Eigen::VectorXd::Ones(4), points), shapes);
   Harmonics q(1, 1);
   q.rows()(1, 0) = 1.0;
-  ContactStates states;
-  force.states(q, 1.0, states);
+  const ContactStates states = tests::states(force, q, 1.0);
   ASSERT_EQ(states.size(), 4U);
   EXPECT_EQ(states[0].cycle.regime, CycleRegime::full_stick);
   EXPECT_EQ(states[1].cycle.regime, CycleRegime::stick_slip);
   EXPECT_EQ(states[2].cycle.regime, CycleRegime::separation);
   EXPECT_EQ(states[3].cycle.regime, CycleRegime::separated);
-  EXPECT_THROW(force.states(Harmonics(2, 1), 1.0, states), std::invalid_argument);
+  EXPECT_THROW((void)tests::states(force, Harmonics(2, 1), 1.0), std::invalid_argument);
 }
 
 TEST(PatchForce, RefusesWhatDoesNotFit) {
@@ -241,16 +242,16 @@ TEST(PatchForce, RefusesWhatDoesNotFit) {
   broken.v(1, 1) = std::nan("");
   EXPECT_THROW(PatchForce(random_patch(3, 1.0, 1), broken), std::invalid_argument);
   PatchForce patch(random_patch(3, 1.0, 1), random_shapes(3, 1));
-  EXPECT_THROW((void)patch.evaluate(Harmonics(2, n_modes), 1.0), std::invalid_argument);
-  EXPECT_THROW((void)patch.evaluate(Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
-  EXPECT_THROW((void)patch.report(Harmonics(0, n_modes), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)tests::evaluate(patch, Harmonics(2, n_modes), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)tests::evaluate(patch, Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)tests::report(patch, Harmonics(0, n_modes), 1.0), std::invalid_argument);
 }
 
 TEST(PatchForce, DoesNotReadTheShapesItHasNoUseFor) {
   ModalShapes shapes = random_shapes(3, 1);
   shapes.w = Eigen::MatrixXd::Constant(3, n_modes, std::nan(""));
   PatchForce patch(random_patch(3, 1.0, 1), shapes);
-  EXPECT_TRUE(patch.evaluate(random_motion(2), std::nan("")).jacobian.allFinite());
+  EXPECT_TRUE(tests::evaluate(patch, random_motion(2), std::nan("")).jacobian.allFinite());
 }
 
 }  // namespace

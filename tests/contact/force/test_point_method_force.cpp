@@ -11,6 +11,7 @@
 #include "contact/contact_map.hpp"
 #include "contact/force/patch_force.hpp"
 #include "contact/line/line_events.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace microslip::contact::test_point_method_force {
 namespace {
@@ -138,13 +139,13 @@ class Vague final : public PointMethod {
 TEST(PointMethodForce, CarriesTheDefectOfItsPoints) {
   Patch p = random_patch(5, 1.0);
   const Harmonics q = random_motion();
-  EXPECT_EQ(PointMethodForce(p.weights, p.methods, p.shapes).evaluate(q, 2.0).defect, 0.0);
+  EXPECT_EQ(tests::evaluate(PointMethodForce(p.weights, p.methods, p.shapes), q, 2.0).defect, 0.0);
   p.methods[1] = std::make_shared<Vague>(p.points[1]);
   const double expected =
       0.25 * p.weights[1] *
       std::sqrt(p.shapes.u.row(1).squaredNorm() + p.shapes.v.row(1).squaredNorm());
-  EXPECT_NEAR(PointMethodForce(p.weights, p.methods, p.shapes).evaluate(q, 2.0).defect, expected,
-              1e-15);
+  EXPECT_NEAR(tests::evaluate(PointMethodForce(p.weights, p.methods, p.shapes), q, 2.0).defect,
+              expected, 1e-15);
 }
 
 // 32 points make a block: one block, broken and whole ones.
@@ -155,12 +156,12 @@ TEST(PointMethodForce, GivesWhatTheClosedFormPatchGives) {
       PatchForce expected(ContactPatch(p.weights, p.points), p.shapes);
       PointMethodForce ours(p.weights, p.methods, p.shapes);
       const Harmonics q = random_motion();
-      const ForceAndJacobian a = ours.evaluate(q, 2.0);
-      const ForceAndJacobian b = expected.evaluate(q, 2.0);
+      const ForceAndJacobian a = tests::evaluate(ours, q, 2.0);
+      const ForceAndJacobian b = tests::evaluate(expected, q, 2.0);
       EXPECT_LE((a.force.vector() - b.force.vector()).cwiseAbs().maxCoeff(), rounding(n));
       EXPECT_LE((a.jacobian - b.jacobian).cwiseAbs().maxCoeff(), rounding(n));
-      const CycleReport r = ours.report(q, 2.0);
-      const CycleReport s = expected.report(q, 2.0);
+      const CycleReport r = tests::report(ours, q, 2.0);
+      const CycleReport s = tests::report(expected, q, 2.0);
       EXPECT_NEAR(r.slip_share, s.slip_share, 1e-14);
       EXPECT_NEAR(r.three_states_share, s.three_states_share, 1e-14);
       EXPECT_NEAR(r.slip_work, s.slip_work, rounding(n));
@@ -180,8 +181,8 @@ TEST(PointMethodForce, ForcesBeyondTheMotionAreThoseOfMotionPaddedWithZeros) {
     q.rows().setRandom();
     Harmonics wide(9, n_modes);
     wide.rows().topRows(2 * n_harmonics + 1) = q.rows();
-    const Harmonics alone = force.evaluate(q, 1.0, {.n_harmonics = 9}).force;
-    const Harmonics whole = force.evaluate(wide, 1.0).force;
+    const Harmonics alone = tests::evaluate(force, q, 1.0, {.n_harmonics = 9}).force;
+    const Harmonics whole = tests::evaluate(force, wide, 1.0).force;
     EXPECT_GT(whole.rows().bottomRows(4).norm(), 1e-6 * whole.rows().norm());
     EXPECT_LT((alone.rows() - whole.rows()).norm(), rounding(40) * whole.rows().norm());
   }
@@ -198,7 +199,7 @@ TEST(PointMethodForce, ActsAlongTheSecondDirection) {
   const Harmonics q = random_motion();
   const Eigen::MatrixXd K = spring_r * p.shapes.w.transpose() * p.weights.asDiagonal() * p.shapes.w;
   const Eigen::MatrixXd extra =
-      with.evaluate(q, 1.0).force.rows() - without.evaluate(q, 1.0).force.rows();
+      tests::evaluate(with, q, 1.0).force.rows() - tests::evaluate(without, q, 1.0).force.rows();
   EXPECT_LE((extra - q.rows() * K).cwiseAbs().maxCoeff(), rounding(n));
   EXPECT_LE((with.stuck_stiffness() - without.stuck_stiffness() - K).cwiseAbs().maxCoeff(),
             rounding(n));
@@ -209,16 +210,16 @@ TEST(PointMethodForce, JacobianAndFrequencyDerivativeAreThoseOfTheForce) {
   p.shapes.w = Eigen::MatrixXd::Random(20, n_modes);
   PointMethodForce force(p.weights, p.methods, p.shapes);
   const Harmonics q = random_motion();
-  const ForceAndJacobian at = force.evaluate(q, 3.0);
+  const ForceAndJacobian at = tests::evaluate(force, q, 3.0);
   const double h = 1e-6;
   for (Eigen::Index j = 0; j < q.vector().size(); ++j) {
     Harmonics up = q;
     Harmonics down = q;
     up.vector()[j] += h;
     down.vector()[j] -= h;
-    const Eigen::VectorXd difference =
-        (force.evaluate(up, 3.0).force.vector() - force.evaluate(down, 3.0).force.vector()) /
-        (2.0 * h);
+    const Eigen::VectorXd difference = (tests::evaluate(force, up, 3.0).force.vector() -
+                                        tests::evaluate(force, down, 3.0).force.vector()) /
+                                       (2.0 * h);
     // Central differences: h² of third derivatives, and rounding / h.
     EXPECT_LE((at.jacobian.col(j) - difference).cwiseAbs().maxCoeff(), 1e-6) << j;
   }
@@ -255,8 +256,8 @@ TEST(PointMethodForce, RefusesWhatDoesNotFit) {
   bad.v(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)make(p.weights, bad), std::invalid_argument);
   PointMethodForce good(p.weights, p.methods, p.shapes);
-  EXPECT_THROW((void)good.evaluate(Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
-  EXPECT_THROW((void)good.evaluate(Harmonics(0, n_modes), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)tests::evaluate(good, Harmonics(1, n_modes + 1), 1.0), std::invalid_argument);
+  EXPECT_THROW((void)tests::evaluate(good, Harmonics(0, n_modes), 1.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "contact/line/line_events.hpp"
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/sleepless_method.hpp"
 
 namespace microslip::contact::test_sleeping_set {
@@ -79,15 +80,15 @@ struct Seen {
 void expect_same(Patch& p, int n_harmonics, double accuracy, std::mt19937_64& random, Seen& seen) {
   for (const double size : {0.02, 0.1, 0.3, 0.6, 1.2}) {
     const Harmonics q = random_motion(n_harmonics, size, random);
-    const ForceAndJacobian a = p.sleeping.evaluate(q, 2.0);
-    const ForceAndJacobian b = p.sleepless.evaluate(q, 2.0);
+    const ForceAndJacobian a = tests::evaluate(p.sleeping, q, 2.0);
+    const ForceAndJacobian b = tests::evaluate(p.sleepless, q, 2.0);
     const double force = b.force.vector().norm();
     const double stiffness = b.jacobian.norm() + 1.0;
     ASSERT_LE((a.force.vector() - b.force.vector()).norm(), accuracy * (force + 1.0)) << size;
     ASSERT_LE((a.jacobian - b.jacobian).norm(), accuracy * stiffness) << size;
     ASSERT_LE((a.frequency_derivative - b.frequency_derivative).norm(), accuracy * (force + 1.0));
-    const CycleReport r = p.sleeping.report(q, 2.0);
-    const CycleReport s = p.sleepless.report(q, 2.0);
+    const CycleReport r = tests::report(p.sleeping, q, 2.0);
+    const CycleReport s = tests::report(p.sleepless, q, 2.0);
     EXPECT_NEAR(r.stick_share, s.stick_share, 1e-13);
     EXPECT_NEAR(r.slip_share, s.slip_share, 1e-13);
     EXPECT_NEAR(r.separated_share, s.separated_share, 1e-13);
@@ -229,12 +230,13 @@ TEST(SleepingSet, EqualMotionsGiveEqualBits) {
   std::mt19937_64 other(seed);
   Patch walked = random_patch(300, event, Directions::one, one);
   Patch fresh = random_patch(300, event, Directions::one, other);
+  const auto work = walked.sleeping.workspace();
   for (int step = 0; step < 30; ++step) {
-    (void)walked.sleeping.evaluate(random_motion(3, 0.05 * step, random), 1.0);
+    (void)tests::evaluate(walked.sleeping, random_motion(3, 0.05 * step, random), 1.0, *work);
   }
   const Harmonics q = random_motion(3, 0.3, random);
-  const ForceAndJacobian a = walked.sleeping.evaluate(q, 1.0);
-  const ForceAndJacobian b = fresh.sleeping.evaluate(q, 1.0);
+  const ForceAndJacobian a = tests::evaluate(walked.sleeping, q, 1.0, *work);
+  const ForceAndJacobian b = tests::evaluate(fresh.sleeping, q, 1.0);
   EXPECT_EQ(a.force.rows(), b.force.rows());
   EXPECT_EQ(a.jacobian, b.jacobian);
 }
@@ -244,8 +246,8 @@ TEST(SleepingSet, SomeRowsAreThoseOfAll) {
   Patch p = random_patch(120, event, Directions::one, random);
   const Harmonics q = random_motion(2, 0.2, random);
   const std::vector<Eigen::Index> rows{1, 2, 4};
-  const ForceAndJacobian some = p.sleeping.evaluate(q, 1.0, {.rows = rows});
-  const ForceAndJacobian all = p.sleepless.evaluate(q, 1.0);
+  const ForceAndJacobian some = tests::evaluate(p.sleeping, q, 1.0, {.rows = rows});
+  const ForceAndJacobian all = tests::evaluate(p.sleepless, q, 1.0);
   EXPECT_LE((some.force.vector() - all.force.vector()).norm(),
             rounding * all.force.vector().norm());
   for (Eigen::Index k = 0; k < 3; ++k) {

@@ -8,6 +8,7 @@
 #include "contact/sampled/patch_force.hpp"
 #include "contact/spare_cores.hpp"
 #include "support/planar_cases.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::sampled::test_patch_parts {
@@ -47,7 +48,7 @@ struct ManyPoints {
   [[nodiscard]] ForceAndJacobian force(int n_cores) const {
     allow_cores(n_cores);
     PatchForce patch(weights, surfaces, shapes, 128);
-    ForceAndJacobian result = patch.evaluate(q, frequency);
+    ForceAndJacobian result = tests::evaluate(patch, q, frequency);
     allow_cores(1);
     return result;
   }
@@ -60,7 +61,7 @@ struct ManyPoints {
       if (shapes.w.size() > 0) one.w = shapes.w.row(i);
       PatchForce point(weights.segment(i, 1), {surfaces[static_cast<std::size_t>(i)]},
                        std::move(one), 128);
-      ForceAndJacobian part = point.evaluate(q, frequency);
+      ForceAndJacobian part = tests::evaluate(point, q, frequency);
       if (i == 0) {
         sum = std::move(part);
         continue;

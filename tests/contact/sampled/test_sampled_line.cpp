@@ -14,6 +14,7 @@
 #include "one_point.hpp"
 #include "support/motion_cases.hpp"
 #include "support/surface_cases.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::sampled::test_sampled_line {
@@ -57,7 +58,7 @@ double rms(const std::vector<MotionCase>& cases, const test::SurfaceCase& surfac
   double sum = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Harmonics q = modal(cases[i].motion, 2);
-    const auto force = one_point(surface.make(cases[i]), 2, n).evaluate(q, frequency, {});
+    const auto force = tests::evaluate(one_point(surface.make(cases[i]), 2, n), q, frequency, {});
     sum += std::pow(error(force.force, exact[i], cases[i]), 2);
   }
   return std::sqrt(sum / static_cast<double>(cases.size()));
@@ -128,7 +129,7 @@ TEST(SampledLine, SlipWorkOfSmoothSurfacesConverges) {
       const Harmonics force = traction(LineEvents(c.point), c.motion).force;
       const double work = test::cycle_work(c.motion, force, 0);
       PatchForce patch = one_point(test::smooth_surface(c), 2, n);
-      const double slip = patch.report(modal(c.motion, 2), frequency).slip_work;
+      const double slip = tests::report(patch, modal(c.motion, 2), frequency).slip_work;
       const double scale = friction_scale(c) * c.motion.rows().col(0).norm();
       sum += std::pow((slip - work) / scale, 2);
     }
@@ -163,10 +164,10 @@ double jacobian_error(const std::vector<MotionCase>& cases, int n) {
     Harmonics behind = q;
     ahead.vector() += h * way;
     behind.vector() -= h * way;
-    const Eigen::VectorXd slope = (force.evaluate(ahead, frequency, {}).force.vector() -
-                                   force.evaluate(behind, frequency, {}).force.vector()) /
+    const Eigen::VectorXd slope = (tests::evaluate(force, ahead, frequency, {}).force.vector() -
+                                   tests::evaluate(force, behind, frequency, {}).force.vector()) /
                                   (2.0 * h);
-    const Eigen::VectorXd product = force.evaluate(q, frequency).jacobian * way;
+    const Eigen::VectorXd product = tests::evaluate(force, q, frequency).jacobian * way;
     sum += (product - slope).squaredNorm() / std::pow(stiffness_scale(c) * way.norm(), 2);
   }
   return std::sqrt(sum / static_cast<double>(cases.size()));
@@ -199,7 +200,7 @@ TEST(SampledLine, SmoothSurfacesDoNotJumpWhereKinksPassInstants) {
     const auto at = [&](double share) -> Eigen::VectorXd {
       Harmonics moved = q;
       moved.vector() += share * way;
-      return force.evaluate(moved, frequency, {}).force.vector() /
+      return tests::evaluate(force, moved, frequency, {}).force.vector() /
              (friction_scale(c) + normal_scale(c));
     };
     Eigen::VectorXd before = at(0.0);
@@ -234,7 +235,7 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
   for (const MotionCase& c : motions(30)) {
     PatchForce force = one_point(GetParam().make(c), 2, 128);
     const Harmonics q = modal(c.motion, 2);
-    const ForceAndJacobian now = force.evaluate(q, frequency);
+    const ForceAndJacobian now = tests::evaluate(force, q, frequency);
     const double scale = stiffness_scale(c);
     // Of smooth surfaces complete but for what is of second order: see above.
     const double allowed = GetParam().name == "smooth" ? 2e-3 : 1e-6;
@@ -244,8 +245,8 @@ TEST_P(LineSurfaces, JacobianIsThatOfDifferences) {
         Harmonics b = q;
         a.vector()[k] += h;
         b.vector()[k] -= h;
-        return (force.evaluate(a, frequency, {}).force.vector() -
-                force.evaluate(b, frequency, {}).force.vector()) /
+        return (tests::evaluate(force, a, frequency, {}).force.vector() -
+                tests::evaluate(force, b, frequency, {}).force.vector()) /
                (2.0 * h);
       };
       const double h = 1e-6 * (k % 2 == 0 ? friction_scale(c) / c.point.tangential_stiffness
@@ -265,10 +266,10 @@ TEST_P(LineSurfaces, FrequencyDerivativeIsThatOfDifferences) {
   for (const MotionCase& c : motions(30)) {
     PatchForce force = one_point(GetParam().make(c), 2, 128);
     const Harmonics q = modal(c.motion, 2);
-    const ForceAndJacobian now = force.evaluate(q, frequency);
+    const ForceAndJacobian now = tests::evaluate(force, q, frequency);
     const auto central = [&](double h) -> Eigen::VectorXd {
-      return (force.evaluate(q, frequency + h, {}).force.vector() -
-              force.evaluate(q, frequency - h, {}).force.vector()) /
+      return (tests::evaluate(force, q, frequency + h, {}).force.vector() -
+              tests::evaluate(force, q, frequency - h, {}).force.vector()) /
              (2.0 * h);
     };
     const double scale = (friction_scale(c) + normal_scale(c)) / frequency;
@@ -296,7 +297,8 @@ TEST(SampledLine, FullStickKeepsTheConventionOfTheLineEvents) {
     const PointTraction exact = traction(LineEvents(c.point), c.motion);
     if (exact.regime != CycleRegime::full_stick) continue;
     const Harmonics q = modal(c.motion, 2);
-    const ForceAndJacobian now = one_point(test::smooth_surface(c), 2, 256).evaluate(q, 1.0);
+    const ForceAndJacobian now =
+        tests::evaluate(one_point(test::smooth_surface(c), 2, 256), q, 1.0);
     const bool pushed = exact.jacobian(0, 0) == 0.0;
     ++(pushed ? n_pushed : n_free);
     EXPECT_LE(error(now.force, exact.force, c), pushed ? 1e-5 : 1e-14);
@@ -315,7 +317,8 @@ TEST(SampledLine, EveryStratumIsFiniteAndNearLocatedEvents) {
       const MotionCase c = stratum.draw(random);
       if (!(friction_scale(c) > 1e-250)) continue;  // no unit of force is that small
       const Harmonics q = modal(c.motion, 2);
-      const ForceAndJacobian now = one_point(test::smooth_surface(c), 2, 512).evaluate(q, 1.0);
+      const ForceAndJacobian now =
+          tests::evaluate(one_point(test::smooth_surface(c), 2, 512), q, 1.0);
       ASSERT_TRUE(now.force.rows().allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.jacobian.allFinite()) << stratum.name << ' ' << i;
       worst = std::max(worst, error(now.force, traction(LineEvents(c.point), c.motion).force, c));

@@ -14,6 +14,7 @@
 #include "contact/sampled/patch_force.hpp"
 #include "one_point.hpp"
 #include "support/planar_cases.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/floating_point_traps.hpp"
 
 namespace microslip::contact::sampled::test_sampled_plane {
@@ -118,8 +119,8 @@ TEST_P(PlaneSurfaces, ConvergeToThePlaneEventsInSecondOrder) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int n = 128 << 2 * k;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const auto force = one_point(GetParam().make(cases[i]), 3, n)
-                             .evaluate(modal(cases[i].motion, 3), frequency, {});
+      const auto force = tests::evaluate(one_point(GetParam().make(cases[i]), 3, n),
+                                         modal(cases[i].motion, 3), frequency, {});
       if (force.defect > 0.0) {  // a march into rest that has not arrived
         ++n_unsettled;
         continue;
@@ -148,7 +149,7 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
   for (const PlanarCase& c : cases_of(40)) {
     PatchForce force = one_point(GetParam().make(c), 3, 128);
     const Harmonics q = modal(c.motion, 3);
-    const ForceAndJacobian now = force.evaluate(q, frequency);
+    const ForceAndJacobian now = tests::evaluate(force, q, frequency);
     if (now.defect > 0.0) ++n_unsettled;
     const double size = q.rows().cwiseAbs().maxCoeff();
     const double scale = planar_scale(c) / size + c.point.tangential_stiffness + c.second_stiffness;
@@ -168,15 +169,15 @@ TEST_P(PlaneSurfaces, JacobianIsThatOfDifferences) {
         Harmonics b = q;
         a.vector()[k] += h;
         b.vector()[k] -= h;
-        return (force.evaluate(a, frequency, {}).force.vector() -
-                force.evaluate(b, frequency, {}).force.vector()) /
+        return (tests::evaluate(force, a, frequency, {}).force.vector() -
+                tests::evaluate(force, b, frequency, {}).force.vector()) /
                (2.0 * h);
       });
     }
     check(now.frequency_derivative, size / frequency, [&](double part) -> Eigen::VectorXd {
       const double h = 1e-5 * part * frequency;
-      return (force.evaluate(q, frequency + h, {}).force.vector() -
-              force.evaluate(q, frequency - h, {}).force.vector()) /
+      return (tests::evaluate(force, q, frequency + h, {}).force.vector() -
+              tests::evaluate(force, q, frequency - h, {}).force.vector()) /
              (2.0 * h);
     });
   }
@@ -200,13 +201,13 @@ TEST(SampledPlane, CircularMotionUnderConstantLoad) {
   Harmonics q(1, 3);
   q.rows()(2, 0) = 1.0;
   q.rows()(1, 2) = 1.0;
-  const Harmonics f = force.evaluate(q, 1.0, {}).force;
+  const Harmonics f = tests::evaluate(force, q, 1.0, {}).force;
   const double tolerance =
       std::pow(2.0 * std::numbers::pi / 1024.0, 2);  // order two, coefficient 1
   const double lead = std::acos(0.25);
   EXPECT_NEAR(f.rows()(2, 0), 0.5 * std::cos(lead), tolerance);
   EXPECT_NEAR(f.rows()(1, 0), -0.5 * std::sin(lead), tolerance);
-  EXPECT_NEAR(force.report(q, 1.0).slip_work,
+  EXPECT_NEAR(tests::report(force, q, 1.0).slip_work,
               2.0 * std::numbers::pi * 0.5 * std::sqrt(1.0 - 1.0 / 16.0),
               2.0 * std::numbers::pi * tolerance);
 }
@@ -226,8 +227,8 @@ TEST(SampledPlane, ASliderPushedByTwoWindowsInTurnRestsInTheirCorner) {
     q.rows()(2, 0) = a * std::cos(0.3);
     q.rows()(0, 2) = height + 0.1 * width;
     constexpr int instants = 256;
-    const auto now =
-        one_point(SurfaceLaw({stiffness, 0.0, 0.5, 1.0}, stiffness), 3, instants).evaluate(q, 1.0);
+    const auto now = tests::evaluate(
+        one_point(SurfaceLaw({stiffness, 0.0, 0.5, 1.0}, stiffness), 3, instants), q, 1.0);
     // The parabola through the three highest instants errs by (h/2)⁴ of a at most, seen through the
     // slope of the corner.
     const double h = 2.0 * std::numbers::pi / instants;
@@ -257,7 +258,7 @@ TEST(SampledPlane, EveryStratumIsFiniteAndNearThePlaneEvents) {
     for (int i = 0; i < 40; ++i) {
       const PlanarCase c = stratum.draw(random);
       const Harmonics q = modal(c.motion, 3);
-      const ForceAndJacobian now = one_point(smooth(c), 3, 512).evaluate(q, frequency);
+      const ForceAndJacobian now = tests::evaluate(one_point(smooth(c), 3, 512), q, frequency);
       ASSERT_TRUE(now.force.rows().allFinite()) << stratum.name << ' ' << i;
       ASSERT_TRUE(now.jacobian.allFinite()) << stratum.name << ' ' << i;
       const Eigen::MatrixXd difference =

@@ -21,6 +21,7 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "tests/support/asked_force.hpp"
 
 namespace microslip::pipelines::test_effects {
 namespace {
@@ -75,7 +76,7 @@ contact::ForceAndJacobian force_of(const ReducedModel& model, int n_harmonics) {
   for (Eigen::Index i = 0; i < q.rows().size(); ++i) {
     q.rows().data()[i] = 0.02 * (i % 2 == 0 ? 1.0 : -0.7) / (1.0 + static_cast<double>(i));
   }
-  return contact_of(model, 1.0).modal_force()->evaluate(q, 70.0);
+  return tests::evaluate(*contact_of(model, 1.0).modal_force(), q, 70.0);
 }
 
 TEST(Effects, WithoutNormalMotionTheLoadStaysThatOfRest) {

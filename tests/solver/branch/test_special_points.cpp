@@ -182,7 +182,7 @@ TEST(SpecialPoints, AHumpWhereAPointTurnsItsPhasesIsFoundEitherWay) {
 TEST(SpecialPoints, AChangeOfSignThatCannotBeSolvedForIsGivenAndSaidSo) {
   const tests::Duffing duffing;
   const Scene scene = duffing.scene();
-  const HarmonicBalance balance(scene, HarmonicSet(1));
+  HarmonicBalance balance(scene, HarmonicSet(1));
   bool broken = false;
   const ParametricSystem system = [&](const Eigen::VectorXd& x, double frequency) {
     BalanceEvaluation at = balance.evaluate(x, frequency);

@@ -14,15 +14,14 @@
 #include "contact/force/patch_force.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/continuation.hpp"
+#include "tests/support/asked_force.hpp"
 #include "tests/support/random_scene.hpp"
 
 namespace microslip::solver::test_step_states {
 namespace {
 
 contact::ContactStates states_at(const Scene& scene, const ResponsePoint& point) {
-  contact::ContactStates states;
-  scene.contact->states(point.q, point.frequency, states);
-  return states;
+  return tests::states(*scene.contact, point.q, point.frequency);
 }
 
 /// A mode on 200 soft points that begin to slip at amplitudes from 9.99 to 10.01: the branch hardly turns there.
@@ -97,10 +96,12 @@ class Chatter final : public contact::ModalForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return linear_.stuck_stiffness();
   }
-  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency) override {
-    return linear_.report(q, frequency);
+  [[nodiscard]] contact::CycleReport report(const Harmonics& q, double frequency,
+                                            Workspace& work) const override {
+    return linear_.report(q, frequency, work);
   }
-  void states(const Harmonics& /*q*/, double frequency, contact::ContactStates& result) override {
+  void states(const Harmonics& /*q*/, double frequency, contact::ContactStates& result,
+              Workspace& /*work*/) const override {
     const bool slips = std::remainder(1e9 * frequency, 2.0) > 0.0;
     const double share = 1.0 / static_cast<double>(n_points_);
     const contact::CycleStates stuck{contact::CycleRegime::full_stick, contact::PeriodStates()};
@@ -112,8 +113,9 @@ class Chatter final : public contact::ModalForce {
 
  private:
   [[nodiscard]] contact::ForceAndJacobian evaluated(const Harmonics& q, double frequency,
-                                                    const contact::Asked& asked) override {
-    return linear_.evaluate(q, frequency, asked);
+                                                    const contact::Asked& asked,
+                                                    Workspace& work) const override {
+    return linear_.evaluate(q, frequency, asked, work);
   }
 
   LinearForce linear_;

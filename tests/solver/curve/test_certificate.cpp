@@ -8,7 +8,7 @@ namespace microslip::solver::test_certificate {
 namespace {
 
 ResponsePoint certified(const Scene& scene, const Eigen::Vector3d& x, double frequency) {
-  const HarmonicBalance balance(scene, 1);
+  HarmonicBalance balance(scene, 1);
   NewtonResult solution;
   solution.point = {x, frequency};
   solution.evaluation = balance.evaluate(x, frequency);

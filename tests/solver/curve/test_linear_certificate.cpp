@@ -125,7 +125,7 @@ TEST(CertifiedCurve, OfRandomScenesHoldsWhereTheNonlinearSolverIsAsked) {
   int proved = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const tests::RandomScene random = tests::random_scene(seed);
-    const HarmonicBalance balance(random.scene, 1);
+    HarmonicBalance balance(random.scene, 1);
     const auto [low, high] =
         std::minmax(random.options.frequency_begin, random.options.frequency_end);
     const LinearCertificate certificate = certify_linear(balance, low, high);

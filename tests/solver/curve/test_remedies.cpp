@@ -21,7 +21,8 @@ class JumpingForce final : public tests::FullForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(1, 1);
   }
-  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/, double /*frequency*/) override {
+  [[nodiscard]] contact::CycleReport report(const Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
     return {};
   }
   [[nodiscard]] contact::ForceAndJacobian by_all(const Harmonics& q,

@@ -19,8 +19,8 @@ class CubicBar final : public FullForce {
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
     return Eigen::MatrixXd::Zero(n_modes(), n_modes());
   }
-  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/,
-                                            double /*frequency*/) override {
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& /*q*/, double /*frequency*/,
+                                            Workspace& /*work*/) const override {
     return {};
   }
   [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,

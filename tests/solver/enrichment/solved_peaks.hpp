@@ -22,7 +22,7 @@ inline SolvedPeak solved_peak(const solver::Scene& scene, solver::ContinuationOp
   const auto curve = solver::trace_response(scene, range);
   const auto high = solver::high_points(scene, curve, range);
   SolvedPeak solved{set, {}};
-  const solver::HarmonicBalance balance(scene, set);
+  solver::HarmonicBalance balance(scene, set);
   if (high.empty()) {
     ADD_FAILURE() << curve.diagnosis;
     return solved;

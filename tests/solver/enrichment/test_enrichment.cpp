@@ -49,8 +49,8 @@ Compared compared(const Scene& scene, const ContinuationOptions& range, const Ha
                   const HarmonicSet& richer) {
   const auto few = tests::solved_peak(scene, range, coarse);
   const auto many = tests::solved_peak(scene, range, richer);
-  const HarmonicBalance from(scene, coarse);
-  const HarmonicBalance to(scene, richer);
+  HarmonicBalance from(scene, coarse);
+  HarmonicBalance to(scene, richer);
   Compared result;
   result.estimate = sum(richer_shares(to, embedded(few.peak, from, to)));
   result.amplitude = many.peak.amplitude / few.peak.amplitude - 1.0;
@@ -77,9 +77,9 @@ TEST(Enrichment, EstimatesAreExactToFirstOrder) {
 TEST(Enrichment, SharesAreThoseOfTheirHarmonicsAlone) {
   const Scene scene = cubic_scene(0.02);
   const auto few = tests::solved_peak(scene, cubic_range(), 1);
-  const HarmonicBalance from(scene, 1);
+  HarmonicBalance from(scene, 1);
   const auto with = [&](const HarmonicSet& set) {
-    const HarmonicBalance to(scene, set);
+    HarmonicBalance to(scene, set);
     return richer_shares(to, embedded(few.peak, from, to));
   };
   const std::vector<RicherShare> all = with(HarmonicSet(std::vector<int>{1, 3, 5}));

@@ -101,7 +101,7 @@ TEST(PeakHarmonics, AResonanceFarUpIsFoundAlthoughThoseBeforeItDoLittle) {
   PeakHarmonicsChoice choice(scene, range);
   const PeakHarmonics found = choice.choose(1, few.peak, 1);
   ASSERT_TRUE(found.peak.has_value());
-  const HarmonicBalance many(scene, 20);
+  HarmonicBalance many(scene, 20);
   PeakWork work;
   const auto reference = level_point(
       many, embedded(*found.peak, HarmonicBalance(scene, found.set), many), range, work, 4.0);
@@ -113,13 +113,10 @@ TEST(PeakHarmonics, AResonanceFarUpIsFoundAlthoughThoseBeforeItDoLittle) {
 
 TEST(PeakHarmonics, ResonantOrdersAreThoseNearAMode) {
   const Scene scene = resonant_chain(50.0, 3.0, 0.02);
-  const HarmonicBalance one(scene, 1);
+  HarmonicBalance one(scene, 1);
   const auto peak = tests::solved_peak(scene, choosing(1e-2), 1).peak;
   const auto at = one.evaluate(peak.point.x, peak.point.parameter);
-  const Harmonics force =
-      scene.contact
-          ->evaluate(one.harmonics(peak.point.x), peak.point.parameter, {.n_harmonics = 12})
-          .force;
+  const Harmonics force = one.contact_force(peak.point.x, peak.point.parameter, 12);
   const auto orders = resonant_orders(one, peak.point, at.jacobian, force, 1e-3);
   EXPECT_EQ(std::ranges::count(orders, 3), 1);
   for (const int k : orders) {
@@ -130,12 +127,12 @@ TEST(PeakHarmonics, ResonantOrdersAreThoseNearAMode) {
 TEST(PeakHarmonics, DroppedHarmonicsAreJudgedAsSolvingWithoutThemShows) {
   const Scene scene = with_events(tests::three_dof_scene(50.0));
   const auto many = tests::solved_peak(scene, choosing(1e-2), 9);
-  const HarmonicBalance all(scene, 9);
+  HarmonicBalance all(scene, 9);
   for (const DroppedHarmonic& one : dropped_harmonics(all, many.peak)) {
     if (one.order == 1 || std::abs(one.amplitude) > 0.02) continue;  // not of first order
     std::vector<int> kept = all.set().orders();
     std::erase(kept, one.order);
-    const HarmonicBalance fewer(scene, HarmonicSet(kept));
+    HarmonicBalance fewer(scene, HarmonicSet(kept));
     PeakWork work;
     const auto without =
         level_point(fewer, embedded(many.peak, all, fewer), choosing(1e-2), work, 1.0);
@@ -149,7 +146,7 @@ TEST(PeakHarmonics, DroppedHarmonicsAreJudgedAsSolvingWithoutThemShows) {
 TEST(PeakHarmonics, LevelPointIsThePeak) {
   const Scene scene = with_events(tests::three_dof_scene(50.0));
   const auto solved = tests::solved_peak(scene, choosing(1e-2), 3);
-  const HarmonicBalance balance(scene, 3);
+  HarmonicBalance balance(scene, 3);
   LocalPeak beside = solved.peak;
   beside.point.parameter += 0.4 * beside.scaling.parameter;
   PeakWork work;

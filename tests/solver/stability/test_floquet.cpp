@@ -65,7 +65,8 @@ double measured_factor(const TimeSystem& system, const TimeState& from, int n_pe
 /// The same force, of which nothing is said to be linear: the period map is differenced.
 class Differenced final : public contact::TransientForce {
  public:
-  explicit Differenced(std::unique_ptr<contact::TransientForce> force) : force_(std::move(force)) {}
+  explicit Differenced(std::unique_ptr<const contact::TransientForce> force)
+      : force_(std::move(force)) {}
   [[nodiscard]] Eigen::Index n_modes() const override { return force_->n_modes(); }
   [[nodiscard]] Eigen::Index n_points() const override { return force_->n_points(); }
   [[nodiscard]] contact::TransientMemory virgin_memory() const override {
@@ -109,7 +110,7 @@ class Differenced final : public contact::TransientForce {
   }
 
  private:
-  std::unique_ptr<contact::TransientForce> force_;
+  std::unique_ptr<const contact::TransientForce> force_;
 };
 
 /// Largest distance of a multiplier of one list to the nearest of the other.

@@ -22,7 +22,7 @@ TEST(Stability, SlowFlowOfALinearModeDecaysWithItsDamping) {
   tests::Duffing duffing;
   duffing.alpha = 0.0;
   const Scene scene = duffing.scene();
-  const HarmonicBalance balance(scene, 1);
+  HarmonicBalance balance(scene, 1);
   const auto at = balance.evaluate(Eigen::VectorXd::Zero(3), 1.0);
   const StabilityReport report = assess_stability(balance, at.jacobian, 1.0);
   EXPECT_EQ(report.stability, Stability::stable);
@@ -59,7 +59,7 @@ TEST(Stability, DeterminantAndGrowthJudgeAlike) {
   options.frequency_end = 2.0 * std::numbers::pi * 28.0;
   for (const double preload : {25.0, 30.0, 50.0}) {
     const Scene scene = tests::three_dof_scene(preload);
-    const HarmonicBalance balance(scene, 1);
+    HarmonicBalance balance(scene, 1);
     for (const auto& point : trace_response(scene, options).points) {
       if (point.mark == PointMark::fold) continue;  // neutral
       const auto at = balance.evaluate(point.q.vector(), point.frequency);
