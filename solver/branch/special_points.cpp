@@ -18,8 +18,9 @@ constexpr int max_cuts =
     90;  // bisection alone needs 44 for a share of 1e-13, and a third are bisections
 // Of sampled forces, whose branch has no kinks that matter; exact ones show theirs.
 constexpr int n_cubics = 4;
-// Places of one step where nothing solves the equations: where the branch turns back between its ends, or where
-// forces jump, as sampled ones may by 1e-5 of their scale. There each costs as much as twenty that are solved.
+// Places of one step where nothing solves the equations: where the branch turns back between its
+// ends, or where forces jump, as sampled ones may by 1e-5 of their scale. There each costs as much
+// as twenty that are solved.
 constexpr int most_failed = 12;  // one after the other
 constexpr int most_failed_of_sampled = 4;
 constexpr double steep = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope

@@ -30,12 +30,12 @@ points = "points.csv"
 [response]
 frequency = [10.5, 30]
 harmonics = 3
-preload_scale = [0.5, 1, 2]
+preload_scale = [0.5, 2]
 maps = ["peak"]
 map_phases = 4
 """
 # One curve of one harmonic: a name is pasted into as many places; the run is shorter.
-FEWER = MODAL.replace("[0.5, 1, 2]", "[1]").replace("harmonics = 3", "harmonics = 1")
+FEWER = MODAL.replace("[0.5, 2]", "[1]").replace("harmonics = 3", "harmonics = 1")
 POINTS = ("weight,tangential_stiffness,normal_stiffness,friction_coefficient,preload,phi_u_1,phi_u_2,phi_v_1\n"
           "1,1e4,1e4,0.3,2,0.8,-0.5,0.1\n0.5,2e4,1e4,0.3,1,0.7,-0.4,0.2\n")
 # Assembly, factorisation and modes by the libraries that have threads of their own.
@@ -65,6 +65,8 @@ output = { at = "tip", direction = [0, 0, 1] }
 frequency = [1000, 1500]
 harmonics = 1
 preload = [5]
+[accuracy]
+error_budget = "off"
 """
 COMPARED = ("curves", "maps", "modes.csv", "modes.vtu", "model.h5")
 CRASHES = ("terminate called", "what():", "internal error", "Aborted", "std::", "Traceback")

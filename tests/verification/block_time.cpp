@@ -93,7 +93,8 @@ TEST(BlockInTime, AgreesWithHarmonicBalanceOnRoughCells) {
   const Block rough = block({});
   std::vector<Pair> pairs;
   double peak = 0.0;
-  for (const double hz : {22.0, 27.7, 33.0}) {  // 27.7 Hz: the highest peak at 20 N
+  // 27.7 Hz: the highest peak at 20 N
+  for (const double hz : tests::campaign_values({22.0, 27.7, 33.0}, {22.0, 27.7})) {
     pairs.push_back(solve(rough, 20.0, hz));
     print("rough", 20.0, hz, pairs.back());
     peak = std::max(peak, pairs.back().balance.amplitude);

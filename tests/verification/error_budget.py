@@ -20,7 +20,7 @@ del sys.argv[1:]
 LEAN = ("model.element_size=10 mm", "response.maps=[]", "response.preload=[100, 500]", "contact.points=40",
         "response.harmonics=1")
 REFINED = {
-    "cells": "contact.points=2000",
+    "cells": "contact.points=800",
     "fit": "contact.fit=none",
     "basis": "modes.attachment_degree=2",
     "harmonics": "response.harmonics=9",

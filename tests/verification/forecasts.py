@@ -37,11 +37,12 @@ FEW = {
     "area, 9 harmonics": (f"{SCENES}/chain_2dof_moment.toml", ["response.maps=[]"]),
     "chain, auto": chain("response.harmonics=auto", *NO_SEARCH),
     "chain, in time": chain("response.method=time", "response.preload=[50]", *NO_SEARCH),
-    "chain, best value": chain(),
+    "chain, best value": chain("response.harmonics=5"),
     "blade, 3 harmonics": blade(3, "[100, 500]"),
     "blade, 3, both directions": blade(3, "[100]", BOTH),
 }
 REST = {
+    "chain, 9 harmonics, best value": chain(),
     "block, rough, both": (f"{SCENES}/block_rough.toml", ["response.maps=[]"]),
     "blade, 1 harmonic": blade(1, "[100, 500]"),
     "blade, 9 harmonics": blade(9, "[100, 500]"),

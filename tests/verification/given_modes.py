@@ -58,6 +58,8 @@ harmonics = 1
 preload = [20]
 [effects]
 second_direction = "off"
+[accuracy]
+error_budget = "off"
 """
 OWN = """kind = "mesh"
 file = "{}"

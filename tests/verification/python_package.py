@@ -47,7 +47,8 @@ class Case(unittest.TestCase):
         os.makedirs(WORK, exist_ok=True)
         os.environ["MICROSLIP"] = PROGRAM
         if not hasattr(Case, "run_"):  # one run, plots and page included, serves all
-            Case.run_ = microslip.run(CHAIN, {"response.harmonics": 1, "response.maps": ["peak"]}, folder=fresh("chain"))
+            Case.run_ = microslip.run(CHAIN, {"response.harmonics": 1, "response.maps": ["peak"],
+                                             "response.preload": ["free", 50, 100, "stuck"]}, folder=fresh("chain"))
 
     def copy(self, name):
         """The folder of the run, to be damaged."""
