@@ -11,8 +11,10 @@
 namespace microslip::pipelines {
 namespace {
 
-// Contact stiffness times compliance of what is left out.
-constexpr double tolerance = 1e-4;
+// Contact stiffness times compliance of what is left out. Its force is missing in the balance, and
+// the residual of a curve does not tell: with 1e-4 up to 2e-2 of the excitation on the default
+// blade, with this less than sampling leaves.
+constexpr double tolerance = 1e-6;
 constexpr double least_damping = 1e-4;
 
 /// Square roots of compliances [s]. The harmonic that meets a resonance far above the range is small: as 1/k² of the first.

@@ -90,6 +90,17 @@ class Segment {
     return std::move(found_);
   }
 
+  /// After search(): the valleys beside the peaks of the segment, as unmarked points.
+  [[nodiscard]] std::vector<SpecialPoint> valleys() {
+    std::vector<SpecialPoint> found;
+    for (auto& [a, b] : falling_then_rising_) {
+      SpecialPoint valley = locate(std::move(a), std::move(b));
+      valley.mark = PointMark::none;
+      if (valley.solved) found.push_back(std::move(valley));
+    }
+    return found;
+  }
+
  private:
   [[nodiscard]] bool wanted(const Node& before) const {
     return kind_ == PointMark::fold || before.value.slope > 0.0;
@@ -104,15 +115,24 @@ class Segment {
       }
     }
     if ((a.value.slope > 0.0) != (b.value.slope > 0.0)) {
-      if (wanted(a)) found_.push_back(locate(a, b));
+      take(a, b);
       return;
     }
     const double share = turning_share(a, b);
     if (share <= 0.0) return;
     const std::optional<Node> middle = beyond_zero(a, b, share);
     if (!middle) return;
-    if (wanted(a)) found_.push_back(locate(a, *middle));
-    if (wanted(*middle)) found_.push_back(locate(*middle, b));
+    take(a, *middle);
+    take(*middle, b);
+  }
+
+  /// Between two places whose slopes differ in sign.
+  void take(const Node& a, const Node& b) {
+    if (wanted(a)) {
+      found_.push_back(locate(a, b));
+    } else {
+      falling_then_rising_.emplace_back(a, b);
+    }
   }
 
   [[nodiscard]] Node node(StepPoint at) const {
@@ -325,6 +345,7 @@ class Segment {
   double slight_turn_;
   int n_failed_ = 0;
   std::vector<SpecialPoint> found_;
+  std::vector<std::pair<Node, Node>> falling_then_rising_;  ///< of peaks alone
 };
 
 }  // namespace
@@ -334,7 +355,11 @@ std::vector<SpecialPoint> peaks_between(BranchWalker& walker, HarmonicBalance& b
 }
 
 std::vector<SpecialPoint> special_points(BranchWalker& walker, HarmonicBalance& balance) {
-  std::vector<SpecialPoint> found = peaks_between(walker, balance);
+  Segment peaks(walker, balance, PointMark::peak);
+  std::vector<SpecialPoint> found = peaks.search();
+  if (!found.empty()) {
+    for (SpecialPoint& valley : peaks.valleys()) found.push_back(std::move(valley));
+  }
   for (SpecialPoint& fold : Segment(walker, balance, PointMark::fold).search()) {
     found.push_back(std::move(fold));
   }
