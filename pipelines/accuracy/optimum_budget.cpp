@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -43,18 +44,26 @@ class Peaks {
 
 using Values = std::array<double, neighbours.size()>;
 
-/// The search has followed the peaks of these curves, and the best preload is not where a branch begins or ends that a
-/// sweep does not meet.
+/// A branch that a sweep does not meet begins or ends at the best preload: on one side of it the nearest curve that was
+/// traced whole has its highest peak on such a branch.
+bool is_beside_detached(const solver::Optimum& optimum) {
+  const auto is_told = [](const solver::PeakOfParameter& one) { return one.whole_curve; };
+  const auto& trace = optimum.trace;
+  const auto best =
+      std::ranges::find(trace, optimum.best.parameter, &solver::PeakOfParameter::parameter);
+  if (best == trace.end()) return false;
+  const auto after = std::find_if(best + 1, trace.end(), is_told);
+  const auto before = std::find_if(std::make_reverse_iterator(best), trace.rend(), is_told);
+  return (after != trace.end() && after->detached) || (before != trace.rend() && before->detached);
+}
+
+/// The search has followed the peaks of these curves.
 bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum) {
   constexpr double same = 0.01;   // at the best preload itself
   constexpr double nearly = 0.1;  // between values that were solved for
   const Peaks followed(optimum.trace);
   const double best = optimum.best.parameter;
-  for (std::size_t i = 0; i < optimum.trace.size(); ++i) {
-    if (optimum.trace[i].parameter != best) continue;
-    if (i > 0 && optimum.trace[i - 1].detached) return false;
-    if (i + 1 < optimum.trace.size() && optimum.trace[i + 1].detached) return false;
-  }
+  if (is_beside_detached(optimum)) return false;
   for (std::size_t i = 0; i < amplitudes.size(); ++i) {
     const double other = followed.at(neighbours[i] * best);
     if (!(std::abs(amplitudes[i] / other - 1.0) < (i == middle ? same : nearly))) return false;
