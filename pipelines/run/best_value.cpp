@@ -30,10 +30,11 @@ CurveBudget budget_of(const Solution& solution, const solver::Optimum& best, int
 void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& options,
                                    RunRecord& record) {
   const SceneDescription& scene = solution.scene;
-  // The search itself keeps little more than one core busy. Where time may run out it comes before its bracket;
-  // another number than the preload may need other modes, which one thread alone may ask for.
-  const bool beside = options.jobs > 1 && !std::isfinite(seconds_left()) &&
-                      scene.response->optimum->of_preload();
+  // The search itself keeps little more than one core busy. Where time may run out it comes before
+  // its bracket; another number than the preload may need other modes, which one thread alone may
+  // ask for.
+  const bool beside =
+      options.jobs > 1 && !std::isfinite(seconds_left()) && scene.response->optimum->of_preload();
   if (options.maps && !beside) {
     record.stage("maps");
     draw_maps(solution, options.jobs, record);
