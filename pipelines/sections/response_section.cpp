@@ -99,15 +99,7 @@ HarmonicSettings harmonics_in(const SectionReader& s) {
 }
 
 /// What time integration has no equations for would be dropped in silence.
-void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response,
-                               const HarmonicSettings& harmonics) {
-  if (harmonics.chosen()) {
-    s.fail(
-        "harmonics",
-        "\"auto\" chooses the equations of harmonic balance; a motion integrated in time has all "
-        "harmonics: give the number to be written, or method = \"harmonic_balance\"",
-        s.node("harmonics"));
-  }
+void refuse_choices_of_balance(const SectionReader& s, const ResponseDescription& response) {
   if (response.search_starts.value_or(0) > 0) {
     s.fail("search_starts",
            "looks for detached branches of harmonic balance; integration in time follows the "
@@ -161,10 +153,10 @@ PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {
 
 HarmonicSettings read_harmonics(const SectionReader& s, const ResponseDescription& response) {
   HarmonicSettings harmonics = harmonics_in(s);
-  if (response.method == ResponseDescription::Method::time) {
-    refuse_choices_of_balance(s, response, harmonics);
-  }
-  return harmonics;
+  if (response.method != ResponseDescription::Method::time) return harmonics;
+  refuse_choices_of_balance(s, response);
+  // A motion integrated in time has all harmonics: "auto" has none to choose, the number is of what is written.
+  return harmonics.chosen() ? HarmonicSettings{} : harmonics;
 }
 
 /// Range, method, preloads and maps: what scenes with a preload in newtons share.

@@ -227,7 +227,7 @@ TEST(AttachedModel, APeakIsTheSameWithAllModesAndWithTheMotionsThatThePatchHas) 
   ReducedModel model = model_with(mesh, scene);
   const Eigen::Index n = model.frequency.size();
   ASSERT_FALSE(model.coordinates.all_modes());
-  EXPECT_LE(model.coordinates.of_modes.rows(), n - 2);
+  EXPECT_LT(model.coordinates.of_modes.rows(), n);
   EXPECT_TRUE((model.coordinates.of_modes * model.coordinates.motion).isIdentity(1e-10));
   const solver::ResponsePoint few = peak_of(model, scene);
   EXPECT_GT(few.report.slip_share, 0.1);
@@ -236,8 +236,8 @@ TEST(AttachedModel, APeakIsTheSameWithAllModesAndWithTheMotionsThatThePatchHas) 
   const solver::ResponsePoint all = peak_of(model, scene);
   std::printf("%d of %d coordinates: %.3g of the peak\n", static_cast<int>(r), static_cast<int>(n),
               few.amplitude / all.amplitude - 1.0);
-  EXPECT_NEAR(few.amplitude, all.amplitude, 2e-4 * all.amplitude);
-  EXPECT_NEAR(few.frequency, all.frequency, 2e-5 * all.frequency);
+  EXPECT_NEAR(few.amplitude, all.amplitude, 2e-6 * all.amplitude);
+  EXPECT_NEAR(few.frequency, all.frequency, 2e-6 * all.frequency);
 }
 
 // Modes solved anew on the same mesh, cells and harmonics: as a scene file that says so.

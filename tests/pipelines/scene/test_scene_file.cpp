@@ -592,8 +592,6 @@ TEST(SceneFile, HarmonicsAreANumberAListOrChosen) {
 }
 
 TEST(SceneFile, ChoicesOfHarmonicBalanceAreRefusedForTimeIntegration) {
-  expect_complaint(complaint(modal_text, {"response.method=time", "response.harmonics=auto"}),
-                   {"response.harmonics", "harmonic_balance"});
   expect_complaint(complaint(modal_text, {"response.method=time", "response.search_starts=3"}),
                    {"response.search_starts", "harmonic_balance"});
   EXPECT_EQ(complaint(modal_text, {"response.method=time", "response.harmonics=9"}), "");
@@ -610,6 +608,14 @@ TEST(SceneFile, HarmonicsAreChosenWhereTheSceneDoesNotSay) {
     EXPECT_EQ(scene.settings.harmonics.tolerance, 0.0) << setting;
     EXPECT_NE(scene.complete_toml.find("harmonics = 1"), std::string::npos) << setting;
   }
+}
+
+TEST(SceneFile, TimeIntegrationHasNoHarmonicsToChoose) {
+  const SceneDescription said =
+      parse(modal_text, {"response.method=time", "response.harmonics=auto"});
+  EXPECT_EQ(said.settings.harmonics.highest, 1);
+  EXPECT_FALSE(said.settings.harmonics.chosen());
+  EXPECT_EQ(complaint(said.complete_toml), "");
 }
 
 TEST(BadScene, LawsOfContactTellWhatTheyMiss) {
