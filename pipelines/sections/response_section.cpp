@@ -155,7 +155,8 @@ HarmonicSettings read_harmonics(const SectionReader& s, const ResponseDescriptio
   HarmonicSettings harmonics = harmonics_in(s);
   if (response.method != ResponseDescription::Method::time) return harmonics;
   refuse_choices_of_balance(s, response);
-  // A motion integrated in time has all harmonics: "auto" has none to choose, the number is of what is written.
+  // A motion integrated in time has all harmonics: "auto" has none to choose, the number is of what
+  // is written.
   return harmonics.chosen() ? HarmonicSettings{} : harmonics;
 }
 
