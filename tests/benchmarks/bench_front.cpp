@@ -157,7 +157,7 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
   const bool plain = kind.surface(samples.points[0]).is_smooth() &&
                      !kind.surface(samples.points[0]).is_rate_dependent();
   const auto add_lanes = [&] {
-    for (int n = 64; n <= 4096; n *= 2) {
+    for (int n = 16; n <= 4096; n *= 2) {
       if (n >= 8 * (kind.n_harmonics + 1)) add("lanes", n, in_lanes(samples, kind, n));
     }
   };
