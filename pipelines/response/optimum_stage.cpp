@@ -132,11 +132,6 @@ solver::Optimum OptimumSearch::best() {
   if (const std::string text = warning(); !text.empty()) {
     optimum.notes.insert(optimum.notes.begin(), text);
   }
-  if (optimum.found) {
-    if (const std::string text = left_out(optimum.best); !text.empty()) {
-      optimum.warnings.push_back(text);
-    }
-  }
   return optimum;
 }
 
@@ -161,8 +156,10 @@ std::optional<solver::RicherPeak> OptimumSearch::richer_at(double value, int hig
   }
 }
 
-std::string OptimumSearch::left_out(const solver::PeakOfParameter& best) {
+std::string OptimumSearch::left_out(const solver::Optimum& optimum) {
   constexpr double worth_a_word = 0.02;
+  if (!optimum.found) return {};
+  const solver::PeakOfParameter& best = optimum.best;
   const int highest = harmonics_to_check(model_, scene_);
   if (highest == 0) return {};
   const auto here = richer_at(best.parameter, highest);

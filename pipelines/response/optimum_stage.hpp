@@ -32,6 +32,9 @@ class OptimumSearch {
   [[nodiscard]] std::string warning() const;
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at a value.
   [[nodiscard]] solver::Optimum best();
+  /// A warning of what harmonics beyond those given do to what best() has found, and to its neighbours; empty: little,
+  /// not checked, or nothing found.
+  [[nodiscard]] std::string left_out(const solver::Optimum& optimum);
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
   /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
   /// moves the best preload: the range is widened by as much, and the entry says so. Of more than three harmonics with
@@ -52,8 +55,6 @@ class OptimumSearch {
   [[nodiscard]] solver::OptimumOptions options_for(const Factors& factors) const;
   [[nodiscard]] solver::Optimum search(const Factors& factors, int jobs);
   [[nodiscard]] solver::Scene scene_at(double value, const Factors& factors);
-  /// What harmonics beyond those given do to the best value and its neighbours; empty: little, or not checked.
-  [[nodiscard]] std::string left_out(const solver::PeakOfParameter& best);
   [[nodiscard]] std::optional<solver::RicherPeak> richer_at(double value, int highest);
   [[nodiscard]] const ReducedModel& model_at(double value, double stiffness_factor);
   /// One task of the bracket.

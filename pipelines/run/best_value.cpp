@@ -61,8 +61,14 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   });
   if (failures[0]) std::rethrow_exception(failures[0]);
   // What the search has found is kept though maps or bracket have failed.
-  record.keep_optimum(solution.model, *scene.response->optimum, best,
-                      budget_of(solution, best, options.jobs));
+  CurveBudget budget;
+  std::string left_out;
+  in_parallel(2, beside ? 2 : 1, [&](std::size_t i) {
+    if (i == 0) budget = budget_of(solution, best, options.jobs);
+    if (i == 1 && !cut_short()) left_out = search.left_out(best);
+  });
+  if (!left_out.empty()) best.warnings.push_back(std::move(left_out));
+  record.keep_optimum(solution.model, *scene.response->optimum, best, budget);
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

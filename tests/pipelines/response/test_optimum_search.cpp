@@ -71,7 +71,9 @@ ReducedModel model_alone(const SceneDescription& scene) {
 Found search(const SceneDescription& scene, bool with_bracket = true, int jobs = 2) {
   const ReducedModel model = model_alone(scene);
   OptimumSearch search(model, scene, nullptr, jobs);
-  return {search.best(), with_bracket ? search.bracket(jobs) : OptimumBracket{}};
+  solver::Optimum best = search.best();
+  if (std::string text = search.left_out(best); !text.empty()) best.warnings.push_back(text);
+  return {std::move(best), with_bracket ? search.bracket(jobs) : OptimumBracket{}};
 }
 
 const solver::Optimum& entry(const Found& found, const std::string& parameter, double factor) {
