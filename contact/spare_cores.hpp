@@ -20,6 +20,8 @@ class CoreShare {
   explicit CoreShare(Kind kind);
   CoreShare(const CoreShare&) = delete;
   CoreShare& operator=(const CoreShare&) = delete;
+  CoreShare(CoreShare&&) = delete;
+  CoreShare& operator=(CoreShare&&) = delete;
   ~CoreShare();
 
  private:

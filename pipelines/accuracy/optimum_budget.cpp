@@ -125,8 +125,9 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
       if (!amplitudes.contains(source)) unknown.insert(source);
     }
   }
-  for (const auto& [source, effects] : amplitudes) {
-    const auto known = all_known(effects);
+  for (const auto& of_source : amplitudes) {
+    const std::string& source = of_source.first;
+    const auto known = all_known(of_source.second);
     if (!known) {
       unknown.insert(source);
       continue;
