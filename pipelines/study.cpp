@@ -2,6 +2,7 @@
 
 #include "contact/spare_cores.hpp"
 #include "fem/slepc_session.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/accurate_curves.hpp"
 #include "pipelines/run/best_value.hpp"
@@ -9,7 +10,6 @@
 #include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/model_stages.hpp"
 #include "pipelines/run/questions.hpp"
-#include "pipelines/run/run_record.hpp"
 #include "pipelines/run/solution_maps.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
+#include "pipelines/record/run_options.hpp"
 #include "pipelines/run/campbell_study.hpp"
 #include "pipelines/run/check_study.hpp"
 #include "pipelines/run/converge_study.hpp"
 #include "pipelines/run/mesh_study.hpp"
 #include "pipelines/run/report_study.hpp"
-#include "pipelines/run/run_options.hpp"
 
 namespace microslip::pipelines {
 

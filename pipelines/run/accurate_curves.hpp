@@ -3,7 +3,7 @@
 /// contributes most refined, until the bar of every peak is below the tolerance or the time is over.
 #pragma once
 
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 
 namespace microslip::pipelines {

@@ -3,8 +3,8 @@
 /// and how it moves with what is uncertain.
 #pragma once
 
-#include "pipelines/run/run_options.hpp"
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_options.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 
 namespace microslip::pipelines {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
-#include "pipelines/run/run_options.hpp"
+#include "pipelines/record/run_options.hpp"
 
 namespace microslip::pipelines {
 

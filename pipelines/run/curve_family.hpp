@@ -6,8 +6,8 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/run/run_record.hpp"
 
 namespace microslip::pipelines {
 

@@ -2,7 +2,7 @@
 /// Effects that `auto` has left out and that turn out to matter: simulated after all.
 #pragma once
 
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 
 namespace microslip::pipelines {

@@ -2,7 +2,7 @@
 /// The stages mesh, modes and contact of a run: what they give is kept as soon as it is there.
 #pragma once
 
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 
 namespace microslip::pipelines {

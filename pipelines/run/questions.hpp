@@ -12,8 +12,8 @@
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/record/progress.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/run/progress.hpp"
 
 namespace microslip::pipelines {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipelines/files/write_report.hpp"
-#include "pipelines/run/run_folder.hpp"
+#include "pipelines/record/run_folder.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/scene_error.hpp"
 

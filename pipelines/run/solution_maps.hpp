@@ -2,7 +2,7 @@
 /// The stage maps of a run.
 #pragma once
 
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 
 namespace microslip::pipelines {

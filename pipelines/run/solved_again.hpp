@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipelines/accuracy/refinement.hpp"
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 #include "pipelines/run/solution.hpp"
 #include "pipelines/system/temporary_folder.hpp"
 

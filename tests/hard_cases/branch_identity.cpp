@@ -19,7 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/force/patch_force.hpp"
-#include "pipelines/run/run_messages.hpp"
+#include "pipelines/record/run_messages.hpp"
 #include "solver/optimum.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/curves.hpp"

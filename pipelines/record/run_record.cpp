@@ -1,4 +1,4 @@
-#include "pipelines/run/run_record.hpp"
+#include "pipelines/record/run_record.hpp"
 
 #include <unistd.h>
 
@@ -25,10 +25,10 @@
 #include "pipelines/files/write_report.hpp"
 #include "pipelines/files/write_summary.hpp"
 #include "pipelines/files/write_vtk.hpp"
+#include "pipelines/record/run_folder.hpp"
+#include "pipelines/record/run_messages.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
 #include "pipelines/response/response_stage.hpp"
-#include "pipelines/run/run_folder.hpp"
-#include "pipelines/run/run_messages.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"

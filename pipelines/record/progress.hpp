@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/record/run_folder.hpp"
 #include "pipelines/response/run_results.hpp"
-#include "pipelines/run/run_folder.hpp"
 #include "pipelines/system/machine.hpp"
 
 namespace spdlog {

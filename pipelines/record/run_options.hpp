@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "pipelines/run/progress.hpp"
-#include "pipelines/run/run_folder.hpp"
+#include "pipelines/record/progress.hpp"
+#include "pipelines/record/run_folder.hpp"
 
 namespace microslip::pipelines {
 

@@ -1,6 +1,6 @@
 // A run folder: what stands there stays until its successor is whole, and what no run has written
 // stays.
-#include "pipelines/run/run_folder.hpp"
+#include "pipelines/record/run_folder.hpp"
 
 #include <gtest/gtest.h>
 

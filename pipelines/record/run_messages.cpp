@@ -1,4 +1,4 @@
-#include "pipelines/run/run_messages.hpp"
+#include "pipelines/record/run_messages.hpp"
 
 #include <algorithm>
 #include <cmath>

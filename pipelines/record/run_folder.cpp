@@ -1,4 +1,4 @@
-#include "pipelines/run/run_folder.hpp"
+#include "pipelines/record/run_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,4 +1,4 @@
-#include "pipelines/run/progress.hpp"
+#include "pipelines/record/progress.hpp"
 
 #include <fmt/core.h>
 #include <spdlog/logger.h>
