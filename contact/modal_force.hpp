@@ -91,7 +91,8 @@ class ModalForce {
   /// @param frequency  ω [rad/s].
   /// @return           derivatives by the rows asked for and by these alone: n = rows · n_modes.
   /// @throws std::invalid_argument  another number of modes than n_modes(), harmonics that the force does not know,
-  ///                                derivatives of more harmonics than the motion has, a workspace of another force.
+  ///                                derivatives of more harmonics than the motion has. Of forces that keep
+  ///                                anything there: a workspace of another.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency, const Asked& asked,
                                           Workspace& work) const;
 

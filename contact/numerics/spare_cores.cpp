@@ -48,6 +48,8 @@ class Helper {
   Helper() : thread_([this] { serve(); }) {}
   Helper(const Helper&) = delete;
   Helper& operator=(const Helper&) = delete;
+  Helper(Helper&&) = delete;
+  Helper& operator=(Helper&&) = delete;
   ~Helper() {
     set(State::ended);
     thread_.join();

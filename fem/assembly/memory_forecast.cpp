@@ -32,7 +32,7 @@ class Dissection {
       for (Eigen::Index e = 0; e < block.connectivity.rows(); ++e, ++element) {
         const auto nodes = block.connectivity.row(e);
         centres_.row(element) = mesh.nodes()(nodes.transpose(), Eigen::all).colwise().mean();
-        elements_.push_back({&block, e});
+        elements_.emplace_back(&block, e);
         for (const auto node : nodes) ++around_[static_cast<std::size_t>(node)];
       }
     }
@@ -62,7 +62,7 @@ class Dissection {
   };
 
   /// Orders the elements so that those of the first part come first. @return  how many.
-  std::size_t divide(std::span<Eigen::Index> elements, const Cut& cut) const {
+  [[nodiscard]] std::size_t divide(std::span<Eigen::Index> elements, const Cut& cut) const {
     const auto first =
         static_cast<std::ptrdiff_t>(cut.share * static_cast<double>(elements.size()));
     std::nth_element(elements.begin(), elements.begin() + first, elements.end(),
@@ -103,7 +103,7 @@ class Dissection {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
         const Cut cut{axis, share};
-        const double nodes = static_cast<double>(n_common(elements, divide(elements, cut)));
+        const auto nodes = static_cast<double>(n_common(elements, divide(elements, cut)));
         const double cost = nodes / (share * (1.0 - share));
         if (cost >= least) continue;
         least = cost;
@@ -113,7 +113,7 @@ class Dissection {
     return best;
   }
 
-  Eigen::Index longest_side(std::span<const Eigen::Index> elements) const {
+  [[nodiscard]] Eigen::Index longest_side(std::span<const Eigen::Index> elements) const {
     Eigen::RowVector3d lower = centres_.row(elements.front());
     Eigen::RowVector3d upper = lower;
     for (const Eigen::Index e : elements) {
@@ -183,7 +183,7 @@ constexpr double megabytes = 1e-6;
 /// Blocks of three in the upper half of K. A pair of nodes of one element is a pair of two others', near enough.
 double n_blocks(const mesh::Mesh& mesh) {
   constexpr double times = 0.55;
-  double n = static_cast<double>(mesh.n_nodes());
+  auto n = static_cast<double>(mesh.n_nodes());
   for (const mesh::ElementBlock& block : mesh.elements()) {
     const auto nodes = static_cast<double>(block.connectivity.cols());
     n += times * 0.5 * nodes * (nodes - 1.0) * static_cast<double>(block.connectivity.rows());

@@ -1,5 +1,6 @@
 #include "fem/petsc/conjugate_gradients.hpp"
 
+#include <array>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ constexpr const char* prefix = "microslip_iterative_";
 
 /// What only the data base of options can say of the levels.
 void set_options() {
-  const std::pair<const char*, const char*> options[] = {
+  constexpr std::array<std::pair<const char*, const char*>, 5> options{{
       {"mg_levels_ksp_type", "chebyshev"},
       {"mg_levels_ksp_max_it", "1"},  // more take fewer steps and more time
       // Aggregates of a node or two have no part in some rotations: zeros on the diagonals of
@@ -28,7 +29,7 @@ void set_options() {
       {"mg_levels_pc_type", "jacobi"},
       {"pc_gamg_threshold", "0.01"},  // what couples less does not join an aggregate
       {"pc_gamg_coarse_eq_limit", "1000"},
-  };
+  }};
   for (const auto& [name, value] : options) {
     check(PetscOptionsSetValue(nullptr, (std::string("-") + prefix + name).c_str(), value));
   }

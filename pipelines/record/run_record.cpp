@@ -197,6 +197,11 @@ void RunRecord::show_what_is_new() {
   shown_ = summary_.curves;
 }
 
+void RunRecord::maps_are_drawn() {
+  const std::lock_guard lock(mutex_);
+  show_what_is_new();
+}
+
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
   begin();
   show_stage();  // before the checkpoint says that the mesh is in its place

@@ -87,6 +87,8 @@ class RunRecord {
   /// A modal scene's scale is told as the total force it means.
   void keep_curve(const CurveResult& result, const ReducedModel& model);
   void keep_map(const ReducedModel& model, const NamedMap& map, std::size_t curve);
+  /// After all maps and motions that are drawn beside something else of their stage.
+  void maps_are_drawn();
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
   void keep_optimum(const ReducedModel& model, const OptimumRequest& request,

@@ -115,11 +115,9 @@ solver::Optimum OptimumSearch::search(const Factors& factors, int jobs) {
 std::string OptimumSearch::warning() const {
   const ResponseDescription& response = *scene_.response;
   if (response.method != ResponseDescription::Method::time) return "";
-  const HarmonicSettings& settings = scene_.settings.harmonics;
-  const std::string harmonics = settings.chosen() ? "chosen harmonics"
-                                : settings.highest == 1
-                                    ? "1 harmonic"
-                                    : fmt::format("harmonics up to {}", settings.highest);
+  const int highest = scene_.settings.harmonics.highest;
+  const std::string harmonics =
+      highest == 1 ? "1 harmonic" : fmt::format("harmonics up to {}", highest);
   return fmt::format(
       "response.optimum: searched by harmonic balance with {}, not by integration in time as the "
       "curves: "

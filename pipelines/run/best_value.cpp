@@ -46,7 +46,10 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   std::optional<OptimumBracket> bracket;
   std::vector<std::function<void()>> tasks{[&] { best = search.best(); }};
   if (beside && options.maps) {
-    tasks.emplace_back([&] { draw_maps(solution, options.jobs - 1, record); });
+    tasks.emplace_back([&] {
+      draw_maps(solution, options.jobs - 1, record);
+      record.maps_are_drawn();
+    });
   }
   if (beside && options.bracket && search.bracket_by_few()) {
     tasks.emplace_back([&] { bracket = search.bracket(options.jobs - 1); });

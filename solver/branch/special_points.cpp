@@ -21,8 +21,8 @@ constexpr int n_cubics = 4;
 // Places of one step where nothing solves the equations: where the branch turns back between its
 // ends, or where forces jump, as sampled ones may by 1e-5 of their scale. There each costs as much
 // as twenty that are solved.
-constexpr int most_failed = 12;  // one after the other
-constexpr int most_failed_of_sampled = 4;
+constexpr int most_failed = 12;            // one after the other
+constexpr int most_failed_of_sampled = 4;  // of one search: what is behind them stays unsolved
 constexpr double steep = 0.2;  // cosine of a tangent with the chord: a steeper one tells no slope
 // A slope that falls to this share of the ends' may change sign where the cubic is not the branch.
 constexpr double suspicious_slope = 0.3;

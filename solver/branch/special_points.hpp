@@ -31,7 +31,8 @@ struct SpecialPoint {
                                                       HarmonicBalance& balance);
 
 /// Peaks and folds, and where a peak and a valley lie between the two points, the valley too, unmarked: a peak is
-/// not lower than what comes before and after it. In the order of the branch. Their frequencies carry rounding error only, some 1e-13 relative.
+/// not lower than what comes before and after it. In the order of the branch. Their frequencies carry rounding error
+/// only, some 1e-13 relative.
 [[nodiscard]] std::vector<SpecialPoint> special_points(BranchWalker& walker,
                                                        HarmonicBalance& balance);
 

@@ -232,7 +232,7 @@ class Search {
   void keep_branch(NewtonResult start) {
     if (options_.frequency_begin == options_.frequency_end) {
       DetachedBranch branch;
-      branch.points.push_back(solved_point(*balance_, start));
+      branch.points.push_back(solved_point(*balance_, start, options_));
       curve_.detached.push_back(std::move(branch));
       return;
     }

@@ -209,7 +209,7 @@ ResponseCurve solve_at_frequency(const Scene& scene, double frequency,
   curve.iterations = start.iterations;
   curve.contact_evaluations = start.evaluations;
   if (start.solution) {
-    curve.points.push_back(solved_point(balance, *start.solution));
+    curve.points.push_back(solved_point(balance, *start.solution, options));
     curve.points.back().contact_evaluations = curve.contact_evaluations;
     curve.points.back().seconds = watch.seconds();
     curve.complete = true;
@@ -238,7 +238,7 @@ std::vector<ResponsePoint> points_at_frequency(const Scene& scene, const Respons
     newton.max_iterations = 30;
     const NewtonResult solution = solve_at(*balance, guess, frequency, newton);
     if (!solution.converged) return;
-    found.push_back(solved_point(*balance, solution));
+    found.push_back(solved_point(*balance, solution, options));
   };
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const ResponsePoint& b = curve.points[i];

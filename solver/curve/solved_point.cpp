@@ -5,8 +5,14 @@
 
 namespace microslip::solver {
 
-ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solution) {
+ResponsePoint solved_point(HarmonicBalance& balance, const NewtonResult& solution,
+                           const ContinuationOptions& options) {
   const double frequency = solution.point.parameter;
+  if (!options.judge_stability) {
+    StabilityReport slow = slow_flow_stability(balance, solution.evaluation.jacobian, frequency);
+    slow.stability = Stability::not_assessed;
+    return certified_point(balance, solution, frequency, slow);
+  }
   const auto stability =
       stability_in_time(balance, balance.harmonics(solution.point.x), frequency,
                         assess_stability(balance, solution.evaluation.jacobian, frequency),

@@ -166,20 +166,28 @@ ContinuationOptions PeakFamilies::range_with(int search_starts) const {
   return range;
 }
 
+void PeakFamilies::count(const ResponseCurve& curve) {
+  ++result_.n_curves;
+  result_.iterations += curve.iterations;
+  result_.contact_evaluations += curve.contact_evaluations;
+}
+
 void PeakFamilies::trace_ahead(const std::vector<double>& positions, int search_starts) {
   const ContinuationOptions range = range_with(search_starts);
   std::vector<std::pair<double, int>> keys;
   for (const double position : positions) {
     const auto known = curves_.find(position);
+    const std::pair key{position, range.search_starts};
     const bool traced =
         known != curves_.end() && known->second.search_starts >= range.search_starts;
-    if (!traced) keys.emplace_back(position, range.search_starts);
+    if (!traced && !ahead_.contains(key)) keys.push_back(key);
   }
   std::vector<ResponseCurve> curves(keys.size());
   options_.together(keys.size(), [&](std::size_t i) {
     curves[i] = trace_response(family_(parameter(keys[i].first)), range, until_stopped(range));
   });
   for (std::size_t i = 0; i < keys.size(); ++i) {
+    count(curves[i]);
     ahead_.insert_or_assign(keys[i], std::move(curves[i]));
   }
 }
@@ -193,10 +201,8 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
   if (ahead.empty() && range_.stop && range_.stop()) throw SearchStopped{};
   const ResponseCurve curve = ahead.empty() ? trace_response(scene, range, until_stopped(range))
                                             : std::move(ahead.mapped());
+  if (ahead.empty()) count(curve);
   if (curve.diagnosis == Diagnosis::interrupted) throw SearchStopped{};
-  ++result_.n_curves;
-  result_.iterations += curve.iterations;
-  result_.contact_evaluations += curve.contact_evaluations;
   if (!curve.complete)
     note(std::string("curve incomplete (") + to_string(curve.diagnosis) + ")", position);
   Curve kept{high_points(scene, curve, range_), curve.complete, range.search_starts};

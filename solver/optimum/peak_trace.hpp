@@ -121,6 +121,8 @@ class PeakFamilies {
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
   [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
+  /// What it has cost to trace, once.
+  void count(const ResponseCurve& curve);
   void trace_ahead(const std::vector<double>& positions, int search_starts);
   [[nodiscard]] ContinuationOptions range_with(int search_starts) const;
   const Curve& curve_at(double position, int search_starts);

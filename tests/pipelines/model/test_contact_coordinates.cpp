@@ -29,7 +29,7 @@ points = [
 frequency = [8, 12]
 )toml";
 
-TEST(ContactCoordinates, KeepTheMotionsThatTheResidualOfAllModesSees) {
+TEST(ContactCoordinates, KeepMotionsDownToAMillionthOfTheStiffness) {
   // What is left out is missing in the balance of its mode, and the residual told does not know.
   const SceneDescription scene = parse_scene(text, "scene.toml", "/nowhere", {});
   ReducedModel model = reduced_model(scene);

@@ -181,10 +181,12 @@ TEST(SpecialPoints, AHumpWhereAPointTurnsItsPhasesIsFoundEitherWay) {
 
 TEST(SpecialPoints, APeakIsNotLowerThanThePointsBesideIt) {
   // Its valley lies within the same step, whose other end is higher.
-  for (const unsigned seed : {141U, 402U, 116U, 138U}) {
+  for (const unsigned seed : {116U, 138U}) {
     SCOPED_TRACE(seed);
     const tests::RandomScene random = tests::wild_scene(seed);
     const auto points = trace_response(random.scene, random.options).points;
+    EXPECT_TRUE(std::ranges::any_of(
+        points, [](const ResponsePoint& one) { return one.mark == PointMark::peak; }));
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       if (points[i].mark != PointMark::peak) continue;
       const double rounding = 1e-12 * points[i].amplitude;

@@ -200,8 +200,15 @@ TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
     return tests::isola_scene(0.5 * (1.0 + (p - 1.0) * (p - 1.0)));
   };
   OptimumOptions options{.lower = 0.8, .upper = 1.3};
+  std::size_t n_ahead = 0;
+  options.together = [&](std::size_t n, const auto& task) {
+    n_ahead += n;
+    one_by_one(n, task);
+  };
   const Optimum best = minimise_peak(family, frequency_range(0.6, 1.4), options);
   EXPECT_TRUE(best.found) << best.message;
+  EXPECT_LE(n_ahead,
+            static_cast<std::size_t>(best.n_curves));  // those that no round has read count too
   EXPECT_TRUE(best.best.detached);
   EXPECT_NEAR(best.best.amplitude, 5.0, 1e-4);  // of the isola; the curve stays below 2
   EXPECT_NEAR(best.best.parameter, 1.0, 0.01);
