@@ -80,8 +80,7 @@ void add_instant(vtkDataSetAttributes& data, const contact::ContactMap& map, Eig
 }
 
 double in_degrees(double phase) {
-  constexpr double degree = std::numbers::pi / 180.0;
-  const double exact = phase / degree;
+  const double exact = phase * (180.0 / std::numbers::pi);
   const double rounded = std::round(exact * 1e6) / 1e6;  // 45, not 45.00000000000001
   return std::abs(rounded - exact) < 1e-9 ? rounded : exact;
 }

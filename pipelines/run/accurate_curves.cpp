@@ -44,7 +44,7 @@ std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * 
 
 std::string reached_text(const AccuracySummary& accuracy) {
   if (!std::isfinite(accuracy.reached)) {
-    const std::string text =
+    std::string text =
         fmt::format("asked for {}; what is reached is not known", percent_text(accuracy.asked));
     if (accuracy.not_known.empty()) return text;
     return fmt::format("{}: errors of {} could not be told", text,

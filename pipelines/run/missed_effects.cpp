@@ -47,6 +47,7 @@ SceneDescription with_effects(SceneDescription scene, const std::vector<MissedEf
 
 std::string names_of(const std::vector<MissedEffect>& missed) {
   std::vector<std::string> names;
+  names.reserve(missed.size());
   for (const MissedEffect& one : missed) {
     names.push_back(std::isinf(one.change) ? one.name + " (the highest peak is lost with it)"
                                            : fmt::format("{} ({:.2g} % of a highest peak)",

@@ -187,7 +187,7 @@ BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double fre
 
 Harmonics HarmonicBalance::contact_force(const Eigen::VectorXd& x, double frequency,
                                          int n_harmonics) {
-  if (!scene_.contact) return Harmonics(n_harmonics, scene_.n_modes());
+  if (!scene_.contact) return {n_harmonics, scene_.n_modes()};
   return scene_.contact->evaluate(harmonics(x), frequency, {.n_harmonics = n_harmonics}, *work_)
       .force;
 }

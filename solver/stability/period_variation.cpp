@@ -110,7 +110,7 @@ class PeriodVariation {
     const contact::GuardScale size{part.end.q.norm(), part.end.velocity.norm()};
     constexpr double nearby = 1e-6;  // of the motion: the point comes to rest there as well
     const double step = nearby * size.displacement;
-    const Eigen::VectorXd along = gradient(slider, part.end, step);
+    Eigen::VectorXd along = gradient(slider, part.end, step);
     if (part.memory.state[static_cast<std::size_t>(point)] != ContactState::separated) return along;
     const auto guard = [&](const ModalMotion& motion) {
       const TransientForce::Guards guards = contact_->guards_of(point, motion, part.memory, size);

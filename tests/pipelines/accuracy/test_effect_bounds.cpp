@@ -13,7 +13,7 @@ namespace {
 constexpr double tolerance = 0.02;
 
 EffectRecord left_out(const char* name, const char* objection = "") {
-  EffectRecord effect{.name = name, .setting = "auto", .simulated = Simulated::no};
+  EffectRecord effect{.name = name, .setting = "auto", .simulated = Simulated::no, .reason = ""};
   effect.objection = objection;
   return effect;
 }
