@@ -313,8 +313,7 @@ class Search {
     std::vector<double> values = edges();
     values.push_back(result_.best.parameter);
     std::ranges::sort(values);
-    const auto twice = std::ranges::unique(values);
-    values.erase(twice.begin(), twice.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     peaks_.prepare(values, options_.search_starts);
   }
 
@@ -323,6 +322,20 @@ class Search {
     if (options_.search_starts == 0) return true;
     return std::ranges::all_of(
         edges(), [&](double end) { return peaks_.confirm(end, options_.search_starts); });
+  }
+
+  /// What stands against the ends of the interval called as good.
+  void tell_open_ends() {
+    if (options_.search_starts == 0) return;
+    for (const double end : edges()) {
+      if (end == result_.best.parameter || !peaks_.is_cut_short(end)) continue;
+      const std::string open =
+          sentence("not settled at ", end) +
+          ", an end of the interval as good to 1 %: its curve is incomplete and "
+          "may have a higher peak";
+      result_.message += "; " + open;
+      result_.warnings.push_back(open);
+    }
   }
 
   void search_edges() {
@@ -428,6 +441,7 @@ class Search {
     if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
       result_.message += "; the largest amplitude lies at an end of the frequency range";
     }
+    tell_open_ends();
     return std::move(result_);
   }
 

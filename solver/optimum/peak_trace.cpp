@@ -70,6 +70,7 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
   std::vector<double> checks;
   checks.reserve(static_cast<std::size_t>(options_.n_checks));
+  checks.reserve(static_cast<std::size_t>(options_.n_checks));
   for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
   PeakWork work;
   range_ = with_common_harmonics(family_, checks, choosing_, work);
@@ -458,8 +459,14 @@ bool PeakFamilies::confirm(double parameter, int search_starts) {
   return confirmed;
 }
 
+bool PeakFamilies::is_cut_short(double parameter) const {
+  const auto curve = curves_.find(known_position(parameter));
+  return curve != curves_.end() && !curve->second.complete;
+}
+
 void PeakFamilies::prepare(const std::vector<double>& parameters, int search_starts) {
   std::vector<double> positions;
+  positions.reserve(parameters.size());
   for (const double parameter : parameters) positions.push_back(known_position(parameter));
   trace_ahead(positions, search_starts);
 }

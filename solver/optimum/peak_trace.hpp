@@ -93,6 +93,8 @@ class PeakFamilies {
   /// missing are followed from here on.
   /// @param search_starts  of a search for detached branches there, beside what the options ask for.
   bool confirm(double parameter, int search_starts = 0);
+  /// Whether a curve was traced there, and ended before the whole range was.
+  [[nodiscard]] bool is_cut_short(double parameter) const;
   /// Traces the curves that confirm() will ask for, together.
   void prepare(const std::vector<double>& parameters, int search_starts);
 

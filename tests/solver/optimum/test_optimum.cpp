@@ -4,14 +4,19 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <memory>
 #include <numbers>
+#include <numeric>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/solver/humped_damping.hpp"
 #include "tests/support/curves.hpp"
+#include "tests/support/full_force.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -215,6 +220,53 @@ TEST(MinimisePeak, CountsSolutionsBesideTheCurveAtTheBestValueUnasked) {
   EXPECT_FALSE(best.warnings.empty());
   options.search_starts = 0;
   EXPECT_LT(minimise_peak(family, frequency_range(0.6, 1.4), options).best.amplitude, 2.0);
+}
+
+/// A contact that nobody knows above a frequency.
+class KnownBelow final : public tests::FullForce {
+ public:
+  KnownBelow(std::unique_ptr<const contact::ModalForce> force, double limit)
+      : FullForce(force->n_modes()), force_(std::move(force)), limit_(limit) {}
+  [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override {
+    return force_->stuck_stiffness();
+  }
+  [[nodiscard]] contact::CycleReport report(const contact::Harmonics& q, double frequency,
+                                            Workspace& /*work*/) const override {
+    return force_->report(q, frequency, *force_->workspace());
+  }
+  [[nodiscard]] contact::ForceAndJacobian by_all(const contact::Harmonics& q,
+                                                 double frequency) const override {
+    std::vector<Eigen::Index> all(static_cast<std::size_t>(q.rows().rows()));
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
+    contact::ForceAndJacobian result =
+        force_->evaluate(q, frequency, {.rows = all}, *force_->workspace());
+    if (frequency > limit_) {
+      result.force.vector().setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return result;
+  }
+
+ private:
+  std::unique_ptr<const contact::ModalForce> force_;
+  double limit_;
+};
+
+TEST(MinimisePeak, SaysWhereAnEndOfTheIntervalIsNotSettled) {
+  const Optimum known = minimise_peak(rubbing, range(), preloads(0.1, 10.0));
+  ASSERT_TRUE(known.found) << known.message;
+  EXPECT_EQ(known.message.find("not settled"), std::string::npos) << known.message;
+  // The peaks stay below 1.75; the upper end of the interval has no solution above 2.
+  const auto family = [&](double preload) {
+    Scene scene = rubbing(preload);
+    if (preload > 1.003 * known.best.parameter && preload < 1.5 * known.best.parameter) {
+      scene.contact = std::make_unique<KnownBelow>(std::move(scene.contact), 2.0);
+    }
+    return scene;
+  };
+  const Optimum open = minimise_peak(family, range(), preloads(0.1, 10.0));
+  EXPECT_NEAR(open.best.parameter, known.best.parameter, 1e-3 * known.best.parameter);
+  EXPECT_NE(open.message.find("not settled at "), std::string::npos) << open.message;
+  EXPECT_EQ(open.warnings.size(), known.warnings.size() + 1);
 }
 
 TEST(MinimisePeak, OfCurvesTracedTogetherIsTheSameToTheLastBit) {
