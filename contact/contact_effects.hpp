@@ -9,6 +9,7 @@ struct ContactEffects {
   int n_harmonics = 1;            ///< highest that may occur
   bool normal_motion = true;      ///< false: the load stays that of rest, whatever the approach
   bool second_direction = false;  ///< friction along r beside p
+  bool located = false;           ///< events are located of points that would else be sampled
   double motion_ratio = 0.0;      ///< motion along r against that along p in the linear limits [-]
 
   /// The normal stiffness that is simulated. @param given  [N/m³].

@@ -35,6 +35,7 @@ enum class Remedy : std::uint8_t {
   homotopy,         ///< the same from a linear limit
   other_branch,     ///< the same, on another one
   other_end,        ///< the curve is that from the end of the range
+  located_events,   ///< the whole curve traced again, events located in place of sampled forces
   harmonics_kept,   ///< the choice of harmonics did not settle
   peak_unsolved,  ///< there is one, of which the nearest point found is marked, within the step in which it lies
   fold_unsolved  ///< likewise
@@ -72,6 +73,7 @@ inline constexpr std::array remedies{
     Name<Remedy>{Remedy::homotopy, "homotopy"},
     Name<Remedy>{Remedy::other_branch, "other-branch"},
     Name<Remedy>{Remedy::other_end, "other-end"},
+    Name<Remedy>{Remedy::located_events, "located-events"},
     Name<Remedy>{Remedy::harmonics_kept, "harmonics-kept"},
     Name<Remedy>{Remedy::peak_unsolved, "peak-unsolved"},
     Name<Remedy>{Remedy::fold_unsolved, "fold-unsolved"},

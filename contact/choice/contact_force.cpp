@@ -48,7 +48,9 @@ Eigen::Index n_points(std::span<const Patch> patches) {
 }
 
 Method method_for(std::span<const Patch> patches, const ContactEffects& effects) {
-  return contact::method_for(n_points(patches), are_plain(patches, effects), effects.n_harmonics);
+  const Method method =
+      contact::method_for(n_points(patches), are_plain(patches, effects), effects.n_harmonics);
+  return method == Method::lanes && effects.located ? Method::point_methods : method;
 }
 
 int instants_for(std::span<const Patch> patches, const ContactEffects& effects) {

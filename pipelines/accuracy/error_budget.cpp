@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "contact/contact_force.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "solver/richer_peak.hpp"
@@ -99,15 +98,10 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
   }
 }
 
-/// What the certificates of the peak tell: the balance of energy of how far Newton's method went, the two counts of
-/// friction's work of how well the cycle is sampled.
-void add_certificates(CurveBudget& budget, const ReducedModel& model, const CurveResult& result,
-                      const solver::ResponsePoint& peak) {
+/// How far Newton's method went: the balance of energy of the peak.
+void add_certificate(CurveBudget& budget, const CurveResult& result,
+                     const solver::ResponsePoint& peak) {
   add_rows(budget, result.name, "newton", {peak.energy_imbalance, 0.0}, ErrorKind::estimated, 0.0);
-  if (contact::is_sampled(model.patches, model.effects)) {
-    add_rows(budget, result.name, "instants", {peak.dissipation_mismatch, 0.0},
-             ErrorKind::estimated, 0.0);
-  }
 }
 
 /// Of one source and goal, over all curves that know it.
@@ -169,7 +163,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     }
     add_model(budget, model, scene, other, result, *load);
   }
-  add_certificates(budget, model, result, *peak);
+  add_certificate(budget, result, *peak);
   return budget;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact/contact_force.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -56,6 +57,13 @@ std::optional<RicherModel> with_second_direction(const ReducedModel& model,
   }
 }
 
+/// Events located in place of forces sampled in time, and every motion of the patch.
+RicherModel with_located_events(const ReducedModel& model) {
+  RicherModel richer{"instants", model};
+  richer.model.effects.located = true;
+  return richer;
+}
+
 /// @return empty: the degree was given, so that no more shapes are at hand.
 std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
                                             const SceneDescription& scene,
@@ -83,7 +91,6 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
                            const SolvedStructure* structure,
                            const std::vector<std::string>& sources) {
   RicherModels result;
-  if (structure == nullptr || model.patches.empty()) return result;
   const auto asked = [&](const char* source) {
     return sources.empty() || std::ranges::find(sources, source) != sources.end();
   };
@@ -94,6 +101,10 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
       result.unknown.emplace_back(source);
     }
   };
+  if (asked("instants") && contact::is_sampled(model.patches, model.effects)) {
+    result.models.push_back(with_located_events(model));
+  }
+  if (structure == nullptr || model.patches.empty()) return result;
   if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
   if (asked("fit") && is_fitted(scene)) {
     result.models.push_back(with_patches("fit", model, scene, *structure,

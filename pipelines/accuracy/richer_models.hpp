@@ -30,7 +30,7 @@ struct RicherModels {
   std::string note;                  ///< why, where something failed; for the log
 };
 
-/// Cells (four times as many), fit (the finite elements' own shapes), basis (tractions of one degree more),
+/// Instants (events located in place of sampled forces), cells (four times as many), fit (the finite elements' own shapes), basis (tractions of one degree more),
 /// second_direction (friction along r) and mesh (coarser_mesh.hpp): those the scene has.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
 /// @param sources    the only ones asked for; empty: all.

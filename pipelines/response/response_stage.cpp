@@ -1,6 +1,7 @@
 #include "pipelines/response/response_stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -282,6 +283,9 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   if (curve.diagnosis == solver::Diagnosis::interrupted || interrupt_requested() || cut_short())
     return;
   model.effects.n_harmonics = highest;
+  model.effects.located = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::located_events;
+  });
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   options.judge_stability = false;
@@ -293,6 +297,78 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
     trace_about_peak(model, load, options, result);
   }
 }
+
+namespace {
+
+/// Points that take so many evaluations, one after the other, that their steps are cut by noise.
+class DearPoints {
+ public:
+  /// @return whether it has come to that.
+  bool add(const solver::ResponsePoint& point) {
+    constexpr std::size_t in_a_row = 40;
+    constexpr long usual = 30;  // six, or twelve among many folds
+    evaluations_.push_back(point.contact_evaluations);
+    sum_ += point.contact_evaluations;
+    if (evaluations_.size() <= in_a_row) return false;
+    sum_ -= evaluations_[evaluations_.size() - 1 - in_a_row];
+    met_ = met_ || sum_ > usual * static_cast<long>(in_a_row);
+    return met_;
+  }
+  [[nodiscard]] bool met() const { return met_; }
+
+ private:
+  std::vector<long> evaluations_;
+  long sum_ = 0;  // of the last
+  bool met_ = false;
+};
+
+/// A branch that did not reach its end, or whose peaks and folds cannot be found.
+bool walked_on_noise(const solver::ResponseCurve& curve) {
+  using solver::Diagnosis;
+  constexpr std::array ends{Diagnosis::out_of_range, Diagnosis::unbounded, Diagnosis::interrupted};
+  if (!curve.complete) return std::ranges::find(ends, curve.diagnosis) == ends.end();
+  constexpr auto most_unsolved = 2;
+  return std::ranges::count_if(curve.log, [](const solver::SolverEvent& event) {
+           return event.remedy == solver::Remedy::peak_unsolved ||
+                  event.remedy == solver::Remedy::fold_unsolved;
+         }) > most_unsolved;
+}
+
+/// The curve under a load, or the point at the only frequency. Forces sampled in time are not smooth where points stick
+/// for less than the time between two instants: a branch that a few such points lead folds where no fold is, and goes
+/// on in ever shorter steps. It is traced again with every event located.
+solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescription& scene,
+                                     double load, const solver::ContinuationOptions& options,
+                                     const solver::PointObserver& observe) {
+  if (options.frequency_begin == options.frequency_end) {
+    return solver::solve_at_frequency(balanced_scene(model, load, options), options.frequency_begin,
+                                      options);
+  }
+  const bool sampled = contact::is_sampled(model.patches, model.effects);
+  DearPoints dear;
+  solver::ResponseCurve curve = solver::trace_response(
+      balanced_scene(model, load, options), options,
+      [&](const auto& point) { return !(sampled && dear.add(point)) && observe(point); });
+  if (!sampled || !(dear.met() || walked_on_noise(curve))) return curve;
+  ReducedModel located = model;
+  located.effects.located = true;
+  solver::ContinuationOptions exact = continuation_options(scene, located);
+  exact.search_starts = options.search_starts;
+  exact.near_begin = options.near_begin;
+  solver::ResponseCurve again =
+      solver::trace_response(balanced_scene(located, load, exact), exact,
+                             [](const auto&) { return !interrupt_requested() && !cut_short(); });
+  if (!again.complete && curve.complete) return curve;
+  again.log.insert(again.log.begin(),
+                   {curve.points.empty() ? options.frequency_begin : curve.points.back().frequency,
+                    solver::Remedy::located_events});
+  again.contact_evaluations += curve.contact_evaluations;
+  again.iterations += curve.iterations;
+  again.seconds += curve.seconds;
+  return again;
+}
+
+}  // namespace
 
 CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                         const CurveRequest& request, const solver::PointObserver& observe,
@@ -335,10 +411,7 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
       near->points.front().frequency == options.frequency_begin) {
     options.near_begin = near->points.front().q;
   }
-  const solver::Scene problem = balanced_scene(model, load, options);
-  result.curve = options.frequency_begin == options.frequency_end
-                     ? solver::solve_at_frequency(problem, options.frequency_begin, options)
-                     : solver::trace_response(problem, options, observe);
+  result.curve = balanced_curve(model, scene, load, options, observe);
   const double highest =
       result.curve.points.empty() ? 0 : result.curve.points.front().q.n_harmonics();
   tell_shapes_resonate(model.frequency, model.n_attachment, highest, result.curve);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs the Debian packages microslip needs, those only that are missing. Safe to run again.
 #
-#   share/scripts/setup.sh [--tests | --tidy | --fuzz | --coverage]     --tests: also what the tests alone need
-#                                                                       others: what tidy.sh, fuzz.sh, coverage.sh need
+#   share/scripts/setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers]     --tests: also what the tests alone need
+#                                                                       others: what tidy.sh, fuzz.sh, … need
 #
 # Works as root or with sudo; says what it does.
 set -eu
@@ -23,8 +23,9 @@ case "${1:-}" in
   --tests) wanted="$wanted $test_programs" ;;
   --tidy) wanted="$wanted clang-tidy" ;;
   --fuzz) wanted="$wanted clang libclang-rt-dev" ;;
+  --compilers) wanted="$wanted clang" ;;
   --coverage) wanted="$wanted $test_programs gcovr" ;;
-  *) echo "usage: setup.sh [--tests | --tidy | --fuzz | --coverage]" >&2; exit 1 ;;
+  *) echo "usage: setup.sh [--tests | --tidy | --fuzz | --coverage | --compilers]" >&2; exit 1 ;;
 esac
 
 is_installed() {

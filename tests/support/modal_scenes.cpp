@@ -8,6 +8,7 @@
 #include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
+#include "contact/sampled/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
 
 namespace microslip::tests {
@@ -214,6 +215,16 @@ void use_event_cycles(solver::Scene& scene) {
   }
   scene.contact = std::make_unique<contact::PointMethodForce>(patch.patch().weights(),
                                                               std::move(laws), patch.shapes());
+}
+
+void use_lanes(solver::Scene& scene, int instants) {
+  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  std::vector<contact::SurfaceLaw> surfaces;
+  for (const contact::PointParameters& point : patch.patch().points()) {
+    surfaces.emplace_back(point, 0.0);
+  }
+  scene.contact = std::make_unique<contact::sampled::PatchForce>(
+      patch.patch().weights(), std::move(surfaces), patch.shapes(), instants);
 }
 
 }  // namespace microslip::tests

@@ -37,5 +37,8 @@ void add_transient(solver::Scene& scene);
 /// number of harmonics.
 /// @throws std::bad_cast  the contact is not a PatchForce.
 void use_event_cycles(solver::Scene& scene);
+/// Replaces it by the same points sampled in lanes.
+/// @throws std::bad_cast  the contact is not a PatchForce.
+void use_lanes(solver::Scene& scene, int instants);
 
 }  // namespace microslip::tests

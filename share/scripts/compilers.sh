@@ -1,0 +1,27 @@
+#!/bin/sh
+# Builds contact and solver with GCC and Clang, at -O0 and -O3 each, and compares what the same scenes answer at fixed
+# frequencies (tests/hard_cases/print_solutions.cpp). Fails where two of them differ by more than 1e-9 of the largest
+# amplitude of a curve, or find another number of solutions. Some minutes.
+#
+#   share/scripts/compilers.sh     MICROSLIP_COMPILERS_BUILD: the folder, build/compilers by default
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+"$root/share/scripts/setup.sh" --compilers
+build="${MICROSLIP_COMPILERS_BUILD:-$root/build/compilers}"
+
+make_and_run() { # name, compiler, options
+  folder="$build/$1"
+  mkdir -p "$folder"
+  cmake -G Ninja -S "$root" -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$2" \
+    -DCMAKE_CXX_FLAGS_RELEASE="$3" -DMICROSLIP_WITH_FEM=OFF -DBUILD_TESTING=ON \
+    >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; exit 1; }
+  echo "compilers: $2 $3"
+  ninja -C "$folder" print_solutions >"$folder/build.log" 2>&1 || { grep -v '^\[' "$folder/build.log" >&2; exit 1; }
+  "$folder/bin/print_solutions" >"$folder/solutions.txt"
+}
+
+make_and_run gcc_O3 g++ "-O3 -DNDEBUG"
+make_and_run gcc_O0 g++ "-O0"
+make_and_run clang_O3 clang++ "-O3 -DNDEBUG"
+make_and_run clang_O0 clang++ "-O0"
+exec python3 "$root/tests/hard_cases/compare_solutions.py" "$build"/gcc_O3 "$build"/gcc_O0 "$build"/clang_O3 "$build"/clang_O0
