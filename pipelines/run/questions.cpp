@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -253,6 +257,45 @@ Findings distance_of_points(const Facts& facts) {
   return findings;
 }
 
+/// Names of the mesh in the scene, each with its first key.
+std::map<std::string, std::string> names_used(const SceneDescription& scene) {
+  std::map<std::string, std::string> keys;
+  for (const ContactDescription& contact : scene.contacts) {
+    keys.emplace(contact.surface, contact.key + ".surface");
+  }
+  for (const std::string& name : scene.clamped) keys.emplace(name, "supports.clamped");
+  for (const ForceDescription& force : scene.forces) keys.emplace(force.at, "excitation.forces");
+  for (const ForceDescription& force : scene.static_loads.forces) {
+    keys.emplace(force.at, "static.forces");
+  }
+  for (const PressureDescription& entry : scene.static_loads.pressures) {
+    keys.emplace(entry.surface, "static.pressure");
+  }
+  if (scene.response) keys.emplace(scene.response->output.at, "response.output");
+  return keys;
+}
+
+/// A surface and a node set of one name are two things where their nodes differ.
+Findings two_of_one_name(const Facts& facts) {
+  const mesh::Mesh& mesh = *facts.mesh;
+  const std::vector<std::string> surfaces = mesh.surface_names();
+  Findings findings;
+  for (const auto& [name, key] : names_used(facts.scene)) {
+    const auto set = mesh.node_sets().find(name);
+    if (set == mesh.node_sets().end() || set->second.empty()) continue;
+    if (std::ranges::count(surfaces, name) == 0) continue;
+    const std::vector<Eigen::Index>& on_surface = mesh.surface(name).nodes;
+    const std::set<Eigen::Index> a(on_surface.begin(), on_surface.end());
+    const std::set<Eigen::Index> b(set->second.begin(), set->second.end());
+    std::vector<Eigen::Index> apart;
+    std::ranges::set_symmetric_difference(a, b, std::back_inserter(apart));
+    findings.push_back({key, static_cast<double>(apart.size()),
+                        fmt::format("of surface \"{}\" ({} nodes) and node set \"{}\" ({} nodes)",
+                                    name, a.size(), name, b.size())});
+  }
+  return findings;
+}
+
 // What the modes say -----------------------------------------------------------------------------
 
 /// Natural frequencies of the two linear limits [Hz], ascending, as many of each.
@@ -387,6 +430,11 @@ constexpr std::array table{
              "is the preload in newtons, the mesh in its unit?", pressure},
     Question{Stage::mesh, "the nearest node is", "% of an element", 0.0, 100.0, "",
              "is the point on the body, and in the axes of the mesh?", distance_of_points},
+    Question{
+        Stage::mesh, "the number of nodes that are not in both", "", 0.0, 0.0, "",
+        "a contact and a pressure take the surface, supports, forces and output the set; rename "
+        "one of them in the file if that is not what you mean",
+        two_of_one_name},
     Question{Stage::modes, "the frequency range reaches", "%", 0.0, 150.0, "",
              "modes beyond the last are left out; raise modes.count or lower the range",
              range_beyond_modes},

@@ -134,15 +134,20 @@ def _write_inp_surface(mesh, name, file):
     file.writelines(f"_{name}_S{face}, S{face}\n" for face in by_face)
 
 
-def write_bdf(mesh, path, held=(), pressed=()):
-    """@param held  surfaces that become SPC1, from 1. @param pressed  surfaces that become PLOAD4, from 1.
-    Points become the sets 1, 2, … of the case control."""
+def write_bdf(mesh, path, held=(), pressed=(), n_modes=None, title="written by a test",
+              material="2.1+11          .3      7800."):
+    """@param held  surfaces or sets of nodes that become SPC1, from 1. @param pressed  surfaces that become PLOAD4, from 1.
+    @param n_modes  that EIGRL asks for. Points become the sets 1, 2, … of the case control."""
     names = {"tetra": "CTETRA", "hexahedron": "CHEXA", "wedge": "CPENTA", "pyramid": "CPYRAM"}
     with open(path, "w", encoding="utf-8") as file:
-        file.write("SOL 103\nCEND\nTITLE = written by a test\n")
+        file.write(f"SOL 103\nCEND\nTITLE = {title}\n")
+        if n_modes:
+            file.write("METHOD = 1\nVECTOR(PUNCH)=ALL\n")
         for number, nodes in enumerate(mesh.points.values(), 1):
             file.write(f"SET {number} = {', '.join(str(node + 1) for node in nodes)}\n")
-        file.write("SUBCASE 1\n  SPC = 1\nBEGIN BULK\n$ comment\nMAT1    1       2.1+11          .3      7800.\n")
+        file.write(f"SUBCASE 1\n  SPC = 1\nBEGIN BULK\n$ comment\nMAT1    1       {material}\n")
+        if n_modes:
+            file.write(f"EIGRL   {1:8d}{'':16}{n_modes:8d}\n")
         for number, place in enumerate(mesh.nodes, 1):
             x, y, z = (f"{value:16.9E}".replace("E", "D") for value in place)
             file.write(f"GRID*   {number:16d}{'':16}{x}{y}*\n*       {z}\n")
@@ -154,7 +159,7 @@ def write_bdf(mesh, path, held=(), pressed=()):
                 for i, part in enumerate(_lines_of(words[1:], 8)):
                     file.write(f"{words[0] if i == 0 else '+':8}" + "".join(f"{word:>8}" for word in part) + "\n")
         for number, name in enumerate(held, 1):
-            words = [str(node + 1) for node in mesh.nodes_of(name)]
+            words = [str(node + 1) for node in mesh.points.get(name) or mesh.nodes_of(name)]
             file.write(f"SPC1,{number},123," + ",".join(words[:6]) + "\n")
             file.writelines("+," + ",".join(part) + "\n" for part in _lines_of(words[6:], 8))
         for number, name in enumerate(pressed, 1):
@@ -214,7 +219,7 @@ def write_med(mesh, path):
     meshio.write(path, given, "med")
 
 
-def add_med_modes(path, name, frequencies, shapes):
+def add_med_modes(path, name, frequencies, shapes, compression=None):
     """A field of displacements in a .med file as IMPR_RESU of Code_Aster writes that of a MODE_MECA: a step for each mode,
     its time the frequency; values component after component."""
     import h5py
@@ -232,20 +237,21 @@ def add_med_modes(path, name, frequencies, shapes):
             nodes.attrs["GAU"], nodes.attrs["PFL"] = np.bytes_(""), np.bytes_("MED_NO_PROFILE_INTERNAL")
             profile = nodes.create_group("MED_NO_PROFILE_INTERNAL")
             profile.attrs["NBR"], profile.attrs["NGA"] = len(shape), 1
-            profile.create_dataset("CO", data=np.asarray(shape, dtype=float).T.ravel())
+            profile.create_dataset("CO", data=np.asarray(shape, dtype=float).T.ravel(), compression=compression)
 
 
-def write_punch(path, frequencies, shapes, nodes=None):
+def write_punch(path, frequencies, shapes, nodes=None, title="WRITTEN BY A TEST", with_scalar_point=True):
     """Real eigenvectors as Nastran punches them; node numbers from 1 in the order of the shapes, or as given."""
     lines = []
     for mode, (frequency, shape) in enumerate(zip(frequencies, shapes), 1):
-        lines += ["$TITLE   = WRITTEN BY A TEST", "$SUBTITLE=", "$LABEL   =", "$EIGENVECTOR", "$REAL OUTPUT",
+        lines += [f"$TITLE   = {title}", "$SUBTITLE=", "$LABEL   =", "$EIGENVECTOR", "$REAL OUTPUT",
                   f"$SUBCASE ID ={1:12d}", f"$EIGENVALUE ={(2 * np.pi * frequency) ** 2:15.7E}  MODE ={mode:6d}"]
         for node, u in zip(nodes if nodes is not None else range(1, len(shape) + 1), shape):
             lines += [f"{node:10d}       G" + "".join(f"{value:18.6E}" for value in u),
                       f"{'-CONT-':18}" + "".join(f"{0.0:18.6E}" for _ in range(3))]
-        lines += [f"{90000:10d}       S" + "".join(f"{value:18.6E}" for value in (1.0, 0.0, 0.0)),
-                  f"{'-CONT-':18}" + "".join(f"{0.0:18.6E}" for _ in range(3))]
+        if with_scalar_point:
+            lines += [f"{90000:10d}       S" + "".join(f"{value:18.6E}" for value in (1.0, 0.0, 0.0)),
+                      f"{'-CONT-':18}" + "".join(f"{0.0:18.6E}" for _ in range(3))]
     with open(path, "w", encoding="ascii") as file:
         file.writelines(f"{line:72}{number:8d}\n" for number, line in enumerate(lines, 1))
 

@@ -147,7 +147,18 @@ class GivenModes(unittest.TestCase):
             for mode, (frequency, shape) in enumerate(zip(self.arrays["frequency_Hz"], self.arrays["shapes"]), 1):
                 for node, (place, u) in enumerate(zip(self.arrays["nodes"], shape), 1):
                     rows.writerow((mode, repr(float(frequency)), node, *map(float, place), *map(float, u)))
-        self.compare("csv", result_of("csv", given(path("modes.csv"), 'mass_unit = "kg"')), self.none, SOLVED)
+        model = given(path("modes.csv"), 'mass_unit = "kg"')
+        self.compare("csv", result_of("csv", model), self.none, SOLVED)
+        with open(path("modes.csv"), encoding="utf-8") as stream:
+            lines = stream.readlines()
+
+        def cut(n_lines, modes=""):
+            with open(path("modes.csv"), "w", encoding="utf-8") as stream:
+                stream.writelines(lines[:n_lines])
+            return refusal(model, modes)
+
+        self.assertIn("mode 6, the last one, has 119 rows, mode 1 has 127: the table was cut off", cut(len(lines) - 8))
+        self.assertIn("modes.count: 6 modes are asked for", cut(1 + 5 * 127, "count = 6"))  # what else a table says of its end
 
     def on_mesh(self):
         """Modes in the order of the nodes of the .msh file."""
@@ -223,6 +234,16 @@ class GivenModes(unittest.TestCase):
 
         per_mode = len(lines) // 6
         self.assertIn("mode 6 has displacements at 120 nodes, mode 1 at 127: the file was cut off", told(lines[:-16]))
+        asked = deck.replace("BEGIN BULK\n", "BEGIN BULK\nEIGRL,1,,,6\n")
+        five = lines[:5 * per_mode]
+        self.assertIn("punched.pch: 5 modes are there, EIGRL of ", told(five, asked))
+        for other in (asked.replace(",,,6", ",,2000.,6"), asked.replace(",,,6", ",,,5"),  # a highest frequency makes them fewer
+                      asked.replace("SUBCASE 1", "SUBCASE 1\n  METHOD = 2").replace("EIGRL,1", "EIGRL,2,,,5\nEIGRL,1"), deck):
+            for file, text in (("punched.pch", "".join(five)), ("punched.bdf", other)):
+                with open(path(file), "w", encoding="ascii") as stream:
+                    stream.write(text)
+            finished = subprocess.run([PROGRAM, "check", scene("five")], capture_output=True, text=True)
+            self.assertEqual(finished.returncode, 0, finished.stderr)
         self.assertIn("expected a number, found \"\": was the file cut off?", told([*lines[:-4], lines[-4][:40]]))
         self.assertIn("mode 3 where mode 2 is expected: one is missing", told(lines[:per_mode] + lines[2 * per_mode:]))
         self.assertIn("there are no modes in it", told(lines[:4]))

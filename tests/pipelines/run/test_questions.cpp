@@ -235,6 +235,27 @@ TEST(Questions, AskForSlipAlongTheNormalPressureAndPoints) {
                   "--set points.P=[0.01, 0.02, 0.15]: points.P:", {"0.05 m", "\"P\""});
 }
 
+TEST(Questions, AskWhetherASurfaceOrASetOfItsNameIsMeant) {
+  const SceneDescription scene = box_scene({});
+  const mesh::Mesh plain = box(scene);
+  const auto of = [&](const std::vector<Eigen::Index>& nodes) {
+    std::map<std::string, std::vector<mesh::FaceBlock>> surfaces;
+    for (const std::string& name : plain.surface_names()) {
+      surfaces[name] = plain.surface(name).faces;
+    }
+    mesh::Mesh::NodeSets sets = plain.node_sets();
+    sets["x1"] = nodes;
+    sets["y0"] = {0};  // the scene does not use it
+    return questions(scene, mesh::Mesh(plain.nodes(), plain.elements(), surfaces, sets));
+  };
+  std::vector<Eigen::Index> nodes = plain.surface("x1").nodes;
+  std::ranges::reverse(nodes);
+  expect_none(of(nodes));
+  nodes.pop_back();
+  expect_question(of(nodes), "contact.surface:",
+                  {"not in both is 1 of surface \"x1\"", "node set \"x1\"", "usual is 0"});
+}
+
 /// The box with its modes solved.
 class OfModes : public testing::Test {
  protected:

@@ -83,6 +83,7 @@ class Content:
     length_unit: float = None                         # metres; None: the file does not say
     turned_nodes: tuple = ()   # numbers of those that tell displacements in axes of their own
     either_hand: bool = False  # whole blocks of elements may be numbered as seen in a mirror
+    modes_asked: int = None    # how many the deck asks for, whatever their frequencies; None: it does not say
     left_out: list = dataclasses.field(default_factory=list)  # LeftOut, one of each kind
     places_of: object = lambda kind, number: []  # "file:line" of each "node" or "element" of a number, of files with lines
 

@@ -152,6 +152,8 @@ class _Deck:
         self.pressed = {}       # name → [(place, element, corner nodes on the face, corner node off it)]
         self.property_names, self.set_names = {}, {}
         self.left_out = []
+        self.methods = set()    # of METHOD in case control
+        self.eigrl = {}         # its number → (V1, V2, ND) as written
 
     def take_comment(self, line):
         found = _NAMES.search(line)
@@ -165,6 +167,9 @@ class _Deck:
         found = re.match(r"SET\s+(\d+)\s*=\s*(.*)", text, re.I)
         if found and found[2].strip().upper() != "ALL":
             self._hold("SET", int(found[1]), _listed(place, re.split(r"[,\s]+", found[2].strip())))
+        method = re.match(r"METH[A-Z]*(?:\s*\(.*\))?\s*=\s*(\d+)", text, re.I)
+        if method:
+            self.methods.add(int(method[1]))
 
     def take(self, place, words):
         name = words[0]
@@ -181,6 +186,8 @@ class _Deck:
             self._hold("SET", _whole(place, words, 1, "its number"), _listed(place, words[2 if name == "SET1" else 9:]))
         elif name == "PLOAD4":
             self._take_pressure(place, words)
+        elif name == "EIGRL":
+            self.eigrl[words[1]] = words[2:5]
         else:
             is_element = re.fullmatch(r"C[A-Z]+\d*[A-Z]*", name) and not _NO_ELEMENT.match(name)
             if is_element or _RIGID.match(name):
@@ -228,6 +235,7 @@ class _Deck:
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
         content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned), left_out=self.left_out,
+                          modes_asked=self._modes_asked(),
                           places_of=lambda kind, wanted: [place for number, place in self.places[kind] if number == wanted])
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)
@@ -235,6 +243,14 @@ class _Deck:
         for number, faces in self.pressed.items():
             content.surfaces[f"PLOAD4 {number}"] = _pressed_faces(content, faces)
         return content
+
+    def _modes_asked(self):
+        """ND of the one EIGRL that is used, where no highest frequency V2 may make them fewer."""
+        used = [asked for number, asked in self.eigrl.items() if not self.methods or number in map(str, self.methods)]
+        if len(used) != 1:
+            return None
+        _, highest, count = used[0]
+        return int(count) if count.isdigit() and not highest else None
 
     def _name_nodes(self, content):
         for (kind, number), parts in self.node_lists.items():

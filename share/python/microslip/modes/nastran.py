@@ -29,7 +29,17 @@ def read(path, deck):
                 "file was cut off, or modes were asked for at different nodes")
     squares = np.array([mode.eigenvalue for mode in modes])
     frequencies = np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)
-    return Modes(_places(path, deck, modes[0].nodes), frequencies, np.array([mode.shape for mode in modes]))
+    content = nastran.read(deck)
+    _require_all(path, deck, len(modes), content.modes_asked)
+    return Modes(_places(path, deck, content, modes[0].nodes), frequencies, np.array([mode.shape for mode in modes]))
+
+
+def _require_all(path, deck, n_modes, asked):
+    """A punch file does not say how many modes follow, and has no last line: where it was cut off between two, the deck
+    alone tells."""
+    require(asked is None or n_modes >= asked,
+            f"{path}: {n_modes} modes are there, EIGRL of {deck} asks for {asked}: the file was cut off after mode {n_modes}; copy it "
+            f"once more, or say {n_modes} in EIGRL if these are all there are")
 
 
 class _Mode:
@@ -78,9 +88,8 @@ def _number(place, word):
         raise Refused(f'{place}: expected a number, found "{word.strip()[:20]}": was the file cut off?') from None
 
 
-def _places(path, deck, nodes):
+def _places(path, deck, content, nodes):
     """Coordinates of nodes by their number."""
-    content = nastran.read(deck)
     missing = np.setdiff1d(nodes, content.node_numbers)
     require(not len(missing), f"{path}: node {next(iter(missing), None)} is not in {deck}: {len(missing)} of {len(nodes)} are missing; is it "
                               "the deck these modes were computed with?")

@@ -23,6 +23,9 @@ def read(path):
     modes, starts = np.unique(table[:, 0], return_index=True)
     blocks = [table[table[:, 0] == mode] for mode in modes]
     for mode, block in zip(modes, blocks):
+        require(len(block) == len(blocks[0]) or mode != table[-1, 0],
+                f"{path}: mode {mode:g}, the last one, has {len(block)} rows, mode {modes[0]:g} has {len(blocks[0])}: the table was cut "
+                "off, or more nodes were written of one of them")
         require(np.array_equal(block[:, 2:5], blocks[0][:, 2:5]),
                 f"{path}: mode {mode:g} has other nodes than mode {modes[0]:g}, or in another order")
         require(np.ptp(block[:, 1]) == 0.0, f"{path}: mode {mode:g} has several frequencies")

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""The plate of share/scenes/plate, its modes from each format of other codes, gives the curves of plate_calculix.toml.
+
+All files hold the modes that CalculiX left in plate.frd, with its six digits of a displacement and ten of a frequency: NumPy
+and MED in doubles, so that curves agree to rounding (MED numbers elements in a mirror, which moves sums over the face);
+Nastran's form has seven digits of a displacement, which loses nothing, and eight of an eigenvalue: 2.5e-8 of a frequency,
+and of an amplitude at resonance as much. Places of the deck have ten digits.
+
+usage: plate_scenes.py MICROSLIP SOURCE WORK_FOLDER
+"""
+import importlib.util
+import json
+import os
+import shutil
+import sys
+import unittest
+
+import numpy as np
+
+from program_run import run_scene
+
+PROGRAM, SOURCE, WORK = sys.argv[1:4]
+del sys.argv[1:]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+import plate_files
+
+SCENES = os.path.join(SOURCE, "share", "scenes")
+DOUBLES = 1e-9
+PUNCHED = 1e-7
+
+
+def peaks(scene, *settings):
+    """Frequency and amplitude of the peak of every curve, by its name."""
+    folder = os.path.join(WORK, "-".join([scene, *settings]))
+    run_scene(PROGRAM, os.path.join(SCENES, scene + ".toml"), folder, *settings, "accuracy.error_budget=off")
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as stream:
+        curves = json.load(stream)["curves"]
+    return {curve["name"]: np.array([curve["peak"]["frequency_Hz"], curve["peak"]["amplitude_m"]]) for curve in curves}
+
+
+class PlateScenes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        os.makedirs(WORK)
+
+    def compare(self, scene, expected, tolerance):
+        found = peaks(scene)
+        self.assertEqual(list(found), list(expected))
+        worst = max(np.abs(found[name] / expected[name] - 1.0).max() for name in expected)
+        print(f"{scene}: peaks of {', '.join(found)} differ by {worst:.1e} from those of plate_calculix")
+        self.assertLess(worst, tolerance)
+
+    def test_numpy_and_med(self):
+        expected = peaks("plate_calculix")
+        self.assertEqual(len(expected), 5)
+        self.compare("plate_numpy", expected, DOUBLES)
+        if importlib.util.find_spec("h5py") is None:
+            self.skipTest("h5py is not installed: .med cannot be read")
+        self.compare("plate_med", expected, DOUBLES)
+
+    def test_nastran_punches_four_modes(self):
+        expected = peaks("plate_calculix", "modes.count=4")
+        self.compare("plate_nastran", expected, PUNCHED)
+
+    def test_the_files_are_made_of_those_of_calculix(self):
+        plate_files.write(WORK)
+
+        def text(folder, name):
+            with open(os.path.join(folder, name), encoding="ascii") as stream:
+                return stream.read()
+
+        for name in ("plate.bdf", "plate.pch"):
+            self.assertEqual(text(WORK, name), text(plate_files.PLATE, name), name)
+        with np.load(os.path.join(WORK, "plate.npz")) as made, np.load(os.path.join(plate_files.PLATE, "plate.npz")) as kept:
+            self.assertEqual(made.files, kept.files)
+            for name in made.files:
+                self.assertTrue(np.array_equal(made[name], kept[name]), name)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
