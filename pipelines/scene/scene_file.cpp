@@ -204,6 +204,7 @@ SectionReader read_given_structure(Reading& reading, SceneDescription& scene) {
   if (material.given("density")) scene.material.density = material.number("density");
   scene.model = read_modes_file(reading.section("model", "model.modes"), reading.folder,
                                 scene.material.density > 0.0);
+  scene.static_loads = read_static_loads(reading.section("static", "static.modes"), scene.points);
   const bool solved = given_matrices(scene) != nullptr;
   SectionReader modes = reading.section("modes", solved ? "modes" : "modes.modes");
   scene.settings.basis = solved ? read_basis(modes) : read_given_basis(modes);

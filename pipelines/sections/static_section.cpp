@@ -76,17 +76,20 @@ void require_loads_and_supports(const SceneDescription& scene) {
   const bool rotates = scene.rotation && scene.rotation->speed > 0.0;
   const bool presses = std::ranges::any_of(
       scene.contacts, [](const ContactDescription& contact) { return contact.gap < 0.0; });
-  if (scene.kind == "modes") {
-    throw SceneError(place +
-                     ": \"static\" needs our own finite elements; a scene of kind \"modes\" "
-                     "takes contact.preload_field");
+  const bool matrices = given_matrices(scene) != nullptr;  // with their supports in them
+  if (scene.kind == "modes" && !matrices) {
+    throw SceneError(
+        place +
+        ": \"static\" needs a stiffness, and modes of a file leave most of it out; give "
+        "matrices (model.stiffness, model.mass, model.nodes), or "
+        "contact.preload_field");
   }
   if (scene.static_loads.place.empty() && !rotates && !presses) {
     throw SceneError(place +
                      ": \"static\" needs a load; expected static.forces, static.pressure, "
-                     "static.speed or an interference (contact.gap below 0)");
+                     "static.speed (not with matrices) or an interference (contact.gap below 0)");
   }
-  if (scene.clamped.empty()) {
+  if (scene.clamped.empty() && !matrices) {
     throw SceneError(place +
                      ": nothing holds the body against its static loads; expected names in "
                      "supports.clamped");

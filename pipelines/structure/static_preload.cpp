@@ -10,6 +10,7 @@
 #include "fem/ranks.hpp"
 #include "fem/surface_load.hpp"
 #include "mesh/surface.hpp"
+#include "pipelines/import/given_matrices.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/structure/solver_memory.hpp"
@@ -70,16 +71,27 @@ Eigen::MatrixXd flexibility(fem::Structure& structure, const mesh::Mesh& mesh,
   return 0.5 * (C + C.transpose());
 }
 
-/// A contact at rest: approach a at its points, and at the vertices of its cells [m].
-struct RestingPatch {
-  mesh::SurfaceSampling sampling;
-  Eigen::VectorXd cells;
-  Eigen::VectorXd vertices;
+/// Places of a contact at rest: approach [m] and pressure [Pa].
+struct RestingPlaces {
+  Eigen::VectorXd approach;
+  Eigen::VectorXd pressure;
 };
 
+/// A contact at rest, at its points and at the vertices of its cells.
+struct RestingPatch {
+  mesh::SurfaceSampling sampling;
+  RestingPlaces cells;
+  RestingPlaces vertices;
+};
+
+/// Height 0: smooth.
+contact::RoughSurface surface_of(const ContactDescription& contact) {
+  return contact.rules.roughness.value_or(contact::RoughSurface::cubic(0.0));
+}
+
 /// Points of all contacts on the freedoms of all of them.
-contact::SpringLayer layer_of(const SceneDescription& scene,
-                              const std::vector<RestingPatch>& patches, Eigen::Index n_freedoms) {
+contact::ContactLayer layer_of(const SceneDescription& scene,
+                               const std::vector<RestingPatch>& patches, Eigen::Index n_freedoms) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::Index n_points = 0;
   Eigen::Index first_node = 0;
@@ -94,19 +106,30 @@ contact::SpringLayer layer_of(const SceneDescription& scene,
     n_points += to.rows();
     first_node += to.cols();
   }
-  contact::SpringLayer layer{Eigen::SparseMatrix<double>(n_points, n_freedoms),
-                             Eigen::VectorXd(n_points), Eigen::VectorXd(n_points),
-                             Eigen::VectorXd(n_points)};
+  contact::ContactLayer layer{Eigen::SparseMatrix<double>(n_points, n_freedoms),
+                              Eigen::VectorXd(n_points),
+                              Eigen::VectorXd(n_points),
+                              Eigen::VectorXd(n_points),
+                              {}};
   layer.to_points.setFromTriplets(entries.begin(), entries.end());
   Eigen::Index begin = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const Eigen::VectorXd& weights = patches[i].sampling.weights;
     layer.weights.segment(begin, weights.size()) = weights;
-    layer.stiffness.segment(begin, weights.size()).setConstant(*scene.contacts[i].normal_stiffness);
-    layer.gap.segment(begin, weights.size()).setConstant(scene.contacts[i].gap);
+    const ContactDescription& contact = scene.contacts[i];
+    layer.stiffness.segment(begin, weights.size()).setConstant(*contact.normal_stiffness);
+    layer.gap.segment(begin, weights.size()).setConstant(contact.gap);
+    layer.surfaces.insert(layer.surfaces.end(), static_cast<std::size_t>(weights.size()),
+                          surface_of(contact));
     begin += weights.size();
   }
   return layer;
+}
+
+Eigen::VectorXd pressure_at(const Eigen::VectorXd& approach, const ContactDescription& contact) {
+  const contact::RoughSurface surface = surface_of(contact);
+  return approach.unaryExpr(
+      [&](double a) { return *contact.normal_stiffness * surface.at(a).compression; });
 }
 
 std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDescription& scene,
@@ -118,30 +141,31 @@ std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDes
                        {},
                        {}});
   }
-  const Eigen::VectorXd v =
+  const contact::ElasticRest rest =
       contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
-  Eigen::Index begin = 0;
+  Eigen::Index first_node = 0;
+  Eigen::Index first_point = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    const mesh::SurfaceSampling& sampling = patches[i].sampling;
-    const auto own = v.segment(begin, sampling.to_centres.cols());
-    patches[i].cells = (sampling.to_centres * own).array() - scene.contacts[i].gap;
-    patches[i].vertices = (sampling.to_vertices * own).array() - scene.contacts[i].gap;
-    begin += own.size();
+    RestingPatch& patch = patches[i];
+    const mesh::SurfaceSampling& sampling = patch.sampling;
+    const auto own = rest.displacement.segment(first_node, sampling.to_vertices.cols());
+    patch.cells = {rest.approach.segment(first_point, sampling.weights.size()),
+                   rest.pressure.segment(first_point, sampling.weights.size())};
+    patch.vertices.approach = (sampling.to_vertices * own).array() - scene.contacts[i].gap;
+    patch.vertices.pressure = pressure_at(patch.vertices.approach, scene.contacts[i]);
+    first_node += own.size();
+    first_point += sampling.weights.size();
   }
   return patches;
-}
-
-Eigen::VectorXd pressure_of(const RestingPatch& patch, const ContactDescription& contact) {
-  return *contact.normal_stiffness * patch.cells.cwiseMax(0.0);
 }
 
 /// Of all contacts [N]. @throws RefusedError  nothing is pressed.
 double total_force(const SceneDescription& scene, const std::vector<RestingPatch>& patches) {
   double total = 0.0;
   double nearest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    total += patches[i].sampling.weights.dot(pressure_of(patches[i], scene.contacts[i]));
-    nearest = std::max(nearest, patches[i].cells.maxCoeff());
+  for (const RestingPatch& patch : patches) {
+    total += patch.sampling.weights.dot(patch.cells.pressure);
+    nearest = std::max(nearest, patch.cells.approach.maxCoeff());
   }
   if (total > 0.0) return total;
   throw RefusedError(fmt::format(
@@ -152,23 +176,22 @@ double total_force(const SceneDescription& scene, const std::vector<RestingPatch
 }
 
 /// n0' [Pa]: pressure, or −k_v times a gap with the stiffness the point has in motion.
-Eigen::VectorXd rest_load(const Eigen::VectorXd& approach, double local_stiffness,
-                          const Eigen::VectorXd& point_stiffness) {
-  return (approach.array() > 0.0)
-      .select(local_stiffness * approach, point_stiffness.cwiseProduct(approach));
+Eigen::VectorXd rest_load(const RestingPlaces& places, const Eigen::VectorXd& point_stiffness) {
+  return (places.pressure.array() > 0.0)
+      .select(places.pressure, point_stiffness.cwiseProduct(places.approach));
 }
 
 std::string line_of(const ContactDescription& contact, const RestingPatch& patch) {
-  const Eigen::VectorXd pressure = pressure_of(patch, contact);
+  const Eigen::VectorXd& pressure = patch.cells.pressure;
   const Eigen::VectorXd& weights = patch.sampling.weights;
   std::string text =
       fmt::format("static preload {}: {:.6g} N, pressure {:.3g} to {:.3g} Pa", contact.name,
                   weights.dot(pressure), pressure.minCoeff(), pressure.maxCoeff());
   const double open =
-      weights.dot((patch.cells.array() <= 0.0).cast<double>().matrix()) / weights.sum();
+      weights.dot((patch.cells.approach.array() <= 0.0).cast<double>().matrix()) / weights.sum();
   if (open == 0.0) return text + ", closed everywhere";
   return text + fmt::format(", {:.1f} % of the area open by up to {:.3g} m", 100.0 * open,
-                            -patch.cells.minCoeff());
+                            -patch.cells.approach.minCoeff());
 }
 
 }  // namespace
@@ -181,8 +204,11 @@ contact::ElasticFace static_face(fem::Structure& structure, const mesh::Mesh& me
     face.approach = freedoms.of(structure.solve_static(load_of(mesh, scene.static_loads)));
     face.flexibility = flexibility(structure, mesh, freedoms);
   } catch (const fem::EigenError& error) {
-    throw RefusedError(fmt::format("{}: no static solution: {}; hold the body by supports.clamped",
-                                   scene.contacts.front().static_preload, error.what()));
+    const char* remedy = given_matrices(scene) != nullptr
+                             ? "matrices of a body that is held are needed"
+                             : "hold the body by supports.clamped";
+    throw RefusedError(fmt::format("{}: no static solution: {}; {}",
+                                   scene.contacts.front().static_preload, error.what(), remedy));
   }
   if (rotated.size() > 0) face.approach += freedoms.of(rotated);
   return face;
@@ -198,11 +224,10 @@ void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const Scene
   const double unit = static_cast<double>(patches.size()) / total;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     contact::Patch& patch = model.patches[i];
-    const double k = *scene.contacts[i].normal_stiffness;
     patch.load_share = 1.0;
-    patch.cells.preload_field = unit * rest_load(patches[i].cells, k, patch.cells.stiffness.col(1));
+    patch.cells.preload_field = unit * rest_load(patches[i].cells, patch.cells.stiffness.col(1));
     patch.vertices.preload_field =
-        unit * rest_load(patches[i].vertices, k, patch.vertices.stiffness.col(1));
+        unit * rest_load(patches[i].vertices, patch.vertices.stiffness.col(1));
   }
 }
 
@@ -224,7 +249,10 @@ contact::ElasticFace static_face(const mesh::Mesh& mesh, const SceneDescription&
   }
   const fem::SolverKind solver = scene.settings.basis.solver;
   require_memory(mesh, solver);
-  fem::Structure structure(mesh, scene.material, scene.clamped, fem::Tet10Rule::accurate, solver);
+  fem::Structure structure =
+      given_matrices(scene) != nullptr
+          ? fem::Structure(mesh, matrices_of(mesh, scene), solver)
+          : fem::Structure(mesh, scene.material, scene.clamped, fem::Tet10Rule::accurate, solver);
   Eigen::VectorXd rotated;
   if (scene.rotation && scene.rotation->speed > 0.0) {
     rotated = structure.rotate(mesh, scene.material, *scene.rotation);

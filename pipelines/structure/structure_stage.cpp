@@ -223,8 +223,8 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
 
 StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene) {
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
-  if (given_matrices(scene) != nullptr) return solved_from_matrices(mesh, scene);
-  StructureModes modes = solved(task_of(mesh, scene));
+  StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
+                                                          : solved(task_of(mesh, scene));
   if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
   return modes;
 }

@@ -191,6 +191,29 @@ constexpr std::array support_keys{
             "names of surfaces, or sets of edges or nodes, that are held"},
 };
 
+constexpr KeySpec static_forces_key{
+    "forces",
+    other,
+    "",
+    "",
+    0,
+    0,
+    false,
+    "that do not vary, e.g. of a screw, for contact.preload = \"static\": a list of { at = …, "
+    "direction = [x, y, z], amplitude = … }",
+    true};
+constexpr KeySpec static_pressure_key{
+    "pressure",
+    other,
+    "",
+    "",
+    0,
+    0,
+    false,
+    "on surfaces, for the same: a list of { surface = …, value = \"2 bar\" }, pushing into the "
+    "body",
+    true};
+
 constexpr std::array static_keys{
     KeySpec{
         "speed", other, "rad/s", "", 0.0, unbounded, false,
@@ -201,17 +224,11 @@ constexpr std::array static_keys{
             "of rotation: { origin = [x, y, z], direction = [x, y, z] }; the origin is a point of "
             "it, default [0, 0, 0]",
             true},
-    KeySpec{
-        "forces", other, "", "", 0, 0, false,
-        "that do not vary, e.g. of a screw, for contact.preload = \"static\": a list of { at = …, "
-        "direction = [x, y, z], amplitude = … }",
-        true},
-    KeySpec{
-        "pressure", other, "", "", 0, 0, false,
-        "on surfaces, for the same: a list of { surface = …, value = \"2 bar\" }, pushing into the "
-        "body",
-        true},
+    static_forces_key,
+    static_pressure_key,
 };
+
+constexpr std::array given_static_keys{static_forces_key, static_pressure_key};  // with matrices
 
 constexpr std::array static_force_keys{
     KeySpec{"at", other, "m", "", -unbounded, unbounded, false, "as that of a force"},
@@ -534,7 +551,7 @@ constexpr std::array accuracy_keys{
 
 constexpr std::array<KeySpec, 0> named_by_the_user{};
 
-constexpr std::array<SectionSpec, 48> sections{{
+constexpr std::array<SectionSpec, 49> sections{{
     {"model.blade", blade_keys},
     {"model.step", step_keys},
     {"faces", named_by_the_user},
@@ -547,6 +564,7 @@ constexpr std::array<SectionSpec, 48> sections{{
     {"material", material_keys},
     {"supports", support_keys},
     {"static", static_keys},
+    {"static.modes", given_static_keys},
     {"static.axis", axis_keys},
     {"static.force", static_force_keys},
     {"static.pressure", pressure_keys},
@@ -593,9 +611,9 @@ constexpr std::array<std::string_view, 12> step_sections{
     "points", "contact", "excitation", "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 6> modal_sections{"model",    "modal",   "contact",
                                                          "response", "effects", "accuracy"};
-constexpr std::array<std::string_view, 9> given_modes_sections{"model",    "material", "modes",
-                                                               "points",   "contact",  "excitation",
-                                                               "response", "effects",  "accuracy"};
+constexpr std::array<std::string_view, 10> given_modes_sections{
+    "model",   "material",   "static",   "modes",   "points",
+    "contact", "excitation", "response", "effects", "accuracy"};
 constexpr std::array<std::string_view, 7> lean_sections{
     // bar, chain, block
     "model", "modes", "contact", "excitation", "response", "effects", "accuracy"};

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -12,8 +15,8 @@ namespace microslip::contact::test_elastic_rest {
 namespace {
 
 /// n points that are freedoms themselves.
-SpringLayer layer_of(Eigen::Index n, double stiffness) {
-  SpringLayer layer;
+ContactLayer layer_of(Eigen::Index n, double stiffness) {
+  ContactLayer layer;
   layer.to_points.resize(n, n);
   layer.to_points.setIdentity();
   layer.weights = Eigen::VectorXd::Constant(n, 1e-4);
@@ -23,16 +26,18 @@ SpringLayer layer_of(Eigen::Index n, double stiffness) {
 }
 
 /// Approach of the points at rest.
-Eigen::VectorXd rest_of(const ElasticFace& face, const SpringLayer& layer) {
-  return layer.to_points * elastic_rest(face, layer) - layer.gap;
+Eigen::VectorXd rest_of(const ElasticFace& face, const ContactLayer& layer) {
+  const ElasticRest rest = elastic_rest(face, layer);
+  EXPECT_EQ(rest.approach, layer.to_points * rest.displacement - layer.gap);
+  return rest.approach;
 }
 
-Eigen::VectorXd pressures(const SpringLayer& layer, const Eigen::VectorXd& approach) {
+Eigen::VectorXd pressures(const ContactLayer& layer, const Eigen::VectorXd& approach) {
   return layer.stiffness.cwiseProduct(approach.cwiseMax(0.0));
 }
 
 TEST(ElasticRest, OnePointSharesTheLoadWithTheBody) {
-  const SpringLayer layer = layer_of(1, 1e10);  // 1e6 N/m
+  const ContactLayer layer = layer_of(1, 1e10);  // 1e6 N/m
   const Eigen::MatrixXd C = Eigen::MatrixXd::Constant(1, 1, 1.0 / 3e6);
   const auto rest = [&](double free) {
     return rest_of({C, Eigen::VectorXd::Constant(1, free)}, layer)[0];
@@ -42,7 +47,7 @@ TEST(ElasticRest, OnePointSharesTheLoadWithTheBody) {
 }
 
 TEST(ElasticRest, AGapIsClosedFirstAndInterferencePresses) {
-  SpringLayer layer = layer_of(1, 1e10);
+  ContactLayer layer = layer_of(1, 1e10);
   const ElasticFace face{Eigen::MatrixXd::Constant(1, 1, 1.0 / 3e6),
                          Eigen::VectorXd::Constant(1, 4e-6)};
   layer.gap[0] = 1e-6;
@@ -60,7 +65,7 @@ TEST(ElasticRest, AStiffBodyTiltsUntilTheLoadedPointsCarryForceAndMoment) {
   const PlanarCells grid = rectangle_cells(0.1, 0.1, 8, 8);
   const ContactArea area(grid);
   const Eigen::Index n = grid.y.size();
-  SpringLayer layer = layer_of(n, 1e10);
+  ContactLayer layer = layer_of(n, 1e10);
   layer.weights = grid.weights;
   Eigen::MatrixX3d arms(n, 3);
   arms << Eigen::VectorXd::Ones(n), grid.z, -grid.y;
@@ -89,7 +94,7 @@ TEST(ElasticRest, ForcesAreInBalanceAndOpenPointsCarryNothing) {
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::Index n = 12;
     const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
-    SpringLayer layer = layer_of(n, 1.0);
+    ContactLayer layer = layer_of(n, 1.0);
     layer.to_points = Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(30, n, [&] {
                         return normal(random);
                       })).sparseView();
@@ -110,7 +115,7 @@ TEST(ElasticRest, ForcesAreInBalanceAndOpenPointsCarryNothing) {
 }
 
 TEST(ElasticRest, WithoutGapItGrowsAsTheLoad) {
-  const SpringLayer layer = layer_of(3, 1e10);
+  const ContactLayer layer = layer_of(3, 1e10);
   Eigen::MatrixXd C(3, 3);
   C << 3, 1, 0, 1, 3, 1, 0, 1, 3;
   C *= 1e-7;
@@ -120,8 +125,72 @@ TEST(ElasticRest, WithoutGapItGrowsAsTheLoad) {
   EXPECT_LT((rest_of({C, 7.0 * free}, layer) - 7.0 * one).norm(), 1e-12 * one.norm());
 }
 
+/// n freedoms of a half space under them, 1 mm apart: E/(1 − ν²) = 2e11 Pa, a point load at r moves it by
+/// (1 − ν²)/(πE r); under itself as a disc of its area does.
+Eigen::MatrixXd half_space(Eigen::Index n) {
+  constexpr double E = 2e11;
+  constexpr double pi = 3.14159265358979;
+  constexpr double spacing = 1e-3;
+  Eigen::MatrixXd C(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double r = spacing * static_cast<double>(std::abs(i - j));
+      C(i, j) = i == j ? 2.0 / (std::sqrt(pi) * E * spacing) : 1.0 / (pi * E * r);
+    }
+  }
+  return C;
+}
+
+/// f_i ≥ 0 with f_i = force(i, v_i), v = v⁰ − C f: one point after the other, the others held, until nothing moves.
+template <typename ForceOfRest>
+Eigen::VectorXd one_by_one(const ElasticFace& face, const ForceOfRest& force) {
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(face.approach.size());
+  for (int sweep = 0; sweep < 2000; ++sweep) {
+    for (Eigen::Index i = 0; i < f.size(); ++i) {
+      const double c = face.flexibility(i, i);
+      const double alone = face.approach[i] - face.flexibility.row(i).dot(f) + c * f[i];
+      f[i] = force(i, alone, c);
+    }
+  }
+  return f;
+}
+
+/// Pressed in the middle, lifted at one end, with a hollow.
+Eigen::VectorXd uneven_approach(Eigen::Index n) {
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(n, -1.0, 1.0);
+  return 1e-6 * (1.5 - 2.0 * x - 3.0 * (-20.0 * (x + 0.5).square()).exp());
+}
+
+TEST(ElasticRest, RoughSurfacesAreThoseFoundPointByPoint) {
+  const Eigen::Index n = 24;
+  const ElasticFace face{half_space(n), uneven_approach(n)};
+  for (const RoughSurface& surface :
+       {RoughSurface::cubic(2e-6), RoughSurface::matching_gaussian(2e-6), RoughSurface::cubic(1e-7),
+        RoughSurface::cubic(0.0)}) {
+    ContactLayer layer = layer_of(n, 1e14);
+    layer.weights.setConstant(1e-6);
+    layer.gap.setConstant(0.2e-6);
+    layer.surfaces.assign(static_cast<std::size_t>(n), surface);
+    const ElasticRest rest = elastic_rest(face, layer);
+    // a + c w k δ(a) = alone − g by bisection: the left side never falls.
+    const Eigen::VectorXd f = one_by_one(face, [&](Eigen::Index i, double alone, double c) {
+      double low = -1e-3;
+      double high = 1e-3;
+      for (int step = 0; step < 80; ++step) {
+        const double a = 0.5 * (low + high);
+        const double left = a + c * 1e-6 * 1e14 * surface.at(a).compression;
+        (left > alone - layer.gap[i] ? high : low) = a;
+      }
+      return 1e-6 * 1e14 * surface.at(low).compression;
+    });
+    EXPECT_LT((layer.weights.cwiseProduct(rest.pressure) - f).norm(), 1e-8 * f.norm());
+    EXPECT_GT((rest.approach.array() < 0.0).count(), 2);  // some are open, some are not
+    EXPECT_GT((rest.approach.array() > 0.0).count(), 8);
+  }
+}
+
 TEST(ElasticRest, SizesMustFit) {
-  SpringLayer layer = layer_of(3, 1e10);
+  ContactLayer layer = layer_of(3, 1e10);
   layer.gap.resize(2);
   try {
     static_cast<void>(rest_of({Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()}, layer));

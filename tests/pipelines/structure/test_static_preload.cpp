@@ -113,6 +113,31 @@ TEST(StaticPreload, APulledBarPressesEvenly) {
   EXPECT_LT(off(rest_loads(sucked.model, *sucked.model.static_preload), expected), rounding);
 }
 
+// Rough surfaces press by k δ(v), the bar by E/L (v⁰ − v).
+TEST(StaticPreload, ABarOnRoughSurfacesPressesByTheirLaw) {
+  const double k = 0.5 * E / L;
+  const double free = 300.0 / area * L / E;  // 3e-7 m, as high as the heights
+  const std::string force = R"(forces = [ { at = "x1", direction = [1, 0, 0], amplitude = 300 } ])";
+  for (const char* law : {"cubic", "gaussian"}) {
+    const SceneDescription scene = bar_scene(
+        force, k, fmt::format("roughness = {{ law = \"{}\", height = \"0.3 um\" }}", law));
+    const contact::RoughSurface& surface = *scene.contacts[0].rules.roughness;
+    double low = 0.0;
+    double high = free;
+    for (int step = 0; step < 80; ++step) {
+      const double v = 0.5 * (low + high);
+      (k * surface.at(v).compression > E / L * (free - v) ? high : low) = v;
+    }
+    const double expected = k * surface.at(low).compression;
+    EXPECT_LT(expected, 0.8 * k * free / 1.5);  // of smooth surfaces
+    const Solved bar = solve(scene);
+    EXPECT_LT(off(rest_loads(bar.model, *bar.model.static_preload), expected), rounding) << law;
+    EXPECT_LT(
+        off(*bar.model.static_preload * bar.model.patches[0].vertices.preload_field, expected),
+        rounding);
+  }
+}
+
 TEST(StaticPreload, APreloadInNewtonsIsThatOfScaledLoads) {
   const Solved bar = solve(
       bar_scene(R"(forces = [ { at = "x1", direction = [1, 0, 0], amplitude = 300 } ])", 1e13));
