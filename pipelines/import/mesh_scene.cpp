@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -76,6 +78,7 @@ class SceneMaker {
  public:
   SceneMaker(const MeshOfFile& read, const std::filesystem::path& file)
       : read_(read), names_(mesh_names(read.mesh)), extent_(read.mesh.upper() - read.mesh.lower()) {
+    extent_.maxCoeff(&span_);
     set_unit(mesh_format(file) == MeshFormat::gmsh);
   }
 
@@ -117,30 +120,57 @@ class SceneMaker {
     const Words words{"root", "fix", "clamp", "held", "hold", "support", "foot", "spc", "encastre"};
     const Names possible = candidates(
         names_, words, [](const MeshName& name) { return name.n_nodes >= 3 || name.n_faces > 0; });
-    if (!possible.empty() && speaks_of(possible.front().name, words)) {
-      clamped_ = possible.front().name;
+    const bool is_told = !possible.empty() && speaks_of(possible.front().name, words);
+    const MeshName* held = is_told ? &possible.front() : larger_end(possible);
+    if (held != nullptr) {
+      clamped_ = held->name;
+      held_at_ = held->centre;
     }
     values_["supports.clamped"] = clamped_.empty() ? "[]" : "[" + in_quotes(clamped_) + "]";
-    if (clamped_.empty()) {
-      remarks_["supports.clamped"] = "CHOOSE what is held: no name tells it; there are: " +
-                                     (possible.empty() ? "none" : listed(possible));
+    if (!is_told) {
+      remarks_["supports.clamped"] =
+          fmt::format("CHOOSE what is held: no name tells it{}; there are: {}",
+                      clamped_.empty() ? "" : ", here the larger plane end of the longest side",
+                      possible.empty() ? "none" : listed(possible));
     } else if (possible.size() > 1) {
       remarks_["supports.clamped"] = "or some of: " + listed(possible);
     }
   }
 
+  /// The larger of the plane surfaces at the ends of the longest side; nullptr: there is none.
+  [[nodiscard]] const MeshName* larger_end(const Names& names) const {
+    const MeshName* best = nullptr;
+    for (const MeshName& name : names) {
+      const double x = name.centre[span_];
+      const double off = std::min(x - read_.mesh.lower()[span_], read_.mesh.upper()[span_] - x);
+      if (!can_rub(name) || off > 1e-3 * extent_[span_]) continue;
+      if (best == nullptr || name.area > best->area) best = &name;
+    }
+    return best;
+  }
+
   void choose_contact() {
-    const Names possible = candidates(
-        names_, {"contact", "rub", "fric", "slave", "damper", "shroud", "platform", "pload"},
-        [&](const MeshName& name) { return can_rub(name) && name.name != clamped_; });
+    const Words words{"contact", "rub", "fric", "slave", "damper", "shroud", "platform", "pload"};
+    Names possible = candidates(names_, words, [&](const MeshName& name) {
+      return can_rub(name) && name.name != clamped_;
+    });
+    const bool is_told = !possible.empty() && speaks_of(possible.front().name, words);
+    if (!is_told) {  // what lies along the blade rather than its end
+      std::ranges::stable_partition(
+          possible, [&](const MeshName& name) { return std::abs(name.normal[span_]) < 0.2; });
+    }
     has_contact_ = !possible.empty();
     if (!has_contact_) {
       for (const char* key : {"response.preload", "response.maps"}) values_[key] = "";
       return;
     }
     const MeshName& chosen = possible.front();
-    values_["contact.surface"] = in_quotes(chosen.name);
-    if (possible.size() > 1) remarks_["contact.surface"] = "plane ones: " + listed(possible);
+    contact_ = chosen.name;
+    values_["contact.surface"] = in_quotes(contact_);
+    if (possible.size() > 1) {
+      remarks_["contact.surface"] =
+          (is_told ? "plane ones: " : "CHOOSE: no name tells it; plane ones: ") + listed(possible);
+    }
     // In the face; of two axes in it that along which the blade is longer.
     const Eigen::Vector3d in_face = Eigen::Vector3d::Ones() - chosen.normal.cwiseAbs();
     values_["contact.slip_direction"] =
@@ -151,9 +181,12 @@ class SceneMaker {
     const auto elsewhere = [&](const MeshName& name) {
       return name.n_nodes > 0 && name.name != clamped_;
     };
-    Names possible = candidates(names_, {"force", "load", "excit"}, elsewhere);
-    std::stable_partition(possible.begin(), possible.end(),
-                          [](const MeshName& name) { return name.kind == MeshName::Kind::point; });
+    Names possible = candidates(names_, {}, elsewhere);
+    // A force where the contact is moves little: what is far from the support comes first, the
+    // contact last.
+    std::ranges::stable_sort(possible, [&](const MeshName& a, const MeshName& b) {
+      return likelihood_of_force(a) > likelihood_of_force(b);
+    });
     if (possible.empty()) {
       throw SceneError(
           "the mesh names nothing but what is held: name a place for the force and for the output "
@@ -172,6 +205,13 @@ class SceneMaker {
     remarks_["excitation.forces"] = "at one of: " + listed(possible);
     remarks_["response.output"] = "at one of: " + listed(possible);
     remarks_["response.frequency"] = "CHANGE: `microslip modes` tells the natural frequencies";
+  }
+
+  /// Points as the file has them, then the distance from what is held.
+  [[nodiscard]] double likelihood_of_force(const MeshName& name) const {
+    if (name.kind == MeshName::Kind::point) return std::numeric_limits<double>::infinity();
+    if (name.name == contact_) return -1.0;
+    return (name.centre - held_at_).norm();
   }
 
   static std::optional<std::string> first_with(const Names& names, const Words& words) {
@@ -198,7 +238,9 @@ class SceneMaker {
   Eigen::Vector3d extent_;
   TemplateTexts values_;
   TemplateTexts remarks_;
-  std::string clamped_;
+  Eigen::Index span_ = 0;  // axis of the longest side
+  std::string clamped_, contact_;
+  Eigen::Vector3d held_at_ = Eigen::Vector3d::Zero();
   bool has_contact_ = false;
 };
 

@@ -64,7 +64,9 @@ std::string read_place(const SectionReader& s, std::string_view key,
   auto place = place_in(s, key);
   if (const auto* name = std::get_if<std::string>(&place)) return name_in_mesh(points, *name);
   const Eigen::Vector3d& at = std::get<Eigen::Vector3d>(place);
-  std::string name = fmt::format("({}, {}, {})", at.x(), at.y(), at.z());  // tells any two apart
+  // Ten digits tell any two places apart that are not one to a mesh, and no rounding of
+  // millimetres.
+  std::string name = fmt::format("({:.10g}, {:.10g}, {:.10g})", at.x(), at.y(), at.z());
   if (found(points, name) == points.end()) points.push_back({name, at, s.place(key)});
   return name;
 }

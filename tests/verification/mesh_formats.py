@@ -150,6 +150,16 @@ class Formats(unittest.TestCase):
         for line in ("clamped = []", "# [contact]", '# surface = "contact"', '# preload =', "# CHOOSE what is held"):
             self.assertIn("\n" + line, scene)
 
+    def test_init_guesses_by_the_shape_where_names_tell_nothing(self):
+        """The larger end is held, what lies along the blade rubs, the force acts far from both; each is to be chosen."""
+        numbered = {"tip": "F1", "contact": "F2", "root": "F3"}
+        surfaces = {numbered[name]: self.mesh.surfaces[name] for name in numbered}
+        mesh_files.write_inp(mesh_files.Mesh(self.mesh.nodes, self.mesh.blocks, surfaces, {}), self.path("numbered.inp"))
+        scene = self.scene_of("numbered.inp")
+        for line in ('clamped = ["F3"]', 'surface = "F2"', '  { at = "F1"', 'output = { at = "F1"'):
+            self.assertIn("\n" + line, scene)
+        self.assertEqual(scene.count("# CHOOSE"), 2)
+
     def test_nastran(self):
         mesh_files.write_bdf(self.mesh, self.path("blade.bdf"), held=("root",), pressed=("contact",))
         points = list(self.mesh.points)
