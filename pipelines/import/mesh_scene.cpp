@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -87,6 +88,8 @@ class SceneMaker {
     const auto relative = std::filesystem::relative(file, scene_folder);
     values_[key] = in_quotes((relative.empty() ? file : relative).string());
   }
+
+  void set(const char* key, std::string value) { values_[key] = std::move(value); }
 
   std::string make(std::string_view kind) {
     choose_support();
@@ -254,13 +257,68 @@ std::string scene_of_mesh(const std::filesystem::path& file, const std::filesyst
   return maker.make("mesh");
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The one mesh in the folder of a stiffness, or in that above it.
+fs::path mesh_of_matrices(const fs::path& stiffness) {
+  const fs::path own = fs::absolute(stiffness).parent_path();
+  for (const fs::path& folder : {own, own.parent_path()}) {
+    std::vector<fs::path> meshes;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const bool is_mesh = mesh_format(entry.path()) != MeshFormat::unknown;
+      if (entry.is_regular_file() && is_mesh) meshes.push_back(entry.path());
+    }
+    if (meshes.size() == 1) return meshes.front();
+    if (meshes.empty()) continue;
+    std::ranges::sort(meshes);
+    throw SceneError(
+        fmt::format("{}: which is its mesh? In {} are {} and {}; leave one there, or begin with "
+                    "`init mesh` of it",
+                    stiffness.string(), folder.string(), meshes[0].filename().string(),
+                    meshes[1].filename().string()));
+  }
+  throw SceneError(stiffness.string() +
+                   ": no mesh lies beside it, nor in the folder above; put there the one file that "
+                   "has the names");
+}
+
+/// `stiffness` with mass.mtx and nodes.csv beside it.
+std::string scene_of_matrices(const fs::path& stiffness, const fs::path& folder) {
+  const fs::path mass = stiffness.parent_path() / "mass.mtx";
+  const fs::path nodes = stiffness.parent_path() / "nodes.csv";
+  for (const fs::path& needed : {mass, nodes}) {
+    if (fs::exists(needed)) continue;
+    throw SceneError(fmt::format(
+        "{}: {} does not lie beside it; a stiffness goes with mass.mtx and nodes.csv (for "
+        "CalculiX share/scripts/calculix_matrices.py writes all three)",
+        stiffness.string(), needed.filename().string()));
+  }
+  const fs::path mesh = mesh_of_matrices(stiffness);
+  const MeshOfFile read = read_mesh(mesh, std::nullopt);
+  SceneMaker maker(read, mesh);
+  maker.set("model.file", "");
+  maker.set_file("model.stiffness", stiffness, folder);
+  maker.set_file("model.mass", mass, folder);
+  maker.set_file("model.nodes", nodes, folder);
+  maker.set_file("model.mesh", mesh, folder);
+  maker.set("modes.count", "10");
+  maker.set("modes.residual", "\"attachment\"");
+  return maker.make("modes");
+}
+
+}  // namespace
+
 std::string scene_of_modes(const std::filesystem::path& file, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file)) throw SceneError(file.string() + ": no such file");
+  if (file.extension() == ".mtx") return scene_of_matrices(file, folder);
   const std::filesystem::path mesh = mesh_beside(file);
   if (mesh.empty()) {
     throw SceneError(fmt::format(
         "{}: no mesh lies beside it under that name (.inp of a .frd, .bdf of a .pch, a .med is its "
-        "own); put it there, or begin with `init modes` and name it in model.mesh",
+        "own); put it there, or begin with `init modes` and name it in model.mesh. Matrices begin "
+        "with their stiffness (.mtx)",
         file.string()));
   }
   const MeshOfFile read = read_mesh(mesh, std::nullopt);

@@ -15,7 +15,8 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string scene_of_mesh(const std::filesystem::path& file,
                                         const std::filesystem::path& folder);
 
-/// The same of kind "modes", with the mesh that lies beside the file of the modes.
+/// The same of kind "modes", with the mesh that lies beside the file of the modes. Of a stiffness (.mtx) with mass.mtx and
+/// nodes.csv beside it, and the one mesh there or in the folder above.
 /// @throws SceneError  no such file, or none of a mesh beside it.
 [[nodiscard]] std::string scene_of_modes(const std::filesystem::path& file,
                                          const std::filesystem::path& folder);

@@ -368,6 +368,32 @@ class GivenModes(unittest.TestCase):
         checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
+    def test_init_begins_with_matrices(self):
+        job = path("job")
+        os.makedirs(os.path.join(job, "matrices"), exist_ok=True)
+        for name in ("stiffness.mtx", "mass.mtx"):
+            shutil.copy(os.path.join(PLATE, name), os.path.join(job, "matrices"))
+        stiffness = os.path.join(job, "matrices", "stiffness.mtx")
+
+        def begun(*more):
+            return subprocess.run([PROGRAM, "init", "modes", stiffness, *more], capture_output=True, text=True)
+
+        self.assertIn("nodes.csv does not lie beside it", begun().stderr)
+        shutil.copy(os.path.join(PLATE, "nodes.csv"), os.path.join(job, "matrices"))
+        self.assertIn("no mesh lies beside it", begun().stderr)
+        shutil.copy(os.path.join(PLATE, "coarse.inp"), job)
+        scene = os.path.join(job, "scene.toml")
+        self.assertEqual(begun("-o", scene).returncode, 0)
+        with open(scene, encoding="utf-8") as file:
+            text = file.read()
+        for line in ('stiffness = "matrices/stiffness.mtx"', 'nodes = "matrices/nodes.csv"', 'mesh = "coarse.inp"',
+                     'residual = "attachment"', "# file ="):
+            self.assertIn("\n" + line, text)
+        checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        shutil.copy(os.path.join(PLATE, "plate.inp"), job)
+        self.assertIn("which is its mesh?", begun().stderr)
+
     def test_init_tells_where_the_mesh_is_missing(self):
         shutil.copy(os.path.join(PLATE, "plate.frd"), path("alone.frd"))
         finished = subprocess.run([PROGRAM, "init", "modes", path("alone.frd")], capture_output=True, text=True)
