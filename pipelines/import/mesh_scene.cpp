@@ -91,7 +91,13 @@ class SceneMaker {
 
   void set(const char* key, std::string value) { values_[key] = std::move(value); }
 
+  /// @throws SceneError  the mesh names nothing.
   std::string make(std::string_view kind) {
+    if (names_.empty()) {
+      throw SceneError(
+          "the mesh names no surface and no set of nodes, so that nothing can be held or rub: name "
+          "them in the file; how each format does that stands in share/doc/meshes.md");
+    }
     choose_support();
     choose_contact();
     choose_points();
@@ -113,7 +119,8 @@ class SceneMaker {
       values_["model.length_unit"] = "";  // the file tells it
       return;
     }
-    values_["model.length_unit"] = extent_.maxCoeff() < longest ? "\"m\"" : "\"mm\"";
+    unit_ = extent_.maxCoeff() < longest ? "m" : "mm";
+    values_["model.length_unit"] = in_quotes(unit_);
     remarks_["model.length_unit"] =
         fmt::format("{}the file does not tell it: chosen by the size, which is {}",
                     is_gmsh ? "" : "CHECK: ", size_readings(read_.mesh));
@@ -190,23 +197,23 @@ class SceneMaker {
     std::ranges::stable_sort(possible, [&](const MeshName& a, const MeshName& b) {
       return likelihood_of_force(a) > likelihood_of_force(b);
     });
-    if (possible.empty()) {
-      throw SceneError(
-          "the mesh names nothing but what is held: name a place for the force and for the output "
-          "in the file");
-    }
-    const std::string force =
-        first_with(possible, {"force", "load", "excit"}).value_or(possible.front().name);
-    const std::string output =
-        first_with(possible, {"output", "respon", "sensor", "tip"}).value_or(possible.front().name);
+    const std::string otherwise = possible.empty() || possible.front().name == contact_
+                                      ? farthest_node()
+                                      : in_quotes(possible.front().name);
+    const auto place = [&](const Words& words) {
+      const auto told = first_with(possible, words);
+      return told ? in_quotes(*told) : otherwise;
+    };
+    const std::string force = place({"force", "load", "excit"});
+    const std::string output = place({"output", "respon", "sensor", "tip"});
     const std::string bends = axis_of_largest(-extent_);  // a blade bends where it is thin
-    values_["excitation.forces"] =
-        fmt::format("[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = 0 }},\n]",
-                    in_quotes(force), bends);
-    values_["response.output"] =
-        fmt::format("{{ at = {}, direction = {} }}", in_quotes(output), bends);
-    remarks_["excitation.forces"] = "at one of: " + listed(possible);
-    remarks_["response.output"] = "at one of: " + listed(possible);
+    values_["excitation.forces"] = fmt::format(
+        "[\n  {{ at = {}, direction = {}, amplitude = \"1 N\", phase = 0 }},\n]", force, bends);
+    values_["response.output"] = fmt::format("{{ at = {}, direction = {} }}", output, bends);
+    for (const char* key : {"excitation.forces", "response.output"}) {
+      remarks_[key] = "at coordinates, which mean the nearest node" +
+                      (possible.empty() ? "" : ", or at one of: " + listed(possible));
+    }
     remarks_["response.frequency"] = "CHANGE: `microslip modes` tells the natural frequencies";
   }
 
@@ -215,6 +222,16 @@ class SceneMaker {
     if (name.kind == MeshName::Kind::point) return std::numeric_limits<double>::infinity();
     if (name.name == contact_) return -1.0;
     return (name.centre - held_at_).norm();
+  }
+
+  /// Coordinates of the node farthest from what is held.
+  [[nodiscard]] std::string farthest_node() const {
+    Eigen::Index node = 0;
+    (read_.mesh.nodes().rowwise() - held_at_.transpose()).rowwise().squaredNorm().maxCoeff(&node);
+    const auto one = [&](int axis) {
+      return fmt::format("\"{:.6g} {}\"", read_.mesh.nodes()(node, axis), unit_);
+    };
+    return fmt::format("[{}, {}, {}]", one(0), one(1), one(2));
   }
 
   static std::optional<std::string> first_with(const Names& names, const Words& words) {
@@ -241,7 +258,8 @@ class SceneMaker {
   Eigen::Vector3d extent_;
   TemplateTexts values_;
   TemplateTexts remarks_;
-  Eigen::Index span_ = 0;  // axis of the longest side
+  Eigen::Index span_ = 0;   // axis of the longest side
+  std::string unit_ = "m";  // of the coordinates
   std::string clamped_, contact_;
   Eigen::Vector3d held_at_ = Eigen::Vector3d::Zero();
   bool has_contact_ = false;

@@ -160,6 +160,18 @@ class Formats(unittest.TestCase):
             self.assertIn("\n" + line, scene)
         self.assertEqual(scene.count("# CHOOSE"), 2)
 
+    def test_init_takes_coordinates_where_no_place_is_left_for_the_force(self):
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks,
+                                         {name: self.mesh.surfaces[name] for name in ("root", "contact")}, {})
+        mesh_files.write_inp(in_millimetres, self.path("two.inp"))
+        scene = self.scene_of("two.inp")
+        height = in_millimetres.nodes[:, 1].max()
+        self.assertRegex(scene, rf'\n  {{ at = \["\S+ mm", "{height:.6g} mm", "\S+ mm"\], direction')
+        mesh_files.write_inp(mesh_files.Mesh(self.mesh.nodes, self.mesh.blocks), self.path("none.inp"))
+        refused = subprocess.run([PROGRAM, "init", "mesh", self.path("none.inp")], capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("names no surface and no set of nodes", refused.stderr)
+
     def test_nastran(self):
         mesh_files.write_bdf(self.mesh, self.path("blade.bdf"), held=("root",), pressed=("contact",))
         points = list(self.mesh.points)
