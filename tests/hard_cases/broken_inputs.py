@@ -416,7 +416,7 @@ def other_codes(source):
         with open(os.path.join(plate, name), "rb") as file:
             sound["plate/" + name] = file.read()
     scenes = {}
-    for scene in ("plate_calculix", "plate_matrices"):
+    for scene in ("plate_calculix", "plate_matrices", "plate_numpy", "plate_med", "plate_nastran"):
         with open(os.path.join(source, "share", "scenes", scene + ".toml"), encoding="utf-8") as file:
             scenes[scene] = file.read()
 
@@ -438,6 +438,15 @@ def other_codes(source):
         yield made("plate_calculix", "plate.frd", name, content)
     for share in range(5, 100, 20):
         yield made("plate_calculix", "plate.frd", f"{share} %", modes[:len(modes) * share // 100], says="")
+    for scene, file in (("plate_numpy", "plate.npz"), ("plate_med", "plate.med"), ("plate_nastran", "plate.pch"), ("plate_nastran", "plate.bdf")):
+        for name, content in (("empty", b""), ("zeros", sparse(1 << 30)), ("a scene", MODAL)):
+            yield made(scene, file, name, content)
+        whole = sound["plate/" + file]
+        for share in (*range(10, 100, 20), 99):
+            yield made(scene, file, f"{share} %", whole[:len(whole) * share // 100])
+    punched = sound["plate/plate.pch"].splitlines(keepends=True)
+    begins = [i for i, line in enumerate(punched) if line.startswith(b"$TITLE")]
+    yield made("plate_nastran", "plate.pch", "ends between two modes", b"".join(punched[:begins[-1]]))
     scenes["npz"] = scenes["plate_calculix"].replace("plate/plate.frd", "plate/modes.npz")
     for name, arrays in (("without its arrays", {"x": np.zeros(3)}), ("objects", {"frequency_Hz": np.array([{}], dtype=object)}),
                          ("wrong shapes", {"frequency_Hz": np.ones(3), "coordinates": np.ones((2, 2)), "shapes": np.ones(5)})):
