@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the modes of the plate scenes: those that a run of CalculiX left in share/scenes/plate/plate.frd, in the formats
-of codes that were not at hand. No run of Nastran or Code_Aster stands behind the files; the modes in them are CalculiX's.
+"""Makes the files of the plate scenes in the formats of codes that were not at hand: the mesh of share/scenes/plate/plate.inp,
+and the modes that a run of CalculiX left in plate.frd. No run of Nastran or Code_Aster stands behind them.
 
     plate.npz              as numpy.savez_compressed writes it
     plate.med              mesh with groups and field of modes, as Code_Aster's IMPR_RESU lays them out
     plate.pch, plate.bdf   the first four modes as Nastran punches them, and a deck of the same mesh
+    plate.unv, plate.vtu   the mesh alone, as Salome and ParaView have it
 
 All digits of the .frd file (six of a displacement) are in each. usage: plate_files.py [FOLDER = share/scenes/plate]
 """
@@ -48,6 +49,8 @@ def write(folder):
     np.savez_compressed(os.path.join(folder, "plate.npz"), nodes=mesh.nodes, frequency_Hz=frequencies, shapes=shapes)
     mesh_files.write_med(mesh, os.path.join(folder, "plate.med"))
     mesh_files.add_med_modes(os.path.join(folder, "plate.med"), "modes___DEPL", frequencies, shapes, compression="gzip")
+    mesh_files.write_unv(mesh, os.path.join(folder, "plate.unv"), millimetres=True)
+    mesh_files.write_vtk(mesh, os.path.join(folder, "plate.vtu"))
     mesh_files.write_bdf(mesh, os.path.join(folder, "plate.bdf"), held=("root",), pressed=("contact",), n_modes=N_PUNCHED,
                          title="twisted plate, in mm, N, s, t", material="2.1+5           .3      7.8-9")
     mesh_files.write_punch(os.path.join(folder, "plate.pch"), frequencies[:N_PUNCHED], shapes[:N_PUNCHED],
