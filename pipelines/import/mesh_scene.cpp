@@ -166,8 +166,9 @@ class SceneMaker {
     });
     const bool is_told = !possible.empty() && speaks_of(possible.front().name, words);
     if (!is_told) {  // what lies along the blade rather than its end
-      std::ranges::stable_partition(
-          possible, [&](const MeshName& name) { return std::abs(name.normal[span_]) < 0.2; });
+      std::stable_partition(possible.begin(), possible.end(), [&](const MeshName& name) {
+        return std::abs(name.normal[span_]) < 0.2;
+      });
     }
     has_contact_ = !possible.empty();
     if (!has_contact_) {
