@@ -29,10 +29,12 @@ struct Surface {
 /// A surface cut into small cells for quadrature and pictures: every face is refined in its own
 /// reference coordinates until there are at least `n_cells` cells in all.
 struct SurfaceSampling {
-  Eigen::MatrixX3d vertices;  ///< corners of the cells [m], n_vertices × 3
-  Connectivity cells;         ///< n_cells × 3 or 4 vertex indices
-  Eigen::MatrixX3d centres;   ///< one point inside each cell [m], n_cells × 3
-  Eigen::VectorXd weights;    ///< area of each cell [m²]; the sum is the surface's area
+  Eigen::MatrixX3d vertices;        ///< corners of the cells [m], n_vertices × 3
+  Connectivity cells;               ///< n_cells × 3 or 4 vertex indices
+  Eigen::MatrixX3d centres;         ///< one point inside each cell [m], n_cells × 3
+  Eigen::VectorXd weights;          ///< area of each cell [m²]; the sum is the surface's area
+  Eigen::MatrixX3d centre_normals;  ///< outward unit normals of the faces, n_cells × 3
+  Eigen::MatrixX3d vertex_normals;  ///< of faces that meet there the mean, n_vertices × 3
   Eigen::SparseMatrix<double>
       to_vertices;  ///< n_vertices × surface.nodes: interpolates nodal values
   Eigen::SparseMatrix<double> to_centres;  ///< n_cells × surface.nodes

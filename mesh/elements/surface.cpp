@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -138,6 +139,12 @@ class VertexMerger {
   std::map<Key, Eigen::Index> vertices_;
 };
 
+Eigen::MatrixX3d rows_of(const std::vector<Eigen::Vector3d>& vectors) {
+  Eigen::MatrixX3d rows(std::ssize(vectors), 3);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = vectors[static_cast<std::size_t>(i)];
+  return rows;
+}
+
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Collects the cells of a sampling face by face.
@@ -149,19 +156,28 @@ class Sampler {
   void add(const FaceBlock& block, Eigen::Index face, const Cell& cell) {
     const auto row = static_cast<Eigen::Index>(weights_.size());
     const FaceShapes at_centre = shapes(block.type, centre_of(cell));
-    centres_.push_back(face_point(nodes_, block, face, at_centre).position);
+    const FacePoint centre = face_point(nodes_, block, face, at_centre);
+    centres_.push_back(centre.position);
+    centre_normals_.push_back(centre.area_vector.normalized());
     weights_.push_back(area_of(nodes_, block, face, cell));
     interpolate(block, face, at_centre, row, to_centres_);
     cells_.emplace_back();
     for (const Eigen::Vector2d& corner : cell.corners) {
       const FaceShapes s = shapes(block.type, corner);
-      const Eigen::Vector3d position = face_point(nodes_, block, face, s).position;
+      const FacePoint point = face_point(nodes_, block, face, s);
       bool fresh = false;
-      const Eigen::Index vertex = merger_.index_of(position, fresh);
+      const Eigen::Index vertex = merger_.index_of(point.position, fresh);
       if (fresh) {
-        vertices_.push_back(position);
+        vertices_.push_back(point.position);
+        vertex_normals_.emplace_back(Eigen::Vector3d::Zero());
+        last_faces_.push_back(nowhere);
         interpolate(block, face, s, vertex, to_vertices_);
       }
+      Place& last = last_faces_[static_cast<std::size_t>(vertex)];
+      if (last != Place{&block, face}) {  // of each face once, however many cells of it meet
+        vertex_normals_[static_cast<std::size_t>(vertex)] += point.area_vector.normalized();
+      }
+      last = {&block, face};
       cells_.back().push_back(vertex);
     }
   }
@@ -171,16 +187,14 @@ class Sampler {
     const auto n = static_cast<Eigen::Index>(cells_.size());
     const auto n_vertices = static_cast<Eigen::Index>(vertices_.size());
     const auto n_nodes = static_cast<Eigen::Index>(surface_.nodes.size());
-    sampling.vertices.resize(n_vertices, 3);
-    for (Eigen::Index i = 0; i < n_vertices; ++i) {
-      sampling.vertices.row(i) = vertices_[static_cast<std::size_t>(i)];
-    }
-    sampling.centres.resize(n, 3);
+    sampling.vertices = rows_of(vertices_);
+    sampling.vertex_normals = rows_of(vertex_normals_).rowwise().normalized();
+    sampling.centres = rows_of(centres_);
+    sampling.centre_normals = rows_of(centre_normals_);
     sampling.weights.resize(n);
     sampling.cells.resize(n, static_cast<Eigen::Index>(cells_.front().size()));
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      sampling.centres.row(i) = centres_[k];
       sampling.weights[i] = weights_[k];
       for (Eigen::Index j = 0; j < sampling.cells.cols(); ++j) {
         sampling.cells(i, j) = cells_[k][static_cast<std::size_t>(j)];
@@ -204,11 +218,17 @@ class Sampler {
     }
   }
 
+  using Place = std::pair<const FaceBlock*, Eigen::Index>;
+  static constexpr Place nowhere{nullptr, -1};
+
   const Eigen::MatrixX3d& nodes_;
   const Surface& surface_;
   VertexMerger merger_;
   std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Eigen::Vector3d> vertex_normals_;
+  std::vector<Place> last_faces_;  // of each vertex the one sampled last
   std::vector<Eigen::Vector3d> centres_;
+  std::vector<Eigen::Vector3d> centre_normals_;
   std::vector<double> weights_;
   std::vector<std::vector<Eigen::Index>> cells_;
   Triplets to_centres_;

@@ -1,6 +1,8 @@
 #include "mesh/surface.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,41 @@ TEST(Surface, SamplesTrianglesBesideQuadrilaterals) {
   const SurfacePlane plane = fit_plane(nodes, surface);
   EXPECT_LT((plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_NEAR(plane.centroid[1], (1.0 + 1.0 / 3.0) / 5.0, 1e-15);
+}
+
+TEST(Surface, NormalsOfASamplingAreThoseOfTheFaces) {
+  const PlaneFace flat = plane_face(FaceType::quad8, 0.1);
+  const SurfaceSampling plane = sample_surface(flat.nodes, flat.surface, 20);
+  EXPECT_LT((plane.centre_normals.rowwise() - Eigen::RowVector3d::UnitZ()).cwiseAbs().maxCoeff(),
+            1e-15);
+  PlaneFace face = plane_face(FaceType::quad8, 0.0);  // a trough z = x²/2 over [−1, 1]²
+  for (auto node : face.nodes.rowwise()) node[2] = 0.5 * node[0] * node[0];
+  const SurfaceSampling curved = sample_surface(face.nodes, face.surface, 20);
+  for (const auto& [places, normals] : {std::pair{&curved.centres, &curved.centre_normals},
+                                        std::pair{&curved.vertices, &curved.vertex_normals}}) {
+    ASSERT_EQ(places->rows(), normals->rows());
+    for (Eigen::Index i = 0; i < places->rows(); ++i) {
+      const Eigen::RowVector3d expected(-(*places)(i, 0), 0.0, 1.0);
+      EXPECT_LT((normals->row(i) - expected.normalized()).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(Surface, WhereFacesMeetTheNormalIsTheirMean) {
+  Eigen::MatrixX3d nodes;
+  const Surface surface = house(nodes);
+  for (auto node : nodes.rowwise())
+    node[2] = -std::max(0.0, node[1] - 1.0);  // the roof hangs at 45°
+  const SurfaceSampling sampling = sample_surface(nodes, surface, 2);
+  const Eigen::RowVector3d roof = Eigen::RowVector3d(0.0, 1.0, 1.0).normalized();
+  const Eigen::RowVector3d mean = (roof + Eigen::RowVector3d::UnitZ()).normalized();
+  for (Eigen::Index i = 0; i < sampling.vertices.rows(); ++i) {
+    const double y = sampling.vertices(i, 1);
+    const Eigen::RowVector3d expected = y > 1.0 + 1e-9   ? roof
+                                        : y > 1.0 - 1e-9 ? mean
+                                                         : Eigen::RowVector3d::UnitZ();
+    EXPECT_LT((sampling.vertex_normals.row(i) - expected).norm(), 1e-14) << y;
+  }
 }
 
 TEST(Surface, PlaneTellsHowFarAFaceIsFromPlane) {
