@@ -41,6 +41,9 @@ struct PatchSamples {
   Eigen::MatrixX3d
       compliance;  ///< of omitted modes along p, q, r [m³/N], n; without rows where there is none
 
+  /// Of a face that is curved: p and q of each place, n; without rows where they are those of the patch.
+  Eigen::MatrixX3d slip_directions, normals;
+
   [[nodiscard]] Eigen::Index size() const { return friction.size(); }
   [[nodiscard]] bool has_friction(Eigen::Index place) const { return friction[place] > 0.0; }
 };
@@ -72,9 +75,12 @@ struct SurfaceRules {
 
 struct Patch {
   std::string name;  ///< of columns and files where a scene has several
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< rows p, q (outward normal), r
-  PatchSamples cells;                                   ///< at their centres: the contact points
-  PatchSamples vertices;                                ///< without elements: points only
+  /// Rows p, q (outward normal), r: of places without axes of their own, and of coordinates p and r along the patch.
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  double off_plane =
+      0.0;  ///< the largest distance of a place from the plane of that frame, over the size [-]
+  PatchSamples cells;     ///< at their centres: the contact points
+  PatchSamples vertices;  ///< without elements: points only
   /// Vertices of each cell, n_cells × 3 or 4; cell c belongs to contact point c. No rows: points only.
   Eigen::Matrix<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> connectivity;
   int fit_degree = -1;        ///< of the mode shapes; −1: no fit

@@ -32,6 +32,7 @@
 #include <Eigen/Core>
 
 #include "fem/modal_basis.hpp"
+#include "mesh/face_frame.hpp"
 #include "mesh/surface.hpp"
 
 namespace microslip::fem {
@@ -45,7 +46,7 @@ struct AttachmentOptions {
 /// A contact face that takes tractions.
 struct AttachmentFace {
   const mesh::Surface& surface;  ///< of the mesh, borrowed
-  Eigen::Matrix3d frame;         ///< rows p, q, r
+  mesh::FaceFrame frame;
   /// Of the contact along p, q, r [N/m³], ≥ 0: judges which tractions matter.
   Eigen::Vector3d local_stiffness = Eigen::Vector3d::Zero();
 };

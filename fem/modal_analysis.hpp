@@ -70,13 +70,13 @@ class Structure {
   /// Displacement under loads: columns of F (3 n_nodes × m) [N] → u (3 n_nodes × m) [m].
   /// @throws EigenError  rigid-body modes: K is singular.
   [[nodiscard]] Eigen::MatrixXd solve_static(const Eigen::MatrixXd& forces);
-  /// Three static solves for a uniform unit traction on the surface along each row of `frame`, minus
+  /// Three static solves for a uniform unit traction on the surface along p, q and r of each place, minus
   /// what the modes of `basis` carry (theory section 14). With rigid-body modes: inertia relief.
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
-                                                         const Eigen::Matrix3d& frame);
+                                                         const mesh::FaceFrame& frame);
   /// The modes of `basis` and attachment shapes behind them (fem/attachment.hpp): one static solve for each
-  /// traction on the faces along the rows of their frames, of the same degree on all, and for each column of `forces`.
+  /// traction on the faces along p, q and r of each place, of the same degree on all, and for each column of `forces`.
   /// @param forces  3 n_nodes × m [N], m ≥ 0: the excitation.
   /// @note With rigid-body modes: inertia relief, as residual_flexibility().
   [[nodiscard]] AttachedBasis attach(const ModalBasis& basis,

@@ -29,7 +29,10 @@ struct ModalBasis {
 /// c = ∫ C_res dA' along p, q, r at the nodes of the surface [m³/N], n_surface_nodes × 3. May be
 /// negative in places.
 struct ResidualFlexibility {
-  Eigen::MatrixX3d row_sums;
+  Eigen::MatrixX3d row_sums;  ///< without rows where every place has axes of its own
+  /// There: displacement of each node under traction along p, then q, then r [m³/N], n_surface_nodes × 9; what of it
+  /// goes along the axes of a place is the row sum there.
+  Eigen::MatrixXd displacements{};
 };
 
 }  // namespace microslip::fem

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "mesh/face_frame.hpp"
 #include "mesh/surface.hpp"
 
 namespace microslip::fem {
@@ -15,10 +16,10 @@ namespace microslip::fem {
 [[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes,
                                           const mesh::Surface& surface);
 
-/// Load vectors of a unit traction along each row of `frame`: 3 nodes.rows() × 3 [N per Pa].
+/// Load vectors of a unit traction along p, q and r, at every place those of its own: 3 nodes.rows() × 3 [N per Pa].
 [[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes,
                                                  const mesh::Surface& surface,
-                                                 const Eigen::Matrix3d& frame);
+                                                 const mesh::FaceFrame& frame);
 
 /// Load vector ∫ N_i n dA of a unit traction along the outward normal n, wherever it points: 3 nodes.rows() [m²].
 /// @note Of a closed surface the forces sum to zero.

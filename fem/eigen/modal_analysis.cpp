@@ -61,6 +61,28 @@ void check_rows(const Eigen::MatrixXd& forces, Eigen::Index n_nodes) {
                               " rows, 3 per mesh node are " + std::to_string(3 * n_nodes));
 }
 
+/// @param u  3 n_nodes × 3, under traction along p, q, r.
+ResidualFlexibility residual_along(const Eigen::Matrix3d& frame, const Eigen::MatrixXd& u,
+                                   const std::vector<Eigen::Index>& nodes) {
+  ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(nodes), 3)};
+  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
+    const Eigen::Index node = nodes[static_cast<std::size_t>(i)];
+    result.row_sums.row(i) =
+        frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
+  }
+  return result;
+}
+
+ResidualFlexibility residual_at_places(const Eigen::MatrixXd& u,
+                                       const std::vector<Eigen::Index>& nodes) {
+  ResidualFlexibility result{{}, Eigen::MatrixXd(std::ssize(nodes), 9)};
+  for (Eigen::Index i = 0; i < std::ssize(nodes); ++i) {
+    const Eigen::Index node = nodes[static_cast<std::size_t>(i)];
+    result.displacements.row(i) = u.middleRows<3>(3 * node).reshaped().transpose();
+  }
+  return result;
+}
+
 }  // namespace
 
 struct Structure::Implementation {
@@ -347,20 +369,15 @@ Eigen::MatrixXd Structure::solve_static(const Eigen::MatrixXd& forces) {
 
 ResidualFlexibility Structure::residual_flexibility(const ModalBasis& basis,
                                                     const mesh::Surface& surface,
-                                                    const Eigen::Matrix3d& frame) {
+                                                    const mesh::FaceFrame& frame) {
   Implementation& self = *self_;
   self.prepare();
   const Eigen::MatrixXd kept = self.elastic_modes(basis);
   const Eigen::MatrixXd loads =
       self.system.dofs.to_local(uniform_tractions(self.nodes, surface, frame));
   const Eigen::MatrixXd u = self.system.dofs.to_mesh(self.solve_elastic(loads, kept));
-  ResidualFlexibility result{Eigen::MatrixX3d(std::ssize(surface.nodes), 3)};
-  for (Eigen::Index i = 0; i < std::ssize(surface.nodes); ++i) {
-    const Eigen::Index node = surface.nodes[static_cast<std::size_t>(i)];
-    result.row_sums.row(i) =
-        frame.cwiseProduct(u.middleRows<3>(3 * node).transpose()).rowwise().sum().transpose();
-  }
-  return result;
+  return frame.is_local() ? residual_at_places(u, surface.nodes)
+                          : residual_along(frame.plane, u, surface.nodes);
 }
 
 AttachedBasis Structure::attach(const ModalBasis& basis, const std::vector<AttachmentFace>& faces,

@@ -14,7 +14,7 @@
 namespace microslip::fem {
 namespace {
 
-/// Calls visit(x, dA, N, nodes of the face) at every quadrature point of the surface.
+/// Calls visit(x, dA, N, nodes of the face, outward normal) at every quadrature point of the surface.
 template <typename Visit>
 void for_each_point(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
                     const Visit& visit) {
@@ -31,8 +31,9 @@ void for_each_point(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
           x += N[i] * node;
           tangents += node * dN.row(i);
         }
-        visit(x, rule.weights[q] * tangents.col(0).cross(tangents.col(1)).norm(), N,
-              block.connectivity.row(face));
+        const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
+        visit(x, rule.weights[q] * normal.norm(), N, block.connectivity.row(face),
+              normal.normalized());
       }
     }
   }
@@ -49,15 +50,17 @@ PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface
   constexpr int degree = 8;  // as for the areas: exact on flat faces
   double area = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  for_each_point(nodes, surface, degree, [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&) {
-    area += dA;
-    first += dA * x;
-  });
+  for_each_point(nodes, surface, degree,
+                 [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&, auto&&) {
+                   area += dA;
+                   first += dA * x;
+                 });
   const Eigen::Vector3d centroid = first / area;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for_each_point(nodes, surface, degree, [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&) {
-    second += dA / area * (x - centroid) * (x - centroid).transpose();
-  });
+  for_each_point(nodes, surface, degree,
+                 [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&, auto&&) {
+                   second += dA / area * (x - centroid) * (x - centroid).transpose();
+                 });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
   if (!(eigen.eigenvalues()[1] > 1e-12 * eigen.eigenvalues()[2])) {
     throw std::invalid_argument("surface \"" + surface.name + "\" has no area to carry a traction");
@@ -89,29 +92,37 @@ Eigen::VectorXd products_at(const Eigen::Vector2d& xi, int degree) {
   return values;
 }
 
-}  // namespace
-
-Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
-                                     const Eigen::Matrix3d& frame, int degree) {
-  if (degree < 0) {
-    throw std::invalid_argument("degree of the tractions = " + std::to_string(degree) +
-                                ", at least 0");
-  }
+/// ∫ P_k P_l dA. @param add  add(node, N_i dA, P, normal), at every quadrature point: for ∫ N_i P_k dA.
+template <typename Add>
+Eigen::MatrixXd gram_matrix(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
+                            const Add& add) {
   const PatchAxes axes = patch_axes(nodes, surface);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n_polynomials(degree), n_polynomials(degree));
+  for_each_point(nodes, surface, std::max(8, 2 * degree + 2),
+                 [&](const Eigen::Vector3d& x, double dA, const Eigen::VectorXd& N,
+                     const auto& face, const Eigen::Vector3d& normal) {
+                   const Eigen::VectorXd P = products_at(axes.scaled * (x - axes.centroid), degree);
+                   gram += dA * P * P.transpose();
+                   for (Eigen::Index i = 0; i < N.size(); ++i) add(face[i], dA * N[i], P, normal);
+                 });
+  return gram;
+}
+
+/// P = L t, so t = L⁻¹P keeps the order of degree. @param shares  a column for each P.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& shares) {
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(gram);
+  return cholesky.matrixL().solve(shares.transpose()).transpose();
+}
+
+Eigen::MatrixXd plane_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                const Eigen::Matrix3d& frame, int degree) {
   const Eigen::Index n = n_polynomials(degree);
-  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(nodes.rows(), n);  // ∫ N_i P_k dA
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);               // ∫ P_k P_l dA
-  for_each_point(
-      nodes, surface, std::max(8, 2 * degree + 2),
-      [&](const Eigen::Vector3d& x, double dA, const Eigen::VectorXd& N, const auto& face) {
-        const Eigen::VectorXd P = products_at(axes.scaled * (x - axes.centroid), degree);
-        gram += dA * P * P.transpose();
-        for (Eigen::Index i = 0; i < N.size(); ++i)
-          shares.row(face[i]) += dA * N[i] * P.transpose();
-      });
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(
-      gram);  // P = L t, so t = L⁻¹P keeps the order of degree
-  shares = cholesky.matrixL().solve(shares.transpose()).transpose().eval();
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(nodes.rows(), n);
+  const Eigen::MatrixXd gram =
+      gram_matrix(nodes, surface, degree,
+                  [&](Eigen::Index node, double weight, const Eigen::VectorXd& P,
+                      const Eigen::Vector3d&) { shares.row(node) += weight * P.transpose(); });
+  shares = orthonormal(gram, shares);
   Eigen::MatrixXd loads(3 * nodes.rows(), 3 * n);
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -119,6 +130,35 @@ Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes, const mesh::
     }
   }
   return loads;
+}
+
+Eigen::MatrixXd local_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                const mesh::FaceFrame& frame, int degree) {
+  const Eigen::Index n = n_polynomials(degree);
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * nodes.rows(), 3 * n);
+  const Eigen::MatrixXd gram = gram_matrix(
+      nodes, surface, degree,
+      [&](Eigen::Index node, double weight, const Eigen::VectorXd& P, const Eigen::Vector3d& at) {
+        const Eigen::Matrix3d along = weight * frame.at(at).transpose();
+        for (Eigen::Index k = 0; k < n; ++k) loads.block<3, 3>(3 * node, 3 * k) += P[k] * along;
+      });
+  for (const Eigen::Index axis : {0, 1, 2}) {
+    const auto own = Eigen::seqN(axis, n, Eigen::fix<3>);
+    loads(Eigen::all, own) = orthonormal(gram, loads(Eigen::all, own)).eval();
+  }
+  return loads;
+}
+
+}  // namespace
+
+Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                     const mesh::FaceFrame& frame, int degree) {
+  if (degree < 0) {
+    throw std::invalid_argument("degree of the tractions = " + std::to_string(degree) +
+                                ", at least 0");
+  }
+  return frame.is_local() ? local_tractions(nodes, surface, frame, degree)
+                          : plane_tractions(nodes, surface, frame.plane, degree);
 }
 
 }  // namespace microslip::fem

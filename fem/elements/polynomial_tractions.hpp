@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "mesh/face_frame.hpp"
 #include "mesh/surface.hpp"
 
 namespace microslip::fem {
@@ -20,14 +21,14 @@ namespace microslip::fem {
   return degree < 0 ? 0 : static_cast<Eigen::Index>(degree + 1) * (degree + 2) / 2;
 }
 
-/// Load vectors of the orthonormal tractions along each row of `frame`, 3 nodes.rows() ×
+/// Load vectors of the orthonormal tractions along p, q and r, at every place those of its own, 3 nodes.rows() ×
 /// 3 n_polynomials(degree) [N for a traction of mean square 1 Pa²/m²]; column 3k + d is polynomial k along
-/// row d. Polynomials are in order of degree: those of a lower degree stand first, unchanged.
-/// @param nodes  all mesh nodes [m].   @param frame  rows p, q, r.   @param degree  ≥ 0.
+/// axis d. Polynomials are in order of degree: those of a lower degree stand first, unchanged.
+/// @param nodes  all mesh nodes [m].   @param degree  ≥ 0.
 /// @throws std::invalid_argument  degree < 0, or a surface without area in two directions.
 /// @note Degree 0 is uniform_tractions() / √area.
 [[nodiscard]] Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes,
                                                    const mesh::Surface& surface,
-                                                   const Eigen::Matrix3d& frame, int degree);
+                                                   const mesh::FaceFrame& frame, int degree);
 
 }  // namespace microslip::fem

@@ -30,6 +30,17 @@ void integrate_faces(const Eigen::MatrixX3d& nodes, const mesh::FaceBlock& block
   }
 }
 
+Eigen::MatrixX3d local_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                                 const mesh::FaceFrame& frame) {
+  Eigen::MatrixX3d loads = Eigen::MatrixX3d::Zero(3 * nodes.rows(), 3);
+  for (const mesh::FaceBlock& block : surface.faces) {
+    integrate_faces(nodes, block, [&](Eigen::Index node, double N, const Eigen::Vector3d& area) {
+      loads.middleRows<3>(3 * node) += N * area.norm() * frame.at(area.normalized()).transpose();
+    });
+  }
+  return loads;
+}
+
 }  // namespace
 
 Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
@@ -43,11 +54,12 @@ Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes, const mesh::Surface& 
 }
 
 Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
-                                   const Eigen::Matrix3d& frame) {
+                                   const mesh::FaceFrame& frame) {
+  if (frame.is_local()) return local_tractions(nodes, surface, frame);
   const Eigen::VectorXd areas = nodal_areas(nodes, surface);
   Eigen::MatrixX3d loads(3 * nodes.rows(), 3);
   for (Eigen::Index i = 0; i < nodes.rows(); ++i)
-    loads.middleRows<3>(3 * i) = areas[i] * frame.transpose();
+    loads.middleRows<3>(3 * i) = areas[i] * frame.plane.transpose();
   return loads;
 }
 

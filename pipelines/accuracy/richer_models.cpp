@@ -79,10 +79,9 @@ std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
   return result;
 }
 
-bool is_fitted(const SceneDescription& scene) {
-  return std::ranges::any_of(scene.settings.patches, [](const PatchSettings& patch) {
-    return patch.fit != PatchSettings::Fit::none;
-  });
+bool is_fitted(const ReducedModel& model) {
+  return std::ranges::any_of(model.patches,
+                             [](const contact::Patch& patch) { return patch.fit_degree >= 0; });
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ RicherModels richer_models(const ReducedModel& model, const SceneDescription& sc
   }
   if (structure == nullptr || model.patches.empty()) return result;
   if (asked("cells")) result.models.push_back(with_more_cells(model, scene, *structure));
-  if (asked("fit") && is_fitted(scene)) {
+  if (asked("fit") && is_fitted(model)) {
     result.models.push_back(with_patches("fit", model, scene, *structure,
                                          [](Discretisation& settings, std::size_t patch) {
                                            settings.patches[patch].fit = PatchSettings::Fit::none;

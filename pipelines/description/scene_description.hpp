@@ -134,6 +134,8 @@ struct ContactDescription {
   std::optional<double>
       preload_share;            ///< of the load of a curve, relative to the others; none: by area
   contact::SurfaceRules rules;  ///< friction law and roughness; their local stiffness is that above
+  /// Whether every place of the face has axes of its own; without value: where it is not plane.
+  std::optional<bool> local_frames;
 };
 
 /// A point of the scene: an entry of [points], or coordinates that stand where a name is asked for.

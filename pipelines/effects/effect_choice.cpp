@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +15,7 @@
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
+#include "pipelines/model/contact_frame.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -176,13 +178,43 @@ EffectDecision residual(const EffectFacts& facts) {
   return decision;
 }
 
+struct FaceShape {
+  double off_plane = 0.0;
+  bool local_frames = false;
+};
+
+/// Of the contacts of a mesh, as far as it is known.
+std::vector<FaceShape> face_shapes(const EffectFacts& facts) {
+  std::vector<FaceShape> faces;
+  if (facts.model != nullptr) {
+    for (const contact::Patch& patch : facts.model->patches) {
+      faces.push_back({patch.off_plane, patch.cells.normals.rows() > 0});
+    }
+  } else if (facts.mesh != nullptr) {
+    for (const ContactDescription& contact : facts.scene.contacts) {
+      faces.push_back({off_plane(*facts.mesh, contact), has_local_frames(*facts.mesh, contact)});
+    }
+  }
+  return faces;
+}
+
 EffectDecision local_frames(const EffectFacts& facts) {
   if (!facts.has_contact) return by(false, "the scene has no contact");
   if (facts.scene.contacts.empty()) {
     return by(false, "contact points have the directions of the modes given for them");
   }
-  EffectDecision decision = by(false, "a face has one frame, of its mean plane and slip direction");
-  if (facts.model != nullptr) decision.indicator = curvature_size(*facts.model);
+  const std::vector<FaceShape> faces = face_shapes(facts);
+  const std::string setting = facts.setting("local_frames");
+  if (faces.empty() && setting == "auto") return {undecided, "told when the mesh is read"};
+  const double off =
+      faces.empty() ? 0.0 : std::ranges::max(faces, {}, &FaceShape::off_plane).off_plane;
+  const bool local = std::ranges::any_of(faces, &FaceShape::local_frames);
+  EffectDecision decision =
+      by(local || setting == "on",
+         setting == "off" ? "effects.local_frames = \"off\": a face is simulated as its mean plane"
+         : local ? "normal and slip direction are those of every place of a face that is not plane"
+                 : "a face that is plane has one frame");
+  if (!faces.empty()) decision.indicator = off;
   return decision;
 }
 
@@ -309,8 +341,9 @@ static_assert(std::ranges::equal(choosers, effect_table, {}, &Chooser::name, &Ef
 
 }  // namespace
 
-EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model) {
-  EffectFacts facts{.scene = scene, .model = model};
+EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model,
+                         const mesh::Mesh* mesh) {
+  EffectFacts facts{.scene = scene, .model = model, .mesh = mesh};
   if (model != nullptr) {
     facts.reach = contact_reach(*model, scene);
     facts.motion_ratio = motion_ratio_along_r(*model, scene);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effect_table.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
@@ -16,7 +17,8 @@ namespace microslip::pipelines {
 /// What is known when effects are chosen.
 struct EffectFacts {
   const SceneDescription& scene;
-  const ReducedModel* model;  ///< nullptr: not yet
+  const ReducedModel* model;         ///< nullptr: not yet
+  const mesh::Mesh* mesh = nullptr;  ///< nullptr: not known apart from the model
   std::optional<ContactReach> reach{};
   double motion_ratio = 0.0;     ///< motion_along_r.hpp; 0 without model
   bool both_directions = false;  ///< friction along r is simulated, as far as is known
@@ -29,8 +31,9 @@ struct EffectFacts {
   [[nodiscard]] bool has_range() const { return model != nullptr && scene.response.has_value(); }
 };
 
-/// @param model  as of effects_of().
-[[nodiscard]] EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model);
+/// @param model, mesh  as of effects_of().
+[[nodiscard]] EffectFacts effect_facts(const SceneDescription& scene, const ReducedModel* model,
+                                       const mesh::Mesh* mesh = nullptr);
 
 struct EffectDecision {
   Simulated simulated = Simulated::no;

@@ -68,11 +68,7 @@ double tilt_size(const ReducedModel& model, const SceneDescription& scene) {
 double curvature_size(const ReducedModel& model) {
   double most = 0.0;
   for (const contact::Patch& patch : model.patches) {
-    const Eigen::MatrixX3d& points = patch.vertices.points;
-    if (points.rows() == 0) continue;
-    const Eigen::MatrixX3d arms = points.rowwise() - points.colwise().mean();
-    const double off = (arms * patch.frame.row(1).transpose()).cwiseAbs().maxCoeff();
-    most = std::max(most, over(off, 2.0 * arms.rowwise().norm().maxCoeff()));
+    most = std::max(most, patch.off_plane);
   }
   return most;
 }

@@ -70,8 +70,9 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
 
 }  // namespace
 
-std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model) {
-  const EffectFacts facts = effect_facts(scene, model);
+std::vector<EffectRecord> effects_of(const SceneDescription& scene, const ReducedModel* model,
+                                     const mesh::Mesh* mesh) {
+  const EffectFacts facts = effect_facts(scene, model, mesh);
   std::vector<EffectRecord> effects;
   effects.reserve(effect_table.size());
   for (const EffectRow& row : effect_table) effects.push_back(record_of(row, facts));

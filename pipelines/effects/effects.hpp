@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -14,8 +15,10 @@ namespace microslip::pipelines {
 
 /// Chooses what `auto` leaves open, by the indicators.
 /// @param model  with its patches; nullptr: not known yet, so that what depends on modes is undecided.
+/// @param mesh   of a scene whose model is not known, if it is read.
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
-                                                   const ReducedModel* model);
+                                                   const ReducedModel* model,
+                                                   const mesh::Mesh* mesh = nullptr);
 
 /// One of them. @throws std::out_of_range  no such name.
 [[nodiscard]] const EffectRecord& effect_in(const std::vector<EffectRecord>& effects,

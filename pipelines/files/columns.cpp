@@ -284,6 +284,12 @@ constexpr std::array model_table{
             [](const auto& m) { return m.output; }},
 };
 
+/// @param own  of points with axes of their own, else without rows.
+Eigen::MatrixXd axis_of_points(const Patch& patch, const Eigen::MatrixX3d& own, Eigen::Index axis) {
+  if (own.rows() > 0) return own;
+  return patch.frame.row(axis).replicate(patch.cells.weights.size(), 1);
+}
+
 using Places = Dataset<Patch, Eigen::MatrixXd>;
 constexpr std::array patch_place_table{
     Places{"points", "m", "contact points, n x 3",
@@ -292,6 +298,10 @@ constexpr std::array patch_place_table{
            [](const Patch& p) -> Eigen::MatrixXd { return p.frame; }},
     Places{"vertices", "m", "of the cells, n x 3",
            [](const Patch& p) -> Eigen::MatrixXd { return p.vertices.points; }},
+    Places{"slip_directions", "1", "p of each contact point, n x 3: that of the frame, or its own",
+           [](const Patch& p) { return axis_of_points(p, p.cells.slip_directions, 0); }},
+    Places{"normals", "1", "q of each contact point, n x 3, likewise",
+           [](const Patch& p) { return axis_of_points(p, p.cells.normals, 1); }},
 };
 
 /// Coordinates (p, r) in the plane of the patch, from its centroid where it has cells.

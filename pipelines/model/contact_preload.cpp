@@ -10,7 +10,7 @@
 #include "mesh/surface.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/field.hpp"
-#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {

@@ -10,7 +10,7 @@
 
 #include "contact/patch/modal_contact_field.hpp"
 #include "pipelines/description/damping_ratios.hpp"
-#include "pipelines/effect_table.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -18,11 +18,10 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double flatness_limit =
-    effect_row("local_frames").threshold;  // of the diameter: beyond, a planar patch misleads
 constexpr double flatness_told = 1e-3;  // of the diameter: gaps between real faces are micrometres
 constexpr double angle_limit_rad =
-    5.0 * std::numbers::pi / 180.0;  // warn: local frames would differ
+    5.0 * std::numbers::pi / 180.0;                  // warn: local frames would differ
+constexpr double fold_rad = 0.5 * std::numbers::pi;  // beyond, a face lies over itself in its plane
 
 /// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
 Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::Index>& nodes,
@@ -48,6 +47,53 @@ struct ShapesOnPatch {
   contact::ModalShapes centres;
   contact::ModalShapes vertices;
 };
+
+/// p, q and r of places, n each.
+struct PlaceAxes {
+  Eigen::MatrixX3d p, q, r;
+};
+
+PlaceAxes axes_of(const mesh::FaceFrame& frame, const Eigen::MatrixX3d& normals) {
+  const Eigen::Index n = normals.rows();
+  PlaceAxes axes{Eigen::MatrixX3d(n, 3), normals, Eigen::MatrixX3d(n, 3)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Matrix3d own = frame.at(normals.row(i));
+    axes.p.row(i) = own.row(0);
+    axes.r.row(i) = own.row(2);
+  }
+  return axes;
+}
+
+/// Displacements along axes that differ from place to place. @param xyz  n_places × n_modes along x, y, z.
+Eigen::MatrixXd along(const std::array<Eigen::MatrixXd, 3>& xyz, const Eigen::MatrixX3d& axis) {
+  return axis.col(0).asDiagonal() * xyz[0] + axis.col(1).asDiagonal() * xyz[1] +
+         axis.col(2).asDiagonal() * xyz[2];
+}
+
+contact::ModalShapes shapes_at_places(const Eigen::MatrixXd& shapes,
+                                      const std::vector<Eigen::Index>& nodes,
+                                      const Eigen::SparseMatrix<double>& to,
+                                      const PlaceAxes& axes) {
+  std::array<Eigen::MatrixXd, 3> xyz;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    xyz[static_cast<std::size_t>(i)] = to * along(shapes, nodes, Eigen::Vector3d::Unit(i));
+  }
+  return {along(xyz, axes.p), along(xyz, axes.q), along(xyz, axes.r)};
+}
+
+/// Of a curved face: the displacements of the elements along the axes of each place, no field fitted in a plane.
+ShapesOnPatch local_shapes(const mesh::Surface& surface, const mesh::SurfaceSampling& sampling,
+                           const mesh::FaceFrame& frame, const Eigen::MatrixXd& shapes,
+                           contact::Patch& patch) {
+  const PlaceAxes centres = axes_of(frame, sampling.centre_normals);
+  const PlaceAxes vertices = axes_of(frame, sampling.vertex_normals);
+  patch.cells.slip_directions = centres.p;
+  patch.cells.normals = centres.q;
+  patch.vertices.slip_directions = vertices.p;
+  patch.vertices.normals = vertices.q;
+  return {shapes_at_places(shapes, surface.nodes, sampling.to_centres, centres),
+          shapes_at_places(shapes, surface.nodes, sampling.to_vertices, vertices)};
+}
 
 contact::ModalShapes interpolate(const Eigen::SparseMatrix<double>& to,
                                  const contact::ModalShapes& nodal) {
@@ -111,6 +157,24 @@ ShapesOnPatch shapes_of(const contact::ModalContactField& field,
   return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
 }
 
+/// Row sums along p, q and r of places, n × 3 [m³/N].
+Eigen::MatrixX3d residual_at(const fem::ResidualFlexibility& residual,
+                             const Eigen::SparseMatrix<double>& to,
+                             const contact::PatchSamples& samples) {
+  if (samples.normals.rows() == 0) return to * residual.row_sums;
+  const Eigen::MatrixXd moved = to * residual.displacements;
+  Eigen::MatrixX3d sums(to.rows(), 3);
+  for (Eigen::Index i = 0; i < sums.rows(); ++i) {
+    const Eigen::RowVector3d p = samples.slip_directions.row(i);
+    const Eigen::RowVector3d q = samples.normals.row(i);
+    const auto along_axis = [&](Eigen::Index axis, const Eigen::RowVector3d& direction) {
+      return direction.dot(moved.block<1, 3>(i, 3 * axis));
+    };
+    sums.row(i) << along_axis(0, p), along_axis(1, q), along_axis(2, p.cross(q));
+  }
+  return sums;
+}
+
 void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
                    const mesh::SurfaceSampling& sampling,
                    const fem::ResidualFlexibility* residual) {
@@ -120,17 +184,16 @@ void set_stiffness(contact::Patch& patch, const ContactDescription& contact,
         ": \"rigid\" means the residual stiffness alone, and modes.residual = \"none\" leaves "
         "none; give a local stiffness in N/m^3");
   }
-  const Eigen::MatrixX3d none = Eigen::MatrixX3d::Zero(sampling.to_centres.cols(), 3);
-  const Eigen::MatrixX3d& nodal = residual != nullptr ? residual->row_sums : none;
-  const auto stiffness = [&](const Eigen::SparseMatrix<double>& to, int axis) {
-    const auto& local = axis == 1 ? contact.normal_stiffness : contact.tangential_stiffness;
-    return series_stiffness(local, to * nodal.col(axis), axis == 1 ? "normal" : "tangential",
-                            axis != 2);
-  };
   const auto set = [&](contact::PatchSamples& samples, const Eigen::SparseMatrix<double>& to) {
+    const Eigen::MatrixX3d more = residual != nullptr ? residual_at(*residual, to, samples)
+                                                      : Eigen::MatrixX3d::Zero(to.rows(), 3);
     samples.stiffness.resize(to.rows(), 3);
-    for (int axis = 0; axis < 3; ++axis) samples.stiffness.col(axis) = stiffness(to, axis);
-    if (residual != nullptr) samples.compliance = to * nodal;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& local = axis == 1 ? contact.normal_stiffness : contact.tangential_stiffness;
+      samples.stiffness.col(axis) =
+          series_stiffness(local, more.col(axis), axis == 1 ? "normal" : "tangential", axis != 2);
+    }
+    if (residual != nullptr) samples.compliance = more;
   };
   set(patch.cells, sampling.to_centres);
   set(patch.vertices, sampling.to_vertices);
@@ -176,6 +239,24 @@ contact::SurfaceRules rules_of(const ContactDescription& contact) {
   return rules;
 }
 
+/// Along the axes of the patch, of the elements or of a field fitted to them.
+ShapesOnPatch plane_shapes(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                           const mesh::SurfaceSampling& sampling, const PatchSettings& settings,
+                           const Eigen::MatrixXd& shapes, contact::Patch& patch) {
+  const contact::ModalShapes nodal{along(shapes, surface.nodes, patch.frame.row(0)),
+                                   along(shapes, surface.nodes, patch.frame.row(1)),
+                                   along(shapes, surface.nodes, patch.frame.row(2))};
+  if (settings.fit == PatchSettings::Fit::none) {
+    return {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
+  }
+  const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
+  const contact::ModalContactField field =
+      fitted_field(mesh, surface, sampling, settings, nodal, plane);
+  patch.fit_degree = field.degree();
+  patch.fit_error = field.fit_error();
+  return shapes_of(field, sampling, plane);
+}
+
 contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contact,
                         const PatchSettings& settings, int n_points, const fem::ModalBasis& basis,
                         const fem::ResidualFlexibility* residual) {
@@ -183,7 +264,9 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
   const mesh::SurfaceSampling sampling = mesh::sample_surface(mesh.nodes(), surface, n_points);
   contact::Patch patch;
   patch.name = contact.name;
-  patch.frame = contact_frame(mesh, contact);
+  const mesh::FaceFrame frame = face_frame(mesh, contact);
+  patch.frame = frame.plane;
+  patch.off_plane = off_plane(mesh, contact);
   patch.cells.points = sampling.centres;
   patch.cells.weights = sampling.weights;
   patch.vertices.points = sampling.vertices;
@@ -191,20 +274,9 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
   patch.load_share = contact.preload_share.value_or(sampling.weights.sum());
   patch.wear_coefficient = contact.wear_coefficient;
   patch.rules = rules_of(contact);
-  const contact::ModalShapes nodal{along(basis.shapes, surface.nodes, patch.frame.row(0)),
-                                   along(basis.shapes, surface.nodes, patch.frame.row(1)),
-                                   along(basis.shapes, surface.nodes, patch.frame.row(2))};
-  ShapesOnPatch shapes;
-  if (settings.fit == PatchSettings::Fit::none) {
-    shapes = {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
-  } else {
-    const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
-    const contact::ModalContactField field =
-        fitted_field(mesh, surface, sampling, settings, nodal, plane);
-    patch.fit_degree = field.degree();
-    patch.fit_error = field.fit_error();
-    shapes = shapes_of(field, sampling, plane);
-  }
+  ShapesOnPatch shapes = frame.is_local()
+                             ? local_shapes(surface, sampling, frame, basis.shapes, patch)
+                             : plane_shapes(mesh, surface, sampling, settings, basis.shapes, patch);
   patch.cells.shapes = std::move(shapes.centres);
   patch.vertices.shapes = std::move(shapes.vertices);
   set_stiffness(patch, contact, sampling, residual);
@@ -212,9 +284,8 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
   return patch;
 }
 
-void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
-                     const ContactDescription& contact, std::vector<std::string>& warnings) {
-  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+void warn_of_the_plane(const mesh::SurfacePlane& plane, const ContactDescription& contact,
+                       std::vector<std::string>& warnings) {
   if (plane.largest_angle > angle_limit_rad) {
     warnings.push_back(fmt::format(
         "contact surface \"{}\": facet normals turn by up to {:.1f} degrees; one plane is used",
@@ -226,6 +297,20 @@ void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
                     "of its size); the "
                     "patch is simulated as plane, with the preload as given",
                     contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter));
+  }
+}
+
+void warn_of_the_fit(const contact::Patch& patch, const mesh::Mesh& mesh,
+                     const ContactDescription& contact, std::vector<std::string>& warnings) {
+  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
+  if (patch.cells.normals.rows() == 0) {
+    warn_of_the_plane(plane, contact, warnings);
+  } else if (plane.largest_angle > fold_rad) {
+    warnings.push_back(fmt::format(
+        "contact surface \"{}\": normals turn by up to {:.0f} degrees from their mean, so that the "
+        "face lies over itself in its mean plane; static shapes and fields in p and r do not tell "
+        "the sides apart: name parts of the face, or take more modes",
+        contact.surface, plane.largest_angle * 180.0 / std::numbers::pi));
   }
   if (patch.fit_error.size() > 0 && patch.fit_error.maxCoeff() > 0.05) {
     Eigen::Index mode = 0;
@@ -255,30 +340,6 @@ Eigen::VectorXd series_stiffness(const std::optional<double>& local,
         direction, n_bad, residual.size(), flexibility.minCoeff()));
   }
   return flexibility.inverse();
-}
-
-Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh, const ContactDescription& contact) {
-  const auto plane = mesh::fit_plane(mesh.nodes(), mesh.surface(contact.surface));
-  if (plane.flatness > flatness_limit * plane.diameter) {
-    throw SceneError(fmt::format(
-        "{}: \"{}\" is not plane: a node is {:.3g} m off the mean plane, {:.1f} % of its "
-        "size {:.3g} m (at most {:.0f} %); name a plane face",
-        contact.place, contact.surface, plane.flatness, 100.0 * plane.flatness / plane.diameter,
-        plane.diameter, 100.0 * flatness_limit));
-  }
-  const Eigen::Vector3d q = plane.normal;
-  const Eigen::Vector3d p = contact.slip_direction - q * q.dot(contact.slip_direction);
-  if (p.norm() < 1e-6 * contact.slip_direction.norm()) {
-    throw SceneError(fmt::format(
-        "{}: {}.slip_direction is along the normal ({:.3g}, {:.3g}, {:.3g}) of \"{}\"; give a "
-        "direction with a part in the plane",
-        contact.place, contact.key, q.x(), q.y(), q.z(), contact.surface));
-  }
-  Eigen::Matrix3d frame;
-  frame.row(0) = p.normalized();
-  frame.row(1) = q;
-  frame.row(2) = p.normalized().cross(q);
-  return frame;
 }
 
 ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,

@@ -14,11 +14,6 @@
 
 namespace microslip::pipelines {
 
-/// Frame of a patch: rows p (slip direction in the plane), q (outward normal), r = p × q.
-/// @throws SceneError  slip direction along the normal, or a face that is not plane.
-[[nodiscard]] Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh,
-                                            const ContactDescription& contact);
-
 /// 1/k = 1/k_local + c (theory section 14). @param local  no value: rigid.
 /// @param direction  for messages.
 /// @param refuse  else a stiffness that is not positive stays, for those who need it to refuse.
@@ -29,7 +24,7 @@ namespace microslip::pipelines {
 /// Reduced model of a meshed structure: one patch per contact of the scene.
 /// @param residuals  row sums on the contact surfaces, one each; empty: local stiffness alone.
 /// @param warnings  sentences for the log are appended.
-/// @throws SceneError    an unknown name, a face that is not plane.
+/// @throws SceneError    an unknown name, a slip direction along the normal.
 /// @throws RefusedError  a contact stiffness that is not positive (theory section 14).
 [[nodiscard]] ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& scene,
                                              const fem::ModalBasis& basis,

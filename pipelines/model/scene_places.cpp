@@ -12,8 +12,8 @@
 #include "mesh/surface.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/import/step_mesh.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
-#include "pipelines/model/contact_stage.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -63,6 +63,11 @@ void add_contact(const mesh::Mesh& mesh, const SceneDescription& scene, std::siz
   lines.back() += fmt::format(", flat to {:.2g} m", rounded(plane.flatness));
   lines.push_back(fmt::format("  p {} slip, q {} out of the body, r {}", vector_text(frame.row(0)),
                               vector_text(frame.row(1)), vector_text(frame.row(2))));
+  if (has_local_frames(mesh, contact)) {
+    lines.back() += fmt::format(
+        "; every place has axes of its own, normals turn by up to {:.1f} degrees from q",
+        plane.largest_angle * 180.0 / std::numbers::pi);
+  }
   std::vector<std::string> preloads;
   for (const PatchPreload& preload : patch_preloads(mesh, scene, index)) {
     preloads.push_back(preload_text(preload));

@@ -209,7 +209,7 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
       result.warnings.push_back(std::move(text));
     }
   }
-  result.effects = effects_of(scene, nullptr);
+  result.effects = effects_of(scene, nullptr, &mesh);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "mesh/outer_faces.hpp"
 #include "pipelines/files/plot_script.hpp"
-#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/temporary_folder.hpp"

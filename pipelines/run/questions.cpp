@@ -20,7 +20,7 @@
 #include "mesh/surface.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/import/named_points.hpp"
-#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/response/response_stage.hpp"
 
@@ -216,9 +216,8 @@ Findings held_output(const Facts& facts) {
 Findings slip_angle(const Facts& facts) {
   Findings findings;
   for (const ContactDescription& contact : facts.scene.contacts) {
-    const Eigen::Vector3d q = contact_frame(*facts.mesh, contact).row(1);
-    const double sine = std::min(1.0, std::abs(q.dot(contact.slip_direction)));
-    findings.push_back({contact.key + ".slip_direction", to_degrees * std::asin(sine),
+    const double cosine = std::min(1.0, steepest_place(*facts.mesh, contact).sine);
+    findings.push_back({contact.key + ".slip_direction", to_degrees * std::acos(cosine),
                         fmt::format("against \"{}\"", contact.surface)});
   }
   return findings;

@@ -90,6 +90,18 @@ bool asks_for_preloads(const SceneDescription& scene) {
          });
 }
 
+bool lacks_faces(const SceneDescription& scene) { return scene.contacts.empty(); }
+bool has_fit_degree(const SceneDescription& scene) {
+  return std::ranges::any_of(scene.settings.patches, [](const PatchSettings& patch) {
+    return patch.fit == PatchSettings::Fit::degree;
+  });
+}
+bool has_preload_moment(const SceneDescription& scene) {
+  return std::ranges::any_of(scene.contacts, [](const ContactDescription& contact) {
+    return contact.preload_moment != std::array{0.0, 0.0};
+  });
+}
+
 bool always(const SceneDescription&) { return true; }
 
 /// What one setting of an effect cannot stand beside.
@@ -141,9 +153,14 @@ constexpr std::array contradictions{
                   "cannot be on: modal scenes and modes.residual = \"none\" have no residual"},
     Contradiction{"residual", "off", has_residual,
                   "contradicts modes.residual: give modes.residual = \"none\""},
-    Contradiction{"local_frames", "on", always,
-                  "cannot be on: a contact has one frame, from contact.slip_direction and its mean "
-                  "plane; several [[contact]] have one each"},
+    Contradiction{
+        "local_frames", "on", lacks_faces,
+        "needs contact.surface, a face of a mesh: contact points of a modal scene have the "
+        "directions of the modes given for them"},
+    Contradiction{"local_frames", "on", has_fit_degree,
+                  "contradicts contact.fit: a field is fitted in a plane; leave that out"},
+    Contradiction{"local_frames", "on", has_preload_moment,
+                  "contradicts contact.preload_moment, which tilts a plane face"},
     Contradiction{"static_preload", "on", lacks_static_preload,
                   "needs contact.preload = \"static\" and the loads of [static]"},
     Contradiction{"static_preload", "off", has_static_preload,
@@ -176,6 +193,9 @@ void read_effects(const SectionReader& s, SceneDescription& scene) {
     if (setting_of(scene, effect) == setting && is_there(scene)) {
       s.fail(effect, fmt::format("\"{}\" {}", setting, why), s.node(effect));
     }
+  }
+  if (const std::string frames = setting_of(scene, "local_frames"); frames != "auto") {
+    for (ContactDescription& contact : scene.contacts) contact.local_frames = frames == "on";
   }
   using enum Discretisation::Choice;
   const std::string both = setting_of(scene, "second_direction");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "fem/surface_load.hpp"
 #include "mesh/surface.hpp"
 #include "pipelines/import/given_matrices.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/structure/solver_memory.hpp"
@@ -19,29 +21,41 @@
 namespace microslip::pipelines {
 namespace {
 
-/// The normal freedoms of all contact faces.
-struct NormalFreedoms {
+/// The freedoms of all contact faces: of plane ones along the normal, of curved ones, whose points have normals of their
+/// own, along x, y and z.
+struct FaceFreedoms {
   std::vector<Eigen::Index> nodes;
-  Eigen::MatrixX3d normals;
+  std::vector<Eigen::RowVector3d> directions;
 
-  /// Displacements along the normals, of columns over the mesh.
+  [[nodiscard]] Eigen::Index size() const { return std::ssize(nodes); }
+
+  /// Displacements along them, of columns over the mesh.
   [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& u) const {
-    Eigen::MatrixXd v(normals.rows(), u.cols());
+    Eigen::MatrixXd v(size(), u.cols());
     for (Eigen::Index i = 0; i < v.rows(); ++i) {
-      v.row(i) = normals.row(i) * u.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
+      const auto k = static_cast<std::size_t>(i);
+      v.row(i) = directions[k] * u.middleRows<3>(3 * nodes[k]);
     }
     return v;
   }
 };
 
-NormalFreedoms normal_freedoms(const mesh::Mesh& mesh, const SceneDescription& scene) {
-  NormalFreedoms freedoms;
+/// A row for each freedom of a node.
+Eigen::MatrixX3d directions_of(const mesh::FaceFrame& frame) {
+  if (frame.is_local()) return Eigen::Matrix3d::Identity();
+  return frame.plane.row(1);
+}
+
+FaceFreedoms face_freedoms(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  FaceFreedoms freedoms;
   for (const ContactDescription& contact : scene.contacts) {
-    const std::vector<Eigen::Index>& own = mesh.surface(contact.surface).nodes;
-    freedoms.nodes.insert(freedoms.nodes.end(), own.begin(), own.end());
-    const Eigen::Index n = std::ssize(freedoms.nodes);
-    freedoms.normals.conservativeResize(n, 3);
-    freedoms.normals.bottomRows(std::ssize(own)).rowwise() = contact_frame(mesh, contact).row(1);
+    const Eigen::MatrixX3d directions = directions_of(face_frame(mesh, contact));
+    for (const Eigen::Index node : mesh.surface(contact.surface).nodes) {
+      for (const auto& direction : directions.rowwise()) {
+        freedoms.nodes.push_back(node);
+        freedoms.directions.emplace_back(direction);
+      }
+    }
   }
   return freedoms;
 }
@@ -55,16 +69,16 @@ Eigen::VectorXd load_of(const mesh::Mesh& mesh, const StaticLoads& loads) {
 }
 
 Eigen::MatrixXd flexibility(fem::Structure& structure, const mesh::Mesh& mesh,
-                            const NormalFreedoms& freedoms) {
+                            const FaceFreedoms& freedoms) {
   constexpr Eigen::Index at_once = 64;  // of the solutions, each as long as the mesh
-  const Eigen::Index n = freedoms.normals.rows();
+  const Eigen::Index n = freedoms.size();
   Eigen::MatrixXd C(n, n);
   for (Eigen::Index begin = 0; begin < n; begin += at_once) {
     const Eigen::Index count = std::min(at_once, n - begin);
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * mesh.n_nodes(), count);
     for (Eigen::Index j = 0; j < count; ++j) {
-      const Eigen::Index node = freedoms.nodes[static_cast<std::size_t>(begin + j)];
-      forces.block<3, 1>(3 * node, j) = freedoms.normals.row(begin + j).transpose();
+      const auto k = static_cast<std::size_t>(begin + j);
+      forces.block<3, 1>(3 * freedoms.nodes[k], j) = freedoms.directions[k].transpose();
     }
     C.middleCols(begin, count) = freedoms.of(structure.solve_static(forces));
   }
@@ -80,8 +94,9 @@ struct RestingPlaces {
 /// A contact at rest, at its points and at the vertices of its cells.
 struct RestingPatch {
   mesh::SurfaceSampling sampling;
-  RestingPlaces cells;
-  RestingPlaces vertices;
+  Eigen::SparseMatrix<double> to_cells, to_vertices;  ///< approach of freedoms of the face
+  RestingPlaces cells{};
+  RestingPlaces vertices{};
 };
 
 /// Height 0: smooth.
@@ -89,22 +104,40 @@ contact::RoughSurface surface_of(const ContactDescription& contact) {
   return contact.rules.roughness.value_or(contact::RoughSurface::cubic(0.0));
 }
 
+/// Interpolation to places, along their normals where the freedoms of a node are three.
+Eigen::SparseMatrix<double> approach_of(const Eigen::SparseMatrix<double>& to,
+                                        const Eigen::MatrixX3d& normals, bool is_local) {
+  if (!is_local) return to;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index j = 0; j < to.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(to, j); it; ++it) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(3 * it.col() + axis),
+                             it.value() * normals(it.row(), axis));
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> along_normals(to.rows(), 3 * to.cols());
+  along_normals.setFromTriplets(entries.begin(), entries.end());
+  return along_normals;
+}
+
 /// Points of all contacts on the freedoms of all of them.
 contact::ContactLayer layer_of(const SceneDescription& scene,
                                const std::vector<RestingPatch>& patches, Eigen::Index n_freedoms) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::Index n_points = 0;
-  Eigen::Index first_node = 0;
+  Eigen::Index first_freedom = 0;
   for (const RestingPatch& patch : patches) {
-    const Eigen::SparseMatrix<double>& to = patch.sampling.to_centres;
+    const Eigen::SparseMatrix<double>& to = patch.to_cells;
     for (Eigen::Index j = 0; j < to.outerSize(); ++j) {
       for (Eigen::SparseMatrix<double>::InnerIterator it(to, j); it; ++it) {
         entries.emplace_back(static_cast<int>(n_points + it.row()),
-                             static_cast<int>(first_node + it.col()), it.value());
+                             static_cast<int>(first_freedom + it.col()), it.value());
       }
     }
     n_points += to.rows();
-    first_node += to.cols();
+    first_freedom += to.cols();
   }
   contact::ContactLayer layer{Eigen::SparseMatrix<double>(n_points, n_freedoms),
                               Eigen::VectorXd(n_points),
@@ -136,24 +169,26 @@ std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDes
                                           const contact::ElasticFace& face) {
   std::vector<RestingPatch> patches;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    patches.push_back({mesh::sample_surface(mesh.nodes(), mesh.surface(scene.contacts[i].surface),
-                                            contact_points(scene.settings, i)),
-                       {},
-                       {}});
+    mesh::SurfaceSampling sampling = mesh::sample_surface(
+        mesh.nodes(), mesh.surface(scene.contacts[i].surface), contact_points(scene.settings, i));
+    const bool is_local = has_local_frames(mesh, scene.contacts[i]);
+    auto to_cells = approach_of(sampling.to_centres, sampling.centre_normals, is_local);
+    auto to_vertices = approach_of(sampling.to_vertices, sampling.vertex_normals, is_local);
+    patches.push_back({std::move(sampling), std::move(to_cells), std::move(to_vertices)});
   }
   const contact::ElasticRest rest =
       contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
-  Eigen::Index first_node = 0;
+  Eigen::Index first_freedom = 0;
   Eigen::Index first_point = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     RestingPatch& patch = patches[i];
     const mesh::SurfaceSampling& sampling = patch.sampling;
-    const auto own = rest.displacement.segment(first_node, sampling.to_vertices.cols());
+    const auto own = rest.displacement.segment(first_freedom, patch.to_vertices.cols());
     patch.cells = {rest.approach.segment(first_point, sampling.weights.size()),
                    rest.pressure.segment(first_point, sampling.weights.size())};
-    patch.vertices.approach = (sampling.to_vertices * own).array() - scene.contacts[i].gap;
+    patch.vertices.approach = (patch.to_vertices * own).array() - scene.contacts[i].gap;
     patch.vertices.pressure = pressure_at(patch.vertices.approach, scene.contacts[i]);
-    first_node += own.size();
+    first_freedom += own.size();
     first_point += sampling.weights.size();
   }
   return patches;
@@ -198,7 +233,7 @@ std::string line_of(const ContactDescription& contact, const RestingPatch& patch
 
 contact::ElasticFace static_face(fem::Structure& structure, const mesh::Mesh& mesh,
                                  const SceneDescription& scene, const Eigen::VectorXd& rotated) {
-  const NormalFreedoms freedoms = normal_freedoms(mesh, scene);
+  const FaceFreedoms freedoms = face_freedoms(mesh, scene);
   contact::ElasticFace face;
   try {
     face.approach = freedoms.of(structure.solve_static(load_of(mesh, scene.static_loads)));

@@ -19,8 +19,8 @@ auto members(pipelines::Is<RicherBasis> auto& value) {
   return std::tie(basis, embedding);
 }
 auto members(pipelines::Is<ResidualFlexibility> auto& value) {
-  auto& [row_sums] = value;
-  return std::tie(row_sums);
+  auto& [row_sums, displacements] = value;
+  return std::tie(row_sums, displacements);
 }
 auto members(pipelines::Is<ModalTimings> auto& value) {
   auto& [assembly, factorisation, ordering, eigensolve, inertia] = value;

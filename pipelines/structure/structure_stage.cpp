@@ -17,8 +17,8 @@
 #include "pipelines/import/mesher_limits.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/import/step_mesh.hpp"
+#include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
-#include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/structure/geometry_bytes.hpp"
 #include "pipelines/structure/given_modes.hpp"
@@ -76,8 +76,7 @@ mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& m
 /// The contacts as their static shapes see them. A stiffness matters where the degree is chosen by it.
 TaskFace face_of(const mesh::Mesh& mesh, const ContactDescription& contact,
                  const BasisSettings& basis) {
-  TaskFace face{mesh.surface(contact.surface), contact_frame(mesh, contact),
-                Eigen::Vector3d::Zero()};
+  TaskFace face{mesh.surface(contact.surface), face_frame(mesh, contact), Eigen::Vector3d::Zero()};
   if (basis.residual != ResidualKind::attachment) return face;
   if (!contact.tangential_stiffness || !contact.normal_stiffness) {
     throw SceneError(contact.place +
@@ -216,8 +215,8 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene) {
   }
   for (const ContactDescription& contact : scene.contacts) {
     require_name(contact.place, [&] { return mesh.surface(contact.surface); });
-    static_cast<void>(contact_frame(mesh, contact));
   }
+  require_frames(mesh, scene);
   require_preload(mesh, scene);
 }
 

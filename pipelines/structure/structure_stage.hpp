@@ -26,7 +26,7 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string describe_mesh(const mesh::Mesh& mesh, double density);
 
 /// Checks all names of the scene against the mesh before anything is solved.
-/// @throws mesh::MeshError, SceneError  a surface or point that is not there, a face that is not plane.
+/// @throws mesh::MeshError, SceneError  a surface or point that is not there, axes that a face does not have (require_frames).
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 
 /// Assembles and solves, of a structure that rotates about its static equilibrium; modes of another code are read

@@ -28,6 +28,10 @@ auto members(Is<Surface> auto& value) {
   static_cast<void>(name);
   return std::tie(faces, nodes, area);
 }
+auto members(Is<FaceFrame> auto& value) {
+  auto& [plane, slip_direction] = value;
+  return std::tie(plane, slip_direction);
+}
 }  // namespace mesh
 
 namespace fem {

@@ -15,6 +15,7 @@
 #include "fem/material.hpp"
 #include "fem/modal_analysis.hpp"
 #include "fem/rotation.hpp"
+#include "mesh/face_frame.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/description/discretisation.hpp"
 
@@ -38,7 +39,7 @@ struct StructureModes {
 /// A contact face.
 struct TaskFace {
   mesh::Surface surface;
-  Eigen::Matrix3d frame;            ///< rows p, q, r
+  mesh::FaceFrame frame;
   Eigen::Vector3d local_stiffness;  ///< along them [N/m³]; 0 where no degree is chosen by it
 };
 

@@ -23,8 +23,9 @@ void add_springs(fem::FeSystem& system, const SurfaceSprings& springs) {
       index.push_back(static_cast<PetscInt>(system.dofs.solver_node(node)));
       N.push_back(it.value());
     }
-    const Eigen::Matrix3d spring = springs.weights[c] * springs.frame.transpose() *
-                                   springs.stiffness.row(c).asDiagonal() * springs.frame;
+    const Eigen::Matrix3d& frame = springs.frame_at(c);
+    const Eigen::Matrix3d spring =
+        springs.weights[c] * frame.transpose() * springs.stiffness.row(c).asDiagonal() * frame;
     const auto n = static_cast<Eigen::Index>(N.size());
     block.resize(3 * n, 3 * n);
     for (Eigen::Index i = 0; i < n; ++i) {

@@ -20,6 +20,11 @@ struct SurfaceSprings {
   const Eigen::VectorXd& weights;                ///< area of each point [m²]
   Eigen::Matrix3d frame;                         ///< rows p, q, r
   Eigen::MatrixX3d stiffness;                    ///< along p, q, r at each point [N/m³]
+  std::vector<Eigen::Matrix3d> own_frames{};     ///< of each point; empty: `frame` everywhere
+
+  [[nodiscard]] const Eigen::Matrix3d& frame_at(Eigen::Index point) const {
+    return own_frames.empty() ? frame : own_frames[static_cast<std::size_t>(point)];
+  }
 };
 
 struct SprungModes {

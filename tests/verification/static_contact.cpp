@@ -93,8 +93,7 @@ TEST(StaticContact, IsThatOfCalculiX) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
     if (!one.scene.static_loads.forces.empty()) {
       load = 1000.0 / (0.01 * 0.02) *
-             fem::uniform_tractions(mesh.nodes(), mesh.surface("z1"), Eigen::Matrix3d::Identity())
-                 .col(0);
+             fem::uniform_tractions(mesh.nodes(), mesh.surface("z1"), mesh::FaceFrame{}).col(0);
     }
     one.calculix = test::calculix_contact(mesh, one.scene.material, one.scene.clamped,
                                           {"x1", stiffness, load, *one.scene.rotation});

@@ -149,8 +149,7 @@ TEST(Loads, OfASideWithTrianglesBesideQuadrilateralsHaveTheRightResultants) {
     // Centroid along x: linear fields are in the space of every face. Linear elements map x itself
     // with chords.
     EXPECT_NEAR(areas.dot(mesh.nodes().col(0)) / area, 0.5 * length, 1e-14);
-    const Eigen::MatrixXd loads =
-        polynomial_tractions(mesh.nodes(), side, Eigen::Matrix3d::Identity(), 1);
+    const Eigen::MatrixXd loads = polynomial_tractions(mesh.nodes(), side, mesh::FaceFrame{}, 1);
     ASSERT_EQ(loads.cols(), 9);
     const Eigen::VectorXd of_x = loads(Eigen::seq(0, Eigen::last, 3), 0);
     EXPECT_LT((of_x / of_x.sum() - areas / area).norm(), 1e-13) << "degree 0 is uniform";

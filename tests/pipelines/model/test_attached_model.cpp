@@ -200,8 +200,7 @@ TEST(AttachedModel, ForcesAndOutputsOnASurfaceFollowItsArea) {
   const mesh::Surface& tip = mesh.surface("x1");
   const Eigen::Vector3d direction(0.0, 0.6, 0.8);
   const Eigen::VectorXd load = unit_load(mesh, "x1", direction);
-  const Eigen::MatrixX3d tractions =
-      fem::uniform_tractions(mesh.nodes(), tip, Eigen::Matrix3d::Identity());
+  const Eigen::MatrixX3d tractions = fem::uniform_tractions(mesh.nodes(), tip, mesh::FaceFrame{});
   EXPECT_LT((load - tractions * direction / tip.area).norm(), 1e-14);
   // The mean of a field quadratic over the face, y² along the direction: b²/3; equal shares miss
   // it.

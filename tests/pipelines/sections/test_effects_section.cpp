@@ -154,7 +154,13 @@ INSTANTIATE_TEST_SUITE_P(
         Contradicting{chain, {"effects.moments=off"}, "moments", "cells"},
         Contradicting{modal, {"effects.residual=on"}, "residual", "modes.residual"},
         Contradicting{blade, {"effects.residual=off"}, "residual", "modes.residual"},
-        Contradicting{blade, {"effects.local_frames=on"}, "local_frames", "contact.slip_direction"},
+        Contradicting{modal, {"effects.local_frames=on"}, "local_frames", "contact.surface"},
+        Contradicting{
+            blade, {"effects.local_frames=on", "contact.fit=3"}, "local_frames", "contact.fit"},
+        Contradicting{blade,
+                      {"effects.local_frames=on", "contact.preload_moment=[1, 0]"},
+                      "local_frames",
+                      "contact.preload_moment"},
         Contradicting{
             blade, {"effects.static_preload=on"}, "static_preload", "contact.preload = \"static\""},
         Contradicting{blade,

@@ -173,7 +173,7 @@ TEST(StaticPreload, ARotatingBarPressesByItsCentrifugalLoad) {
 void pull(SceneDescription& scene, const mesh::Mesh& mesh, double a, double b) {
   const Eigen::VectorXd y = mesh.nodes().col(1).array() - 0.5 * side;
   const Eigen::MatrixXd unit =
-      fem::polynomial_tractions(mesh.nodes(), mesh.surface("x1"), Eigen::Matrix3d::Identity(), 1);
+      fem::polynomial_tractions(mesh.nodes(), mesh.surface("x1"), mesh::FaceFrame{}, 1);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(mesh.n_nodes());
   for (Eigen::Index column = 0; column < unit.cols(); column += 3) {  // along x
     const Eigen::VectorXd share = unit.col(column).reshaped(3, mesh.n_nodes()).row(0).transpose();
