@@ -36,7 +36,7 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);
-    put_back_missed_effects(solution, options.jobs, record);
+    static_cast<void>(put_back_missed_effects(solution, options.jobs, record));
     refine_to_tolerance(solution, options.jobs, record);
     record.tell_effects();
     if (solution.structure)

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "pipelines/accuracy/refinement.hpp"
+#include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
 
@@ -77,6 +78,7 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
   accuracy.asked = solution.scene.accuracy.tolerance;
   if (accuracy.asked == 0.0) return;
   look_at(solution, accuracy);
+  bool puts_back = true;
   std::string missing = "more rounds of refinement would be needed";
   for (int i = 0; i < most_rounds && has_budgets(solution); ++i) {
     if (accuracy.reached <= accuracy.asked) break;
@@ -101,6 +103,8 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     keep_solved_again(*round, next->new_mesh, record);
     solution = std::move(round->solution);
     accuracy.refined.push_back(next->text);
+    // What was rightly left out of the coarser model need not be so of this one.
+    if (puts_back) puts_back = put_back_missed_effects(solution, jobs, record);
     look_at(solution, accuracy);
   }
   const bool met = accuracy.reached <= accuracy.asked;

@@ -9,7 +9,7 @@
 namespace microslip::pipelines {
 
 /// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one that was
-/// solved in time takes its place, there and in the record.
+/// solved in time takes its place, there and in the record. Effects that turn out to matter on it are put back.
 /// @throws as model_of(), solved_structure().
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record);
 

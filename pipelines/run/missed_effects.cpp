@@ -78,13 +78,13 @@ void tell_change(const Solution& without, Solution& with) {
 
 }  // namespace
 
-void put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
+bool put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
   for (std::vector<MissedEffect> missed = missed_in(solution); !missed.empty();
        missed = missed_in(solution)) {
     const std::string names = names_of(missed);
     if (cut_short()) {
       record.progress().warning("out of time: left out though it matters: " + names);
-      return;
+      return false;
     }
     record.progress().info("left out, and it matters: " + names +
                            "; all curves are solved again with it");
@@ -96,12 +96,13 @@ void put_back_missed_effects(Solution& solution, int jobs, RunRecord& record) {
     if (!round) {
       record.progress().warning(fmt::format("left out though it matters: {}: {}", names,
                                             obstacle.empty() ? "out of time" : obstacle));
-      return;
+      return false;
     }
     tell_change(solution, round->solution);
     keep_solved_again(*round, false, record);
     solution = std::move(round->solution);
   }
+  return true;
 }
 
 }  // namespace microslip::pipelines

@@ -244,6 +244,19 @@ class WhatMattersIsPutBack(unittest.TestCase):
             print(f"{curve}: without normal motion {100 * (peaks(off)[curve] / amplitude - 1):+.2f} %")
         self.assertEqual(len(auto["error_budget"]), len(on["error_budget"]))  # none is left of the curves without
 
+    def test_what_matters_on_the_refined_model_alone(self):
+        # With one harmonic nothing meets the second mode, and leaving its normal motion out is right.
+        coarse = self.runs("hidden_coarse", "response.harmonics=1")
+        self.assertIs(effect(coarse, "normal_motion")["simulated"], False)
+        self.assertLess(effect(coarse, "normal_motion")["bound"], 1e-4)
+        refined = self.runs("hidden_refined", "response.harmonics=1", 'accuracy.tolerance="1 %"')
+        self.assertTrue(refined["accuracy"]["refined"])
+        row = effect(refined, "normal_motion")
+        self.assertIs(row["simulated"], True)
+        self.assertGreater(row["switched_on"], 0.02)
+        self.assertEqual(refined["accuracy"]["message"], "")
+        self.assertLessEqual(refined["accuracy"]["reached"], 0.01)
+
     def test_a_switch_of_the_user_is_obeyed(self):
         self.assertIsNone(effect(self.runs("hidden_on", NORMAL), "normal_motion")["switched_on"])
         off = self.runs("hidden_off", "effects.normal_motion=off")
