@@ -25,6 +25,14 @@ void require_stiffness_along_r(const ReducedModel& model) {
       smallest));
 }
 
+void require_obeyed(const std::vector<EffectRecord>& chosen) {
+  for (const EffectRecord& effect : chosen) {
+    if (effect.refusal.empty()) continue;
+    throw RefusedError(
+        fmt::format("effects.{} = \"{}\": {}", effect.name, effect.setting, effect.refusal));
+  }
+}
+
 }  // namespace
 
 ContactEffects contact_effects(const ReducedModel& model, const SceneDescription& scene) {
@@ -34,6 +42,7 @@ ContactEffects contact_effects(const ReducedModel& model, const SceneDescription
     effects.n_harmonics = std::max(effects.n_harmonics, least_harmonics_of_time);
   }
   const std::vector<EffectRecord> chosen = effects_of(scene, &model);
+  require_obeyed(chosen);
   const EffectRecord& along_r = effect_in(chosen, "second_direction");
   effects.normal_motion = effect_in(chosen, "normal_motion").simulated != Simulated::no;
   effects.motion_ratio = along_r.indicator.value_or(0.0);

@@ -13,7 +13,8 @@ namespace microslip::pipelines {
 
 /// Decides what `auto` in [effects] leaves open.
 /// @param model  with its patches.
-/// @throws RefusedError  friction along r is asked for, and the stiffness there is not positive.
+/// @throws RefusedError  friction along r is asked for, and the stiffness there is not positive; an effect is switched off
+///                       that no method can leave out.
 [[nodiscard]] ContactEffects contact_effects(const ReducedModel& model,
                                              const SceneDescription& scene);
 

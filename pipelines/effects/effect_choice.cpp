@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -65,10 +66,14 @@ EffectDecision normal_motion(const EffectFacts& facts) {
   if (!facts.has_normal_stiffness) return by(false, "no contact has normal stiffness");
   if (facts.model == nullptr) return {undecided, later};
   if (!facts.reach) return by(true, "normal springs belong to the stuck limit");
+  const auto is_on = [&](std::initializer_list<std::string_view> names) {  // parts of it as well
+    return std::ranges::any_of(names, [&](auto name) { return facts.setting(name) == "on"; });
+  };
   const double share = normal_energy_share(*facts.model, facts.scene);
   const double indicator = std::max(facts.reach->load, share);
   const bool called_for = indicator > effect_row("normal_motion").threshold;
-  const bool asked = facts.setting("normal_motion") == "on" || is_rough(facts.scene);
+  const bool asked =
+      is_rough(facts.scene) || is_on({"normal_motion", "separation", "mean_coupling"});
   return by(called_for || asked,
             fmt::format("the load changes by {} its value in the linear limits, normal springs "
                         "hold {:.2g} % of the strain energy",
@@ -89,14 +94,48 @@ EffectDecision with_normal_motion(const EffectFacts& facts, const char* why,
 EffectDecision separation(const EffectFacts& facts) {
   EffectDecision decision =
       with_normal_motion(facts, "the contact is one-sided", &ContactReach::load);
-  if (decision.simulated == yes && decision.indicator <= effect_row("separation").threshold) {
-    decision.reason += ": no point opens in the linear limits; asking for it costs nothing";
+  if (decision.simulated != yes) return decision;
+  const bool opens = !(decision.indicator <= effect_row("separation").threshold);
+  if (facts.setting("separation") != "off") {
+    if (!opens) {
+      decision.reason += ": no point opens in the linear limits; asking for it costs nothing";
+    }
+    return decision;
   }
+  if (opens) {
+    decision.refusal = fmt::format(
+        "the load changes by {} its value in the linear limits, so that points open; held closed "
+        "they would pull, and friction has no law there: leave it to \"auto\", raise "
+        "response.preload, or keep the load that of rest by effects.normal_motion = \"off\"",
+        times_text(decision.indicator.value_or(HUGE_VAL)));
+    return decision;
+  }
+  decision.simulated = no;
+  decision.reason =
+      "no point opens in the linear limits: as long as none does on the curves, they are those of "
+      "contact that cannot open";
   return decision;
 }
 
 EffectDecision mean_coupling(const EffectFacts& facts) {
-  return with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
+  EffectDecision decision =
+      with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
+  if (decision.simulated != yes || facts.setting("mean_coupling") != "off") return decision;
+  const double change = decision.indicator.value_or(HUGE_VAL);
+  if (change > effect_row("mean_coupling").threshold) {
+    decision.refusal = fmt::format(
+        "the mean approach changes the load by up to {} its value in the linear limits, and no law "
+        "of a point knows the vibration of the load without its mean: leave it to \"auto\", or "
+        "keep "
+        "the load that of rest by effects.normal_motion = \"off\"",
+        times_text(change));
+    return decision;
+  }
+  decision.reason = fmt::format(
+      "kept in the equations although it is \"off\", since no law of a point is without it: in the "
+      "linear limits the mean approach changes the load by {} its value at most",
+      times_text(change));
+  return decision;
 }
 
 bool has_both_directions(const SceneDescription& scene, double motion_ratio) {

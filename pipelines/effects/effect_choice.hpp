@@ -40,6 +40,7 @@ struct EffectDecision {
   std::string reason;
   std::optional<double> indicator{};
   std::optional<double> threshold{};  ///< where it is not that of the table
+  std::string refusal{};              ///< why the setting cannot be obeyed; empty: it is
 };
 
 /// Of one row. @throws std::out_of_range  no such effect.

@@ -26,6 +26,7 @@ struct EffectRecord {
   /// peak with it was not found from that without. None: not switched on by a run.
   std::optional<double> switched_on{};
   std::string objection{};  ///< why the setting is wrong; empty: nothing says so
+  std::string refusal{};    ///< why the setting cannot be obeyed; empty: it is
 };
 
 }  // namespace microslip::pipelines

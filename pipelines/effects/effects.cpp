@@ -64,6 +64,7 @@ EffectRecord record_of(const EffectRow& row, const EffectFacts& facts) {
     effect.reason += fmt::format("; without it {}", row.lost);
   }
   effect.seconds = cost_of(row.name, facts);
+  effect.refusal = std::move(decision.refusal);
   effect.objection = objection_to(effect, row, facts);
   return effect;
 }

@@ -361,6 +361,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   progress_.settle(result.name, curve.points);
   const std::lock_guard lock(mutex_);
   unfinished_.erase(result.name);
+  if (model.effects.normal_motion) tell_opening(result, summary_.effects);
   summary_.curves.push_back(std::move(summary));
   write_curve(staged_, result, model.frequency.size());
   show_what_is_new();

@@ -1,6 +1,7 @@
 #include "pipelines/response/effects_of_curves.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -73,6 +74,22 @@ void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>&
     }
     if (effect.name == "coexistence") tell_solutions(curves, effect);
   }
+}
+
+void tell_opening(const CurveResult& curve, std::vector<EffectRecord>& effects) {
+  const auto effect = std::ranges::find(effects, "separation", &EffectRecord::name);
+  if (effect == effects.end() || effect->setting != "off" || effect->simulated == Simulated::yes) {
+    return;
+  }
+  if (!std::holds_alternative<double>(curve.load) || curve.curve.points.empty()) return;
+  const auto most = std::ranges::max_element(
+      curve.curve.points, {}, [](const auto& point) { return point.report.separated_share; });
+  if (!(most->report.separated_share > 0.0)) return;
+  effect->simulated = Simulated::yes;
+  effect->objection = fmt::format(
+      "contact opens all the same, on {:.2g} % of area and period of curve {} at {:.6g} Hz: curves "
+      "have it, \"off\" is not obeyed",
+      100.0 * most->report.separated_share, curve.name, most->frequency / (2.0 * std::numbers::pi));
 }
 
 }  // namespace microslip::pipelines

@@ -6,6 +6,7 @@
 
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/effects/effect_record.hpp"
+#include "pipelines/response/run_results.hpp"
 #include "pipelines/response/run_summary.hpp"
 
 namespace microslip::pipelines {
@@ -14,5 +15,8 @@ namespace microslip::pipelines {
 /// nothing of these stays undecided.
 void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                  std::vector<EffectRecord>& effects);
+
+/// Whether contact that was not to open, effects.separation = "off", has opened on a curve: an objection then.
+void tell_opening(const CurveResult& curve, std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

@@ -39,7 +39,18 @@ bool lacks_normal_motion(const SceneDescription& scene) {
   return setting_of(scene, "normal_motion") == "off";
 }
 
-bool has_normal_motion(const SceneDescription& scene) { return !lacks_normal_motion(scene); }
+/// Somewhere the contact is open at rest.
+bool has_gap(const SceneDescription& scene) {
+  if (lacks_normal_motion(scene)) return false;
+  if (const ModalModel* modal = modal_of(scene)) {
+    return std::ranges::any_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
+  }
+  if (!scene.response) return false;
+  return std::ranges::any_of(scene.response->preload, [](const PreloadEntry& entry) {
+    const auto* load = std::get_if<double>(&entry);
+    return std::holds_alternative<UniformGap>(entry) || (load != nullptr && *load < 0.0);
+  });
+}
 
 /// The motion along r of given modes; the modes of a mesh have one.
 bool lacks_motion_along_r(const SceneDescription& scene) {
@@ -113,8 +124,6 @@ struct Contradiction {
 
 constexpr std::string_view no_normal_stiffness =
     "needs normal_stiffness in [contact], or at a contact point: the load is constant";
-constexpr std::string_view part_of_normal_motion =
-    "is part of the normal motion: switch effects.normal_motion off";
 constexpr std::string_view without_normal_motion =
     "contradicts effects.normal_motion = \"off\": then the load stays that of rest";
 
@@ -128,10 +137,11 @@ constexpr std::array contradictions{
                   "contradicts contact.roughness: rough surfaces are felt by normal motion"},
     Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
     Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
-    Contradiction{"separation", "off", has_normal_motion, part_of_normal_motion},
+    Contradiction{"separation", "off", has_gap,
+                  "contradicts a gap, which closes and opens: response.preload below 0, or preload "
+                  "of a contact point"},
     Contradiction{"mean_coupling", "on", lacks_normal_motion, without_normal_motion},
     Contradiction{"mean_coupling", "on", has_constant_load, no_normal_stiffness},
-    Contradiction{"mean_coupling", "off", has_normal_motion, part_of_normal_motion},
     Contradiction{"second_direction", "on", lacks_motion_along_r,
                   "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
                   "have none)"},

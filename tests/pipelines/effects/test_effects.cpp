@@ -19,8 +19,10 @@
 #include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/model/scene_warnings.hpp"
+#include "pipelines/response/effects_of_curves.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
+#include "pipelines/system/scene_error.hpp"
 #include "tests/support/asked_force.hpp"
 
 namespace microslip::pipelines::test_effects {
@@ -215,6 +217,57 @@ TEST(Effects, OtherSolutionsAreLookedForWhereAResonanceNearByReachesThem) {
   EXPECT_EQ(starts({gap, "response.search_starts=3"}), 3);
   EXPECT_EQ(starts({gap, "response.search_starts=0"}), 0);
   EXPECT_EQ(starts({gap, "effects.coexistence=off"}), 0);
+}
+
+TEST(Effects, SeparationThatIsOffIsObeyedWhereNothingOpens) {
+  const SceneDescription scene =
+      scene_of({"effects.separation=off", "effects.normal_motion=on", "modal.force_cosine=[1e-3]"});
+  const ReducedModel model = model_in(scene);  // not refused
+  const EffectRecord told = effect_in(effects_of(scene, &model), "separation");
+  EXPECT_EQ(told.simulated, Simulated::no);
+  EXPECT_LT(*told.indicator, 1.0);
+  try {
+    static_cast<void>(model_in(scene_of({"effects.separation=off", "modal.force_cosine=[1e6]"})));
+    FAIL() << "contact opens, and is not to";
+  } catch (const RefusedError& error) {
+    const std::string why = error.what();
+    EXPECT_TRUE(why.starts_with("effects.separation = \"off\"")) << why;
+    EXPECT_NE(why.find("effects.normal_motion"), std::string::npos) << why;
+  }
+}
+
+TEST(Effects, MeanCouplingThatIsOffIsRefusedWhereItMatters) {
+  const auto scene_with = [](const char* force) {
+    return scene_of({"modal.force_cosine=[1e-3]", "effects.mean_coupling=off",
+                     "effects.normal_motion=on", std::string("modal.force_static=") + force});
+  };
+  const SceneDescription quiet = scene_with("[0]");
+  const ReducedModel model = model_in(quiet);
+  const EffectRecord told = effect_in(effects_of(quiet, &model), "mean_coupling");
+  EXPECT_EQ(told.simulated, Simulated::yes) << "no method is without it, and the table says so";
+  EXPECT_NE(told.reason.find("\"off\""), std::string::npos) << told.reason;
+  EXPECT_THROW(static_cast<void>(model_in(scene_with("[-40]"))), RefusedError);
+}
+
+TEST(Effects, PartsOfNormalMotionThatAreOnBringIt) {
+  for (const char* part : {"effects.separation=on", "effects.mean_coupling=on"}) {
+    const Overrides faint{"modal.force_cosine=[1e-3]", "modal.points[0].phi_v_1=1e-6"};
+    EXPECT_FALSE(model_in(scene_of(faint)).effects.normal_motion);
+    EXPECT_TRUE(model_in(scene_of({faint[0], faint[1], part})).effects.normal_motion) << part;
+  }
+}
+
+TEST(Effects, ContactThatOpensThoughItWasNotToIsTold) {
+  CurveResult curve;
+  curve.load = 100.0;
+  curve.curve.points.resize(2);
+  std::vector<EffectRecord> effects{{"separation", "off", Simulated::no, "nothing opens"}};
+  tell_opening(curve, effects);
+  EXPECT_TRUE(effects[0].objection.empty());
+  curve.curve.points[1].report.separated_share = 0.25;
+  tell_opening(curve, effects);
+  EXPECT_EQ(effects[0].simulated, Simulated::yes);
+  EXPECT_NE(effects[0].objection.find("25 %"), std::string::npos) << effects[0].objection;
 }
 
 TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
