@@ -98,6 +98,12 @@ mesh::FaceFrame face_frame(const mesh::Mesh& mesh, const ContactDescription& con
   return {frame, contact.slip_direction};
 }
 
+PlaneCoordinates in_plane(const Eigen::MatrixX3d& points, const Eigen::Vector3d& origin,
+                          const Eigen::Matrix3d& frame) {
+  const Eigen::MatrixX3d local = points.rowwise() - origin.transpose();
+  return {local * frame.row(0).transpose(), local * frame.row(2).transpose()};
+}
+
 SteepestPlace steepest_place(const mesh::Mesh& mesh, const ContactDescription& contact) {
   const mesh::SurfacePlane plane = plane_of(mesh, contact);
   SteepestPlace worst{sine_between(plane.normal, contact.slip_direction), plane.centroid,

@@ -26,6 +26,15 @@ namespace microslip::pipelines {
 /// What tells p, q and r at every place.   @throws SceneError  as contact_frame().
 [[nodiscard]] mesh::FaceFrame face_frame(const mesh::Mesh& mesh, const ContactDescription& contact);
 
+/// Along p and r of a frame, from an origin [m], n each.
+struct PlaneCoordinates {
+  Eigen::VectorXd p;
+  Eigen::VectorXd r;
+};
+[[nodiscard]] PlaneCoordinates in_plane(const Eigen::MatrixX3d& points,
+                                        const Eigen::Vector3d& origin,
+                                        const Eigen::Matrix3d& frame);
+
 /// The place of a face where the slip direction is nearest to the normal.
 struct SteepestPlace {
   double sine = 1.0;  ///< of the angle between slip direction and normal

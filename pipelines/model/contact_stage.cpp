@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "contact/patch/modal_contact_field.hpp"
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
 #include "pipelines/model/nodal_load.hpp"
+#include "pipelines/model/patch_shapes.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -23,138 +23,12 @@ constexpr double angle_limit_rad =
     5.0 * std::numbers::pi / 180.0;                  // warn: local frames would differ
 constexpr double fold_rad = 0.5 * std::numbers::pi;  // beyond, a face lies over itself in its plane
 
-/// Displacement of every mode along one direction at given mesh nodes: n_nodes × n_modes.
-Eigen::MatrixXd along(const Eigen::MatrixXd& shapes, const std::vector<Eigen::Index>& nodes,
-                      const Eigen::Vector3d& direction) {
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(nodes.size()), shapes.cols());
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    values.row(i) =
-        direction.transpose() * shapes.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
-  }
-  return values;
-}
-
 void set_excitation(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
                     const Eigen::MatrixXd& shapes) {
   const Eigen::MatrixX2d modal = shapes.transpose() * excitation_loads(mesh, scene.forces);
   model.force_sine = modal.col(0);
   model.force_cosine = modal.col(1);
   model.force_static = Eigen::VectorXd::Zero(shapes.cols());
-}
-
-/// Values at nodes → at cell centres and vertices, by the finite elements or by the fitted field.
-struct ShapesOnPatch {
-  contact::ModalShapes centres;
-  contact::ModalShapes vertices;
-};
-
-/// p, q and r of places, n each.
-struct PlaceAxes {
-  Eigen::MatrixX3d p, q, r;
-};
-
-PlaceAxes axes_of(const mesh::FaceFrame& frame, const Eigen::MatrixX3d& normals) {
-  const Eigen::Index n = normals.rows();
-  PlaceAxes axes{Eigen::MatrixX3d(n, 3), normals, Eigen::MatrixX3d(n, 3)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Matrix3d own = frame.at(normals.row(i));
-    axes.p.row(i) = own.row(0);
-    axes.r.row(i) = own.row(2);
-  }
-  return axes;
-}
-
-/// Displacements along axes that differ from place to place. @param xyz  n_places × n_modes along x, y, z.
-Eigen::MatrixXd along(const std::array<Eigen::MatrixXd, 3>& xyz, const Eigen::MatrixX3d& axis) {
-  return axis.col(0).asDiagonal() * xyz[0] + axis.col(1).asDiagonal() * xyz[1] +
-         axis.col(2).asDiagonal() * xyz[2];
-}
-
-contact::ModalShapes shapes_at_places(const Eigen::MatrixXd& shapes,
-                                      const std::vector<Eigen::Index>& nodes,
-                                      const Eigen::SparseMatrix<double>& to,
-                                      const PlaceAxes& axes) {
-  std::array<Eigen::MatrixXd, 3> xyz;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    xyz[static_cast<std::size_t>(i)] = to * along(shapes, nodes, Eigen::Vector3d::Unit(i));
-  }
-  return {along(xyz, axes.p), along(xyz, axes.q), along(xyz, axes.r)};
-}
-
-/// Of a curved face: the displacements of the elements along the axes of each place, no field fitted in a plane.
-ShapesOnPatch local_shapes(const mesh::Surface& surface, const mesh::SurfaceSampling& sampling,
-                           const mesh::FaceFrame& frame, const Eigen::MatrixXd& shapes,
-                           contact::Patch& patch) {
-  const PlaceAxes centres = axes_of(frame, sampling.centre_normals);
-  const PlaceAxes vertices = axes_of(frame, sampling.vertex_normals);
-  patch.cells.slip_directions = centres.p;
-  patch.cells.normals = centres.q;
-  patch.vertices.slip_directions = vertices.p;
-  patch.vertices.normals = vertices.q;
-  return {shapes_at_places(shapes, surface.nodes, sampling.to_centres, centres),
-          shapes_at_places(shapes, surface.nodes, sampling.to_vertices, vertices)};
-}
-
-contact::ModalShapes interpolate(const Eigen::SparseMatrix<double>& to,
-                                 const contact::ModalShapes& nodal) {
-  return {to * nodal.u, to * nodal.v, to * nodal.w};
-}
-
-/// The plane of a patch: where p = r = 0, and rows p, q, r.
-struct PatchPlane {
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d frame;
-};
-
-struct PlaneCoordinates {
-  Eigen::VectorXd p;
-  Eigen::VectorXd r;
-};
-
-PlaneCoordinates in_plane(const Eigen::MatrixX3d& points, const Eigen::Vector3d& origin,
-                          const Eigen::Matrix3d& frame) {
-  const Eigen::MatrixX3d local = points.rowwise() - origin.transpose();
-  return {local * frame.row(0).transpose(), local * frame.row(2).transpose()};
-}
-
-Eigen::MatrixX3d node_positions(const mesh::Mesh& mesh, const mesh::Surface& surface) {
-  Eigen::MatrixX3d positions(static_cast<Eigen::Index>(surface.nodes.size()), 3);
-  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    positions.row(i) = mesh.nodes().row(surface.nodes[static_cast<std::size_t>(i)]);
-  }
-  return positions;
-}
-
-/// Places all over the patch, the same whatever number of contact points it has.
-Eigen::MatrixX2d places_between_nodes(const mesh::Mesh& mesh, const mesh::Surface& surface,
-                                      const PatchPlane& plane) {
-  constexpr int enough = 1000;  // some ten between nodes where the patch is coarse
-  const mesh::SurfaceSampling dense = mesh::sample_surface(mesh.nodes(), surface, enough);
-  const auto places = in_plane(dense.centres, plane.origin, plane.frame);
-  Eigen::MatrixX2d result(places.p.size(), 2);
-  result << places.p, places.r;
-  return result;
-}
-
-contact::ModalContactField fitted_field(const mesh::Mesh& mesh, const mesh::Surface& surface,
-                                        const mesh::SurfaceSampling& sampling,
-                                        const PatchSettings& settings,
-                                        const contact::ModalShapes& nodal,
-                                        const PatchPlane& plane) {
-  const auto nodes = in_plane(node_positions(mesh, surface), plane.origin, plane.frame);
-  // A positive share of the area for each node; interpolation weights themselves may be negative.
-  const Eigen::VectorXd weights = sampling.to_centres.cwiseAbs().transpose() * sampling.weights;
-  const auto degree = settings.fit == PatchSettings::Fit::degree
-                          ? std::optional<int>(settings.fit_degree)
-                          : std::nullopt;
-  return {nodes.p, nodes.r, weights, nodal, degree, places_between_nodes(mesh, surface, plane)};
-}
-
-ShapesOnPatch shapes_of(const contact::ModalContactField& field,
-                        const mesh::SurfaceSampling& sampling, const PatchPlane& plane) {
-  const auto centres = in_plane(sampling.centres, plane.origin, plane.frame);
-  const auto vertices = in_plane(sampling.vertices, plane.origin, plane.frame);
-  return {field.at(centres.p, centres.r), field.at(vertices.p, vertices.r)};
 }
 
 /// Row sums along p, q and r of places, n × 3 [m³/N].
@@ -239,24 +113,6 @@ contact::SurfaceRules rules_of(const ContactDescription& contact) {
   return rules;
 }
 
-/// Along the axes of the patch, of the elements or of a field fitted to them.
-ShapesOnPatch plane_shapes(const mesh::Mesh& mesh, const mesh::Surface& surface,
-                           const mesh::SurfaceSampling& sampling, const PatchSettings& settings,
-                           const Eigen::MatrixXd& shapes, contact::Patch& patch) {
-  const contact::ModalShapes nodal{along(shapes, surface.nodes, patch.frame.row(0)),
-                                   along(shapes, surface.nodes, patch.frame.row(1)),
-                                   along(shapes, surface.nodes, patch.frame.row(2))};
-  if (settings.fit == PatchSettings::Fit::none) {
-    return {interpolate(sampling.to_centres, nodal), interpolate(sampling.to_vertices, nodal)};
-  }
-  const PatchPlane plane{mesh::fit_plane(mesh.nodes(), surface).centroid, patch.frame};
-  const contact::ModalContactField field =
-      fitted_field(mesh, surface, sampling, settings, nodal, plane);
-  patch.fit_degree = field.degree();
-  patch.fit_error = field.fit_error();
-  return shapes_of(field, sampling, plane);
-}
-
 contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contact,
                         const PatchSettings& settings, int n_points, const fem::ModalBasis& basis,
                         const fem::ResidualFlexibility* residual) {
@@ -274,11 +130,7 @@ contact::Patch patch_of(const mesh::Mesh& mesh, const ContactDescription& contac
   patch.load_share = contact.preload_share.value_or(sampling.weights.sum());
   patch.wear_coefficient = contact.wear_coefficient;
   patch.rules = rules_of(contact);
-  ShapesOnPatch shapes = frame.is_local()
-                             ? local_shapes(surface, sampling, frame, basis.shapes, patch)
-                             : plane_shapes(mesh, surface, sampling, settings, basis.shapes, patch);
-  patch.cells.shapes = std::move(shapes.centres);
-  patch.vertices.shapes = std::move(shapes.vertices);
+  set_shapes(patch, {mesh, surface, sampling, frame}, settings, basis.shapes);
   set_stiffness(patch, contact, sampling, residual);
   set_fields(patch, contact);
   return patch;
