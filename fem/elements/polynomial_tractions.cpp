@@ -1,6 +1,7 @@
 #include "fem/elements/polynomial_tractions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -39,6 +40,8 @@ void for_each_point(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
   }
 }
 
+constexpr double dependent = 1e-9;  // of a polynomial's square: what others leave of it
+
 /// Centroid and the two in-plane principal directions, each divided by √3 of its second moment: a
 /// rectangle becomes the square [−1, 1]².
 struct PatchAxes {
@@ -46,7 +49,24 @@ struct PatchAxes {
   Eigen::Matrix<double, 2, 3> scaled;
 };
 
-PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface) {
+/// Onto the mean plane of a surface; a closed one has none and keeps all directions.
+Eigen::Matrix3d mean_plane(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface,
+                           int degree) {
+  constexpr double least_normal = 0.1;  // mean of unit normals
+  double area = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for_each_point(nodes, surface, degree,
+                 [&](auto&&, double dA, auto&&, auto&&, const Eigen::Vector3d& normal) {
+                   area += dA;
+                   sum += dA * normal;
+                 });
+  if (sum.norm() < least_normal * area) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d normal = sum.normalized();
+  return Eigen::Matrix3d::Identity() - normal * normal.transpose();
+}
+
+/// @param is_curved  its mean plane, and not its two largest extents, tells the axes: a narrow arc is higher than wide.
+PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, bool is_curved) {
   constexpr int degree = 8;  // as for the areas: exact on flat faces
   double area = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -61,6 +81,10 @@ PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface
                  [&](const Eigen::Vector3d& x, double dA, auto&&, auto&&, auto&&) {
                    second += dA / area * (x - centroid) * (x - centroid).transpose();
                  });
+  if (is_curved) {
+    const Eigen::Matrix3d plane = mean_plane(nodes, surface, degree);
+    second = (plane * second * plane).eval();
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
   if (!(eigen.eigenvalues()[1] > 1e-12 * eigen.eigenvalues()[2])) {
     throw std::invalid_argument("surface \"" + surface.name + "\" has no area to carry a traction");
@@ -95,8 +119,8 @@ Eigen::VectorXd products_at(const Eigen::Vector2d& xi, int degree) {
 /// ∫ P_k P_l dA. @param add  add(node, N_i dA, P, normal), at every quadrature point: for ∫ N_i P_k dA.
 template <typename Add>
 Eigen::MatrixXd gram_matrix(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
-                            const Add& add) {
-  const PatchAxes axes = patch_axes(nodes, surface);
+                            bool is_curved, const Add& add) {
+  const PatchAxes axes = patch_axes(nodes, surface, is_curved);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n_polynomials(degree), n_polynomials(degree));
   for_each_point(nodes, surface, std::max(8, 2 * degree + 2),
                  [&](const Eigen::Vector3d& x, double dA, const Eigen::VectorXd& N,
@@ -108,9 +132,28 @@ Eigen::MatrixXd gram_matrix(const Eigen::MatrixX3d& nodes, const mesh::Surface& 
   return gram;
 }
 
+/// One after the other, those that depend on lower ones left as zero: x² + y² on a cylinder is a constant.
+Eigen::MatrixXd orthonormal_of_dependent(const Eigen::MatrixXd& gram,
+                                         const Eigen::MatrixXd& shares) {
+  Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(gram.rows(), gram.cols());  // t = combined P
+  for (Eigen::Index k = 0; k < gram.rows(); ++k) {
+    Eigen::VectorXd t = Eigen::VectorXd::Unit(gram.rows(), k);
+    for (int pass = 0; pass < 2; ++pass) {  // the second removes what rounding left of the first
+      t -= (combined.transpose() * (combined * (gram * t))).eval();
+    }
+    const double square = t.dot(gram * t);
+    if (square > dependent * gram(k, k)) combined.row(k) = t / std::sqrt(square);
+  }
+  return shares * combined.transpose();
+}
+
 /// P = L t, so t = L⁻¹P keeps the order of degree. @param shares  a column for each P.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& shares) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(gram);
+  const Eigen::ArrayXd pivots = cholesky.matrixLLT().diagonal().array().square();
+  if (cholesky.info() != Eigen::Success || !(pivots > dependent * gram.diagonal().array()).all()) {
+    return orthonormal_of_dependent(gram, shares);
+  }
   return cholesky.matrixL().solve(shares.transpose()).transpose();
 }
 
@@ -119,7 +162,7 @@ Eigen::MatrixXd plane_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surfa
   const Eigen::Index n = n_polynomials(degree);
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(nodes.rows(), n);
   const Eigen::MatrixXd gram =
-      gram_matrix(nodes, surface, degree,
+      gram_matrix(nodes, surface, degree, false,
                   [&](Eigen::Index node, double weight, const Eigen::VectorXd& P,
                       const Eigen::Vector3d&) { shares.row(node) += weight * P.transpose(); });
   shares = orthonormal(gram, shares);
@@ -137,7 +180,7 @@ Eigen::MatrixXd local_tractions(const Eigen::MatrixX3d& nodes, const mesh::Surfa
   const Eigen::Index n = n_polynomials(degree);
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * nodes.rows(), 3 * n);
   const Eigen::MatrixXd gram = gram_matrix(
-      nodes, surface, degree,
+      nodes, surface, degree, true,
       [&](Eigen::Index node, double weight, const Eigen::VectorXd& P, const Eigen::Vector3d& at) {
         const Eigen::Matrix3d along = weight * frame.at(at).transpose();
         for (Eigen::Index k = 0; k < n; ++k) loads.block<3, 3>(3 * node, 3 * k) += P[k] * along;

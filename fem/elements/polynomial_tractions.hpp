@@ -4,7 +4,7 @@
 ///   t_k(x),  k = 1 … (d+1)(d+2)/2:   ∫ t_i t_j dA = δ_ij,   span = all polynomials of total degree ≤ d
 ///   a_ki = ∫ N_i t_k dA                                                   consistent share of node i
 ///
-/// Products of Legendre polynomials along the principal axes of the surface, scaled by its second moments,
+/// Products of Legendre polynomials along the principal axes of the surface, of a curved one in its mean plane, scaled by its second moments,
 /// made orthonormal over the surface in order of degree: well conditioned on any patch, and neither the span
 /// of a degree nor the polynomials themselves (but for their signs) know which way the contact axes point.
 #pragma once
@@ -26,6 +26,7 @@ namespace microslip::fem {
 /// axis d. Polynomials are in order of degree: those of a lower degree stand first, unchanged.
 /// @param nodes  all mesh nodes [m].   @param degree  ≥ 0.
 /// @throws std::invalid_argument  degree < 0, or a surface without area in two directions.
+/// @note On a closed or folded surface polynomials may depend on each other: the columns of those that do are zero.
 /// @note Degree 0 is uniform_tractions() / √area.
 [[nodiscard]] Eigen::MatrixXd polynomial_tractions(const Eigen::MatrixX3d& nodes,
                                                    const mesh::Surface& surface,

@@ -137,6 +137,58 @@ TEST(Attachment, LoadsThatSayNothingNewAreLeftOut) {
   EXPECT_EQ(structure.attach(modes, {{side, side_frame()}}, forces, {.degree = 0}).n_dropped, 1);
 }
 
+/// Part of a tube of this inner radius around z.
+mesh::Mesh tube(double angle, double length, int n_cells) {
+  return test::box_mesh(mesh::ElementType::hex20,
+                        {{1.0, 1.0, 1.0}, {1, n_cells, 1}, [=](const Eigen::Vector3d& x) {
+                           const double r = 0.03 + 0.01 * x[0];
+                           return Eigen::Vector3d(r * std::cos(angle * x[1]),
+                                                  r * std::sin(angle * x[1]), length * x[2]);
+                         }});
+}
+
+const mesh::FaceFrame along_the_axis(Eigen::Matrix3d::Identity().eval(), Eigen::Vector3d::UnitZ());
+
+TEST(Attachment, TractionsOfACurvedFaceAreAlongTheAxesOfEveryPlace) {
+  const mesh::Mesh mesh = tube(1.2, 0.02, 8);
+  const mesh::Surface& inside = mesh.surface("x0");
+  const Eigen::MatrixXd loads = polynomial_tractions(mesh.nodes(), inside, along_the_axis, 2);
+  const Eigen::MatrixX3d uniform = uniform_tractions(mesh.nodes(), inside, along_the_axis);
+  // The root in dA of a curved face is no polynomial: rules of two degrees differ by 1e-10.
+  EXPECT_LT(relative(loads.leftCols<3>(), uniform / std::sqrt(inside.area)), 1e-9);
+  EXPECT_LT((uniform.col(1) - normal_traction(mesh.nodes(), inside)).norm(), 1e-14);
+  for (const Eigen::Index node : inside.nodes) {
+    EXPECT_LT(uniform.col(0).segment<2>(3 * node).norm(), 1e-18) << "p is the axis of the tube";
+    EXPECT_LT(std::abs(uniform(3 * node + 2, 2)), 1e-18) << "r goes around it";
+  }
+}
+
+// An arc that is narrower than it is high: its mean plane still has the axis of the tube in it.
+TEST(Attachment, TractionsOfANarrowArcTellItsEdgesApart) {
+  constexpr double length = 0.002;
+  const mesh::Mesh mesh = tube(1.2, length, 8);
+  const mesh::Surface& inside = mesh.surface("x0");
+  const Eigen::MatrixXd loads = polynomial_tractions(mesh.nodes(), inside, along_the_axis, 1);
+  Eigen::VectorXd tilt = Eigen::VectorXd::Zero(loads.rows());  // (z − z̄) e_p
+  for (const Eigen::Index node : inside.nodes) {
+    tilt[3 * node + 2] = mesh.nodes()(node, 2) - 0.5 * length;
+  }
+  const Eigen::VectorXd work = loads.transpose() * tilt;
+  const double whole = std::sqrt(inside.area * length * length / 12.0);
+  EXPECT_NEAR(std::hypot(work[3], work[6]), whole, 1e-9 * whole);
+}
+
+TEST(Attachment, TractionsThatDependOnOthersOnAClosedFaceAreZero) {
+  const mesh::Mesh mesh = tube(5.9, 0.02, 32);
+  const mesh::Surface& inside = mesh.surface("x0");
+  const Eigen::MatrixXd loads = polynomial_tractions(mesh.nodes(), inside, along_the_axis, 3);
+  ASSERT_TRUE(loads.allFinite());
+  const Eigen::ArrayXd size = loads.colwise().norm().transpose();
+  // x² + y² is a constant, times x and times y too: three polynomials of ten.
+  EXPECT_EQ((size == 0.0).count(), 9);
+  EXPECT_GT((size != 0.0).select(size, size.maxCoeff()).minCoeff(), 0.1 * size.maxCoeff());
+}
+
 TEST(Attachment, TractionsAreOrthonormalAndTheirSpanDoesNotKnowTheAxes) {
   const mesh::Mesh mesh = bar();
   const mesh::Surface& side = mesh.surface("y1");
