@@ -23,6 +23,12 @@ enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 /// force decay: what they call stable is not proved stable.
 enum class StabilityBasis { slow_flow, hill, period_map, damped_linear };
 
+/// What a period takes from the excitation [J].
+struct PeriodEnergy {
+  double friction = 0.0;  ///< W_fric: the dissipated energy
+  double damping = 0.0;   ///< W_damp, of the viscous damping of the modes
+};
+
 struct ResponsePoint {
   double frequency = 0.0;   ///< ω [rad/s]
   Harmonics q;              ///< [m√kg]
@@ -36,6 +42,7 @@ struct ResponsePoint {
   double residual = 0.0;          ///< relative to max(excitation, contact force of the stuck limit)
   double energy_imbalance = 0.0;  ///< |W_exc − W_damp − W_fric| / max(|W_exc|, W_damp + W_fric)
   double dissipation_mismatch = 0.0;  ///< |W_fric − ∬∮ μn|ds| dA| over the same
+  PeriodEnergy energy;
   contact::CycleReport report;
   Stability stability = Stability::not_assessed;
   StabilityBasis stability_basis = StabilityBasis::slow_flow;
@@ -66,9 +73,10 @@ struct DetachedBranch {
 
 /// The highest peak solved for with more harmonics than its curve has.
 struct SettledPeak {
-  double frequency = 0.0;  ///< [rad/s]
-  double amplitude = 0.0;  ///< [m]; 0: none
-  double left_out = 0.0;   ///< Σ |δA| / A of harmonics beyond, estimated
+  double frequency = 0.0;          ///< [rad/s]
+  double amplitude = 0.0;          ///< [m]; 0: none
+  double left_out = 0.0;           ///< Σ |δA| / A of harmonics beyond, estimated
+  double dissipated_energy = 0.0;  ///< by friction in a period [J]
 };
 
 struct ResponseCurve {

@@ -19,8 +19,9 @@ struct RicherPeak {
   /// (amplitude − that of the curve) / amplitude; empty: the peak is not found from that of the curve, which is far
   /// from it then, or on another branch.
   std::optional<double> change;
-  int highest = 0;       ///< harmonic
-  double seconds = 0.0;  ///< that solving it took
+  int highest = 0;                 ///< harmonic
+  double seconds = 0.0;            ///< that solving it took
+  double dissipated_energy = 0.0;  ///< by friction in a period, with more harmonics [J]
 };
 
 /// @param scene    the same with a contact that takes `highest` harmonics.
@@ -42,8 +43,9 @@ struct OtherModel {
 
 /// A peak of two models.
 struct PeakOfBoth {
-  double frequency = 0.0, amplitude = 0.0;              ///< of the curve [rad/s], [m]
-  double other_frequency = 0.0, other_amplitude = 0.0;  ///< solved for in the other model
+  double frequency = 0.0, amplitude = 0.0;                        ///< of the curve [rad/s], [m]
+  double other_frequency = 0.0, other_amplitude = 0.0;            ///< solved for in the other model
+  double dissipated_energy = 0.0, other_dissipated_energy = 0.0;  ///< by friction in a period [J]
 };
 
 /// The highest peak of a curve, or end of its range, solved for again in another model with the same harmonics. Where what

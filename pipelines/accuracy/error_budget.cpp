@@ -17,21 +17,47 @@ namespace {
 
 constexpr const char* amplitude = peak_amplitude_goal;
 constexpr const char* frequency = peak_frequency_goal;
+constexpr const char* energy = dissipated_energy_goal;
+// Of what a period takes from the excitation: less is not told from what Newton's method leaves.
+constexpr double least_dissipated = 1e-6;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Both goals of one source.
+/// What one source does to the goals, relative.
+struct GoalEffects {
+  double amplitude = 0.0;
+  double frequency = 0.0;
+  double energy = 0.0;  ///< without a meaning where friction dissipates nothing
+};
+
 void add_rows(CurveBudget& budget, const std::string& curve, const std::string& source,
-              const std::pair<double, double>& effects, ErrorKind kind, double seconds) {
-  budget.rows.push_back({curve, amplitude, source, effects.first, kind, seconds});
-  budget.rows.push_back({curve, frequency, source, effects.second, kind, seconds});
+              const GoalEffects& effects, ErrorKind kind, double seconds) {
+  budget.rows.push_back({curve, amplitude, source, effects.amplitude, kind, seconds});
+  budget.rows.push_back({curve, frequency, source, effects.frequency, kind, seconds});
+  if (!budget.energy_ratio) return;
+  budget.rows.push_back({curve, energy, source, effects.energy, kind, seconds});
 }
 
-/// Relative change of amplitude and frequency.
-std::pair<double, double> changes(const solver::PeakOfBoth& peak) {
-  return {peak.other_amplitude / peak.amplitude - 1.0, peak.other_frequency / peak.frequency - 1.0};
+/// Of amplitude, frequency and energy from one peak to another.
+GoalEffects changes(const CurveBudget& budget, const solver::ResponsePoint& peak,
+                    const GoalEffects& other) {
+  return {other.amplitude / peak.amplitude - 1.0, other.frequency / peak.frequency - 1.0,
+          budget.energy_ratio ? other.energy / budget.dissipated_energy - 1.0 : 0.0};
+}
+
+/// The same, where only the amplitude's is known, or what energy lacks of all that is exchanged.
+GoalEffects of_amplitude_alone(const CurveBudget& budget, double effect) {
+  return {effect, 0.0, budget.energy_ratio.value_or(0.0) * effect};
+}
+
+void add_energy(CurveBudget& budget, const solver::ResponsePoint& peak) {
+  const double taken = peak.energy.friction + peak.energy.damping;
+  budget.dissipated_energy = peak.energy.friction;
+  if (peak.energy.friction > least_dissipated * taken) {
+    budget.energy_ratio = taken / peak.energy.friction;
+  }
 }
 
 /// Of the natural frequency nearest to the peak. Models with other modes keep the first of them.
@@ -57,10 +83,13 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
     budget.unknown.push_back(richer.source);
     return;
   }
-  auto [by_amplitude, by_frequency] = changes(*peak);
+  const GoalEffects change =
+      changes(budget, *highest_peak(result.curve),
+              {peak->other_amplitude, peak->other_frequency, peak->other_dissipated_energy});
   add_rows(budget, result.name, richer.source,
-           {richer.share * by_amplitude, richer.share * by_frequency}, ErrorKind::solved,
-           seconds_since(begin));
+           {richer.share * change.amplitude, richer.share * change.frequency,
+            richer.share * change.energy},
+           ErrorKind::solved, seconds_since(begin));
 }
 
 /// The choice of harmonics was cut short, or did not end.
@@ -76,22 +105,24 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
                    const solver::ResponsePoint& peak, bool is_told) {
   const solver::SettledPeak& settled = result.curve.settled_peak;
   if (!result.richer && settled.amplitude > 0.0) {
-    const double change = settled.amplitude / peak.amplitude - 1.0;
-    add_rows(budget, result.name, "harmonics",
-             {change + std::copysign(settled.left_out, change),
-              settled.frequency / peak.frequency - 1.0},
-             ErrorKind::solved, 0.0);
+    GoalEffects change =
+        changes(budget, peak, {settled.amplitude, settled.frequency, settled.dissipated_energy});
+    const GoalEffects beyond = of_amplitude_alone(budget, settled.left_out);
+    change.amplitude += std::copysign(beyond.amplitude, change.amplitude);
+    change.energy += std::copysign(beyond.energy, change.energy);
+    add_rows(budget, result.name, "harmonics", change, ErrorKind::solved, 0.0);
   } else if (!result.richer && !is_told) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer && is_unsettled(result.curve) && peak.harmonics_left_out == 0.0) {
     budget.unknown.emplace_back("harmonics");
   } else if (!result.richer) {
-    add_rows(budget, result.name, "harmonics", {peak.harmonics_left_out, 0.0}, ErrorKind::estimated,
-             0.0);
+    add_rows(budget, result.name, "harmonics", of_amplitude_alone(budget, peak.harmonics_left_out),
+             ErrorKind::estimated, 0.0);
   } else if (result.richer->change) {
     add_rows(budget, result.name, "harmonics",
-             {result.richer->amplitude / peak.amplitude - 1.0,
-              result.richer->frequency / peak.frequency - 1.0},
+             changes(budget, peak,
+                     {result.richer->amplitude, result.richer->frequency,
+                      result.richer->dissipated_energy}),
              ErrorKind::solved, result.richer->seconds);
   } else {
     budget.unknown.emplace_back("harmonics");
@@ -101,7 +132,13 @@ void add_harmonics(CurveBudget& budget, const CurveResult& result,
 /// How far Newton's method went: the balance of energy of the peak.
 void add_certificate(CurveBudget& budget, const CurveResult& result,
                      const solver::ResponsePoint& peak) {
-  add_rows(budget, result.name, "newton", {peak.energy_imbalance, 0.0}, ErrorKind::estimated, 0.0);
+  add_rows(budget, result.name, "newton", of_amplitude_alone(budget, peak.energy_imbalance),
+           ErrorKind::estimated, 0.0);
+}
+
+std::string energy_text(const CurveBudget& budget, const std::string& curve) {
+  if (!budget.energy_ratio) return "friction dissipates nothing there";
+  return fmt::format("dissipated energy ± {:.2g} %", 100.0 * bar_of(budget.rows, curve, energy));
 }
 
 /// Of one source and goal, over all curves that know it.
@@ -129,8 +166,11 @@ void borrow_unknown(std::vector<CurveBudget>& budgets) {
       const ErrorRow* of_amplitude = largest_row(budgets, source, amplitude);
       const ErrorRow* of_frequency = largest_row(budgets, source, frequency);
       if (of_amplitude == nullptr || of_frequency == nullptr) return false;
-      add_rows(budget, curve, source, std::pair(of_amplitude->effect, of_frequency->effect),
-               ErrorKind::borrowed, 0.0);
+      const ErrorRow* of_energy = largest_row(budgets, source, energy);
+      GoalEffects borrowed = of_amplitude_alone(budget, of_amplitude->effect);
+      borrowed.frequency = of_frequency->effect;
+      if (of_energy != nullptr) borrowed.energy = of_energy->effect;
+      add_rows(budget, curve, source, borrowed, ErrorKind::borrowed, 0.0);
       return true;
     });
   }
@@ -154,6 +194,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
     return budget;
   }
   budget.unknown = richer.unknown;
+  add_energy(budget, *peak);
   const bool is_told = scene.settings.harmonics.chosen() || !result.curve.certificate.empty();
   add_harmonics(budget, result, *peak, is_told);
   for (const RicherModel& other : richer.models) {
@@ -182,9 +223,10 @@ std::string budget_text(const CurveBudget& budget) {
     return fmt::format("curve {}: its error is not known: what more harmonics do was not found",
                        curve);
   }
-  std::string text = fmt::format("curve {}: peak ± {:.2g} %, its frequency ± {:.2g} %:", curve,
-                                 percent * bar_of(budget.rows, curve, amplitude),
-                                 percent * bar_of(budget.rows, curve, frequency));
+  std::string text =
+      fmt::format("curve {}: peak ± {:.2g} %, its frequency ± {:.2g} %, {}:", curve,
+                  percent * bar_of(budget.rows, curve, amplitude),
+                  percent * bar_of(budget.rows, curve, frequency), energy_text(budget, curve));
   constexpr std::size_t most = 3;
   for (std::size_t i = 0; i < std::min(most, parts.size()); ++i) {
     text += fmt::format("{} {} {:+.2g} %", i > 0 ? "," : "", parts[i].source,

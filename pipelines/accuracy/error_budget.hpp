@@ -3,6 +3,8 @@
 /// each told by a model that has it richer, solved from the peak of the curve.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/accuracy/richer_models.hpp"
@@ -15,6 +17,11 @@ struct CurveBudget {
   std::vector<ErrorRow> rows;
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
   std::vector<ErrorRow> left_out{};  ///< effects of physics (left_out.hpp): no part of the bar
+  double dissipated_energy = 0.0;    ///< by friction in a period at the highest peak [J]
+  /// Energy that a period takes there over what friction takes of it: a relative change of the amplitude changes the
+  /// dissipated energy by no more than so much of it, as work of the excitation grows with the amplitude and that of
+  /// damping with its square. Empty: friction dissipates nothing, and the goal has no rows.
+  std::optional<double> energy_ratio{};
   /// Whether the rows bound the error: not where more harmonics give another curve, which outweighs all others.
   [[nodiscard]] bool has_bar() const;
 };

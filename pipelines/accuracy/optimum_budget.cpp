@@ -117,7 +117,10 @@ double seconds_of(const std::vector<CurveBudget>& budgets, const std::string& so
 
 CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& amplitudes_given) {
   const std::map<std::string, Effects> frequencies = by_source(budgets, peak_frequency_goal);
+  const std::map<std::string, Effects> energies = by_source(budgets, dissipated_energy_goal);
   CurveBudget result;
+  result.dissipated_energy = budgets[middle].dissipated_energy;
+  result.energy_ratio = budgets[middle].energy_ratio;
   std::set<std::string> unknown;
   const std::map<std::string, Effects> amplitudes = by_source(budgets, peak_amplitude_goal);
   for (const CurveBudget& budget : budgets) {
@@ -139,6 +142,11 @@ CurveBudget combined(const std::vector<CurveBudget>& budgets, const Values& ampl
     add(best_value_goal, shift(amplitudes_given, *known));
     add(best_amplitude_goal, (*known)[middle]);
     add(best_frequency_goal, frequencies.at(source)[middle].value_or(0.0));
+    if (!result.energy_ratio) continue;
+    const auto of_energy = energies.find(source);
+    add(best_energy_goal, of_energy != energies.end() && of_energy->second[middle]
+                              ? *of_energy->second[middle]
+                              : *result.energy_ratio * (*known)[middle]);
   }
   result.unknown = {unknown.begin(), unknown.end()};
   return result;

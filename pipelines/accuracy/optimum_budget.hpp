@@ -15,7 +15,7 @@ namespace microslip::pipelines {
 ///   log(p'/p) = (log(1 + e₋) − log(1 + e₊)) / (s₊ − s₋),     s = Δlog A / Δlog p from p to its neighbours,
 ///
 /// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most to the neighbours.
-/// Relative effects, goals best_value, best_amplitude and best_frequency.
+/// Relative effects, goals best_value, best_amplitude, best_frequency and, where friction dissipates there, best_energy.
 /// @param jobs  curves side by side, ≥ 1.
 /// @return no rows: another number than the preload is searched, nothing is found, branches that no sweep meets count
 ///         about there, or time is over.

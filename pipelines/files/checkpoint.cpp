@@ -29,11 +29,16 @@ auto members(Is<CycleReport> auto& value) {
 }  // namespace contact
 
 namespace solver {
+auto members(Is<PeriodEnergy> auto& value) {
+  auto& [friction, damping] = value;
+  return std::tie(friction, damping);
+}
 auto members(Is<ResponsePoint> auto& value) {
   auto& [frequency, q, orders, left_out, amplitude, first, mean, phase, residual, imbalance,
-         mismatch, report, stability, basis, sign, mark, iterations, evaluations, seconds] = value;
+         mismatch, energy, report, stability, basis, sign, mark, iterations, evaluations, seconds] =
+      value;
   return std::tie(frequency, q, orders, left_out, amplitude, first, mean, phase, residual,
-                  imbalance, mismatch, report, stability, basis, sign, mark, iterations,
+                  imbalance, mismatch, energy, report, stability, basis, sign, mark, iterations,
                   evaluations, seconds);
 }
 auto members(Is<SolverEvent> auto& value) {
@@ -45,8 +50,8 @@ auto members(Is<DetachedBranch> auto& value) {
   return std::tie(points, closed);
 }
 auto members(Is<SettledPeak> auto& value) {
-  auto& [frequency, amplitude, left_out] = value;
-  return std::tie(frequency, amplitude, left_out);
+  auto& [frequency, amplitude, left_out, energy] = value;
+  return std::tie(frequency, amplitude, left_out, energy);
 }
 auto members(Is<ResponseCurve> auto& value) {
   auto& [points, complete, diagnosis, message, certificate, log, detached, n_starts, iterations,
@@ -55,8 +60,8 @@ auto members(Is<ResponseCurve> auto& value) {
                   iterations, evaluations, readings, cuts, seconds, settled_peak);
 }
 auto members(Is<RicherPeak> auto& value) {
-  auto& [frequency, amplitude, change, highest, seconds] = value;
-  return std::tie(frequency, amplitude, change, highest, seconds);
+  auto& [frequency, amplitude, change, highest, seconds, energy] = value;
+  return std::tie(frequency, amplitude, change, highest, seconds, energy);
 }
 }  // namespace solver
 

@@ -214,12 +214,17 @@ std::string optimum_sentence(const JsonEntry& optimum) {
     if (barred) return with_half_width(value, optimum.at("bar").number(goal));
     return fmt::format(fmt::runtime(usual), value);
   };
-  return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}.", key,
+  const std::string energy =
+      optimum.has("dissipated_energy_J") && barred && optimum.at("bar").has(best_energy_goal)
+          ? fmt::format(", dissipating {} J in a period",
+                        number(optimum.number("dissipated_energy_J"), best_energy_goal, "{:.5g}"))
+          : "";
+  return fmt::format("Best {}: {}{}, {} {} m at {} Hz{}{}{}.", key,
                      number(value_of(optimum), best_value_goal, "{:.6g}"),
                      key == "preload" ? " N" : " (SI)",
                      place_of(optimum) == "peak" ? "peak" : "largest amplitude",
                      number(optimum.number("amplitude_m"), best_amplitude_goal, "{:.5g}"),
-                     number(optimum.number("frequency_Hz"), best_frequency_goal, "{:.4f}"),
+                     number(optimum.number("frequency_Hz"), best_frequency_goal, "{:.4f}"), energy,
                      message.empty() ? "" : "; ", message);
 }
 
@@ -285,6 +290,17 @@ std::string not_known_text(const JsonEntry& bar) {
   return text.empty() ? "–" : text;
 }
 
+/// Dissipated energy of the highest peak, its half width and what makes it: three cells.
+std::string energy_cells(const JsonEntry& run, const JsonEntry& curve) {
+  const JsonEntry bar = curve.at("bar");
+  if (!curve.at("peak").has("dissipated_energy_J")) return "– | – | –";  // of an earlier program
+  if (!bar.has(dissipated_energy_goal)) return "nothing | – | –";
+  const double width = bar.number(dissipated_energy_goal);
+  return fmt::format("{} | {:.2g} % | {}",
+                     with_digits_of(curve.at("peak").number("dissipated_energy_J"), width),
+                     100.0 * width, effects_text(run, curve.text("name"), dissipated_energy_goal));
+}
+
 /// What was asked for, what was reached and by what; empty without a tolerance.
 std::string accuracy_text(const JsonEntry& run) {
   if (!run.has("accuracy")) return {};
@@ -305,19 +321,21 @@ std::string budget_text(const JsonEntry& run) {
   constexpr double percent = 100.0;
   std::string text =
       "\n## How far the peaks can be trusted\n\n" + accuracy_text(run) +
-      "What would be added to the amplitude of the highest peak if one choice were refined to its "
-      "end; all of them together are the half width.\n\n"
-      "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | not known |\n"
-      "|---|---:|---:|---:|---|---|\n";
+      "What would be added to amplitude and dissipated energy of the highest peak if one choice "
+      "were refined to its end; all of them together are the half width.\n\n"
+      "| curve | peak [m] | amplitude ± | frequency ± | of the amplitude | dissipated [J] | ± | of "
+      "the energy | not known |\n"
+      "|---|---:|---:|---:|---|---:|---:|---|---|\n";
   for (const JsonEntry& curve : run.list("curves")) {
     if (!curve.has("bar") || !curve.has("peak")) continue;
     const JsonEntry bar = curve.at("bar");
     const int digits = static_cast<int>(curve.at("digits").integer("peak_amplitude"));
     text +=
-        fmt::format("| {} | {:.{}g} | {:.2g} % | {:.2g} % | {} | {} |\n", curve.text("name"),
+        fmt::format("| {} | {:.{}g} | {:.2g} % | {:.2g} % | {} | {} | {} |\n", curve.text("name"),
                     curve.at("peak").number("amplitude_m"), digits,
                     percent * bar.number("peak_amplitude"), percent * bar.number("peak_frequency"),
-                    effects_text(run, curve.text("name"), "peak_amplitude"), not_known_text(bar));
+                    effects_text(run, curve.text("name"), peak_amplitude_goal),
+                    energy_cells(run, curve), not_known_text(bar));
   }
   return text;
 }

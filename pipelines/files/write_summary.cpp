@@ -33,6 +33,7 @@ Json to_json(const std::variant<double, LimitName>& preload) {
 Json to_json(const PeakSummary& peak) {
   return {{"frequency_Hz", in_hertz(peak.frequency)},
           {"amplitude_m", peak.amplitude},
+          {"dissipated_energy_J", peak.dissipated_energy},
           {"at", peak.at_range_end ? "range_end" : "peak"}};
 }
 
@@ -112,7 +113,7 @@ Json to_json(const solver::RicherPeak& peak) {
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
 }
 
-/// Half widths by goal; null without a budget, and where the harmonics given do not tell the curve.
+/// Half widths by goal, null of an energy that friction does not dissipate; null without a budget, and where the harmonics given do not tell the curve.
 Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
   Json bar = Json::object();
   if (std::ranges::find(curve.not_in_bar, "harmonics") != curve.not_in_bar.end()) return nullptr;
@@ -120,6 +121,7 @@ Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
     if (row.curve == curve.name) bar[row.goal] = bar_of(budget, curve.name, row.goal);
   }
   if (bar.empty()) return nullptr;
+  if (!bar.contains(dissipated_energy_goal)) bar[dissipated_energy_goal] = nullptr;
   bar["not_known"] = curve.not_in_bar;
   return bar;
 }
@@ -137,6 +139,7 @@ Json digits_json(const Json& bar) {
   Json digits = Json::object();
   for (const auto& [goal, width] : bar.items()) {
     if (width.is_number()) digits[goal] = digits_of(width.get<double>());
+    if (width.is_null()) digits[goal] = nullptr;
   }
   return digits;
 }
@@ -229,7 +232,7 @@ Json to_json(const EffectRecord& effect) {
           {"objection", effect.objection}};
 }
 
-/// Half widths of value, amplitude and frequency; null where harmonics are not known, or nothing is.
+/// Half widths of value, amplitude, frequency and dissipated energy; null where harmonics are not known, or nothing is.
 Json bar_json(const OptimumSummary& summary) {
   const auto& unknown = summary.not_in_bar;
   if (std::ranges::find(unknown, "harmonics") != unknown.end()) return nullptr;
@@ -238,6 +241,7 @@ Json bar_json(const OptimumSummary& summary) {
     bar[row.goal] = bar_of(summary.error_budget, optimum_name, row.goal);
   }
   if (bar.empty()) return nullptr;
+  if (!bar.contains(best_energy_goal)) bar[best_energy_goal] = nullptr;
   bar["not_known"] = unknown;
   return bar;
 }
@@ -267,6 +271,7 @@ Json to_json(const OptimumSummary& summary) {
   json["warnings"] = optimum.warnings;
   json["whole_curves"] = optimum.n_curves;
   json["seconds"] = optimum.seconds;
+  json["dissipated_energy_J"] = or_null(summary.dissipated_energy);
   json["bar"] = bar_json(summary);
   json["digits"] = digits_json(json["bar"]);
   json["error_budget"] = to_array(summary.error_budget);

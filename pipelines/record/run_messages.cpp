@@ -204,9 +204,13 @@ std::string best_text(const solver::Optimum& optimum, const std::string& unit,
   const auto rounded = [&](double value, const char* goal) {
     return with_half_width(value, bar_of(budget.rows, optimum_name, goal));
   };
-  return fmt::format("{}{}, peak {} m at {} Hz", rounded(optimum.best.parameter, best_value_goal),
-                     unit, rounded(optimum.best.amplitude, best_amplitude_goal),
-                     rounded(to_hz * optimum.best.frequency, best_frequency_goal));
+  std::string text =
+      fmt::format("{}{}, peak {} m at {} Hz", rounded(optimum.best.parameter, best_value_goal),
+                  unit, rounded(optimum.best.amplitude, best_amplitude_goal),
+                  rounded(to_hz * optimum.best.frequency, best_frequency_goal));
+  if (!budget.energy_ratio) return text + ", where friction dissipates nothing";
+  return fmt::format("{}, dissipating {} J in a period", text,
+                     rounded(budget.dissipated_energy, best_energy_goal));
 }
 
 std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget) {

@@ -10,9 +10,11 @@ namespace microslip::pipelines {
 
 inline constexpr const char* peak_amplitude_goal = "peak_amplitude";
 inline constexpr const char* peak_frequency_goal = "peak_frequency";
+inline constexpr const char* dissipated_energy_goal = "dissipated_energy";  ///< at the peak
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";
+inline constexpr const char* best_energy_goal = "best_energy";
 inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve's, of a best value
 
 enum class ErrorKind : std::uint8_t {

@@ -270,6 +270,7 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
   if (!curve.complete || peak == nullptr || peak->mark != solver::PointMark::peak) return;
   richer.frequency = peak->frequency;
   richer.amplitude = peak->amplitude;
+  richer.dissipated_energy = peak->energy.friction;
   richer.change = 1.0 - highest_peak(result.curve)->amplitude / peak->amplitude;
 }
 

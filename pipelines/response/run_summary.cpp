@@ -13,7 +13,7 @@ std::optional<double> entry(const Eigen::VectorXd& column, Eigen::Index row) {
 
 void add_point(CurveSummary& summary, const solver::ResponsePoint& point) {
   if (point.mark == solver::PointMark::peak) {
-    summary.peaks.push_back({point.frequency, point.amplitude});
+    summary.peaks.push_back({point.frequency, point.amplitude, point.energy.friction});
   }
   if (point.mark == solver::PointMark::fold) summary.folds.push_back(point.frequency);
   // A value that is not a number is worse than any: it stays, and is null in the file.
@@ -61,7 +61,7 @@ CurveSummary summarise(const CurveResult& result) {
   } else if (result.curve.complete && !result.curve.points.empty()) {
     const solver::ResponsePoint& largest =
         *std::ranges::max_element(result.curve.points, {}, &solver::ResponsePoint::amplitude);
-    summary.peak = {largest.frequency, largest.amplitude, true};
+    summary.peak = {largest.frequency, largest.amplitude, largest.energy.friction, true};
   }
   for (const NamedMap& map : result.maps) summary.maps.push_back(map.name);
   summary.certificate = result.curve.certificate;

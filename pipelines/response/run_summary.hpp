@@ -35,8 +35,9 @@ struct ModeSummary {
 };
 
 struct PeakSummary {
-  double frequency = 0.0;  ///< ω [rad/s]
-  double amplitude = 0.0;  ///< [m]
+  double frequency = 0.0;          ///< ω [rad/s]
+  double amplitude = 0.0;          ///< [m]
+  double dissipated_energy = 0.0;  ///< by friction in a period [J]
   bool at_range_end = false;
 };
 
@@ -84,8 +85,9 @@ struct OptimumSummary {
   solver::Optimum optimum;
   OptimumBracket bracket;
   double newtons_per_load = 1.0;  ///< where loads are scales: the force carried at scale 1 [N]
-  std::vector<ErrorRow> error_budget{};   ///< of value, amplitude and frequency
-  std::vector<std::string> not_in_bar{};  ///< sources of error that could not be told
+  std::vector<ErrorRow> error_budget{};       ///< of value, amplitude and frequency
+  std::vector<std::string> not_in_bar{};      ///< sources of error that could not be told
+  std::optional<double> dissipated_energy{};  ///< by friction in a period [J]; empty: not told
 };
 
 /// The accuracy that was asked for.

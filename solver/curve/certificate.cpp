@@ -5,33 +5,13 @@
 #include <numbers>
 
 #include "solver/balance/output_amplitude.hpp"
+#include "solver/balance/period_energy.hpp"
 
 namespace microslip::solver {
 namespace {
 
 // Works below this share of |A||F| are rounding of terms that cancel: nothing is exchanged.
 constexpr double vanishing = 1e-15;
-
-/// π Σ_k k (A_s·F_c − A_c·F_s)
-double work(const Harmonics& q, const Harmonics& force) {
-  double sum = 0.0;
-  for (int k = 1; k <= q.n_harmonics(); ++k) {
-    sum += k * (q.sine(k).dot(force.cosine(k)) - q.cosine(k).dot(force.sine(k)));
-  }
-  return std::numbers::pi * sum;
-}
-
-double viscous_work(const Harmonics& q, const Scene& scene, double frequency) {
-  const Eigen::ArrayXd damping =
-      2.0 * scene.damping_ratio.array() * scene.natural_frequency.array();
-  double sum = 0.0;
-  for (int k = 1; k <= q.n_harmonics(); ++k) {
-    const Eigen::ArrayXd square =
-        (q.sine(k).array().square() + q.cosine(k).array().square()).transpose();
-    sum += k * k * (damping * square).sum();
-  }
-  return std::numbers::pi * frequency * sum;
-}
 
 }  // namespace
 
@@ -54,9 +34,10 @@ ResponsePoint certified_point(HarmonicBalance& balance, const NewtonResult& solu
   point.determinant_sign = stability.determinant_sign;
   point.report = balance.report(point.q, frequency);
 
-  const double excited = work(point.q, balance.harmonics(balance.excitation()));
-  const double damped = viscous_work(point.q, scene, frequency);
-  const double rubbed = work(point.q, balance.harmonics(solution.evaluation.contact_force));
+  const double excited = period_work(point.q, balance.harmonics(balance.excitation()));
+  const double damped = damping_work(point.q, scene, frequency);
+  const double rubbed = period_work(point.q, balance.harmonics(solution.evaluation.contact_force));
+  point.energy = {.friction = rubbed, .damping = damped};
   const double exchanged = std::max(std::abs(excited), damped + rubbed);
   const double load = balance.excitation().norm();
   // Without a load a motion is what rounding of the forces at rest leaves, and all work is that of

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solver/balance/first_harmonics.hpp"
+#include "solver/balance/period_energy.hpp"
 #include "solver/enrichment/dropped_harmonics.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/enrichment/resonant_orders.hpp"
@@ -132,7 +133,12 @@ PeakHarmonics PeakHarmonicsChoice::choose(const HarmonicSet& set, const LocalPea
   if (result.set != set) result.peak = solved(set, peak, result.set);
   settle(result);
   if (result.peak) {
-    result.richest = {result.peak->point.parameter, result.peak->amplitude, result.left_out};
+    HarmonicBalance balance(scene_, result.set);
+    const PeriodEnergy energy =
+        period_energy(balance, result.peak->point.x, result.peak->point.parameter);
+    ++work_.contact_evaluations;
+    result.richest = {result.peak->point.parameter, result.peak->amplitude, result.left_out,
+                      energy.friction};
   }
   if (!result.settled) return result;
   const PeakHarmonics rich = result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/balance/first_harmonics.hpp"
+#include "solver/balance/period_energy.hpp"
 #include "solver/enrichment/enrichment.hpp"
 #include "solver/enrichment/level_point.hpp"
 #include "solver/peak/high_points.hpp"
@@ -15,6 +16,11 @@ namespace {
 
 constexpr double farthest = 4.0;     // amplitudes or widths along the branch
 constexpr double much_lower = 0.95;  // of the amplitude
+
+/// By friction in a period [J].
+double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
+  return period_energy(balance, peak.point.x, peak.point.parameter).friction;
+}
 
 /// The highest peak of the curve itself; without one an end of the range. What stopped somewhere has neither.
 std::optional<HighPoint> top_of(const std::vector<HighPoint>& high) {
@@ -146,6 +152,8 @@ std::optional<RicherPeak> richer_peak(const Scene& scene, const ContinuationOpti
   if (!found) return result;
   result.frequency = found->point.parameter;
   result.amplitude = found->amplitude;
+  HarmonicBalance richer(scene, coarse.set().united(HarmonicSet(highest).orders()));
+  result.dissipated_energy = energy_of(richer, *found);
   if (found->amplitude > 0.0) {
     result.change = (found->amplitude - top->point.amplitude) / found->amplitude;
   }
@@ -169,8 +177,9 @@ std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene, const ContinuationO
     }
   }
   if (!found) return std::nullopt;
-  return PeakOfBoth{top->point.frequency, top->point.amplitude, found->point.parameter,
-                    found->amplitude};
+  return PeakOfBoth{top->point.frequency,          top->point.amplitude,
+                    found->point.parameter,        found->amplitude,
+                    energy_of(balance, top->peak), energy_of(elsewhere, *found)};
 }
 
 }  // namespace microslip::solver

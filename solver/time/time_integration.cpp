@@ -54,6 +54,7 @@ void fill_response(const TimeSystem& system, const TimeRecorder& recorder, doubl
   response.iterations = point.n_periods;
   point.work = recorder.work();
   const PeriodWork& w = point.work;
+  response.energy = {.friction = w.slip, .damping = w.damping};
   const double size = std::max({std::abs(w.excitation), w.damping + w.slip, at_rest});
   response.energy_imbalance = ratio_of(std::abs(w.excitation - w.damping - w.slip), size);
   response.dissipation_mismatch = ratio_of(std::abs(w.contact - w.slip), size);

@@ -26,7 +26,7 @@ REFINED = {
     "harmonics": "response.harmonics=9",
     "mesh": "model.element_size=4 mm",
 }
-GOALS = {"peak_amplitude": "amplitude_m", "peak_frequency": "frequency_Hz"}
+GOALS = {"peak_amplitude": "amplitude_m", "peak_frequency": "frequency_Hz", "dissipated_energy": "dissipated_energy_J"}
 SMALL = 1e-3
 
 

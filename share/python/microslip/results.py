@@ -214,7 +214,8 @@ class Run:
     @property
     def peaks(self) -> Table:
         """The highest peak of every curve: curve, preload_N (NaN for the limits), preload, frequency_Hz, amplitude_m,
-        and the relative half widths amplitude_bar, frequency_bar; NaN where there is none."""
+        dissipated_energy_J (by friction in a period), and the relative half widths amplitude_bar, frequency_bar,
+        energy_bar; NaN where there is none: of the energy also where friction dissipates nothing."""
         return table_of([peak_row(entry) for entry in self.summary["curves"] if entry["points"] > 0])
 
     @property
@@ -264,4 +265,5 @@ def peak_row(entry: Mapping[str, Any]) -> dict[str, Any]:
     peak, bar, preload = entry.get("peak") or {}, entry.get("bar") or {}, entry.get("preload_N")
     return {"curve": entry["name"], "preload": preload, "preload_N": None if isinstance(preload, str) else preload,
             "frequency_Hz": peak.get("frequency_Hz"), "amplitude_m": peak.get("amplitude_m"),
-            "amplitude_bar": bar.get("peak_amplitude"), "frequency_bar": bar.get("peak_frequency")}
+            "amplitude_bar": bar.get("peak_amplitude"), "frequency_bar": bar.get("peak_frequency"),
+            "dissipated_energy_J": peak.get("dissipated_energy_J"), "energy_bar": bar.get("dissipated_energy")}

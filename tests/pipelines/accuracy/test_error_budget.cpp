@@ -1,6 +1,15 @@
+#include "pipelines/accuracy/error_budget.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
-#include "pipelines/accuracy/error_budget.hpp"
+#include "pipelines/effects/model_family.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
 
 namespace microslip::pipelines::test_error_budget {
 namespace {
@@ -40,6 +49,58 @@ TEST(ErrorBudget, WhatNoCurveKnowsStaysUnknown) {
   EXPECT_EQ(budgets[0].unknown, std::vector<std::string>{"mesh"});
   // Other harmonics are another curve, not an error to be bounded by that of another.
   EXPECT_FALSE(budgets[2].has_bar());
+}
+
+struct Traced {
+  CurveResult curve;
+  CurveBudget budget;
+};
+
+Traced traced(const std::string& harmonics, double preload) {
+  const SceneDescription scene =
+      read_scene(MICROSLIP_SCENES "/chain_3dof_normal.toml", {"response.harmonics=" + harmonics});
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, nullptr, warnings);
+  Traced result;
+  result.curve =
+      trace_curve(model, scene, CurveRequest{"curve", preload}, [](const auto&) { return true; });
+  check_harmonics(model, scene, preload, result.curve);
+  result.budget = error_budget(model, scene, {}, result.curve);
+  return result;
+}
+
+double effect_of(const CurveBudget& budget, const char* goal) {
+  for (const ErrorRow& row : budget.rows) {
+    if (row.source == "harmonics" && row.goal == goal) return row.effect;
+  }
+  ADD_FAILURE() << goal;
+  return 0.0;
+}
+
+TEST(ErrorBudget, TellsWhatMoreHarmonicsDoToTheDissipatedEnergy) {
+  for (const double preload : {30.0, 100.0}) {
+    const Traced few = traced("1", preload);
+    const Traced truth = traced("9", preload);
+    const double told = effect_of(few.budget, dissipated_energy_goal);
+    const double before = highest_peak(few.curve.curve)->energy.friction;
+    const double after = highest_peak(truth.curve.curve)->energy.friction;
+    std::printf("%g N: dissipated energy %.6g J, told %+.4f, true %+.4f\n", preload, before, told,
+                after / before - 1.0);
+    EXPECT_GT(std::abs(told), 1e-3);
+    // The richer peak is left where |da/ds| <= 1e-4 a: its place errs by 1e-4, and energy is not
+    // stationary there.
+    EXPECT_NEAR(told, after / before - 1.0, 1e-4);
+    EXPECT_NEAR(few.budget.dissipated_energy, before, 1e-12 * before);
+  }
+}
+
+// Far above what slips: friction dissipates rounding, by which nothing is divided.
+TEST(ErrorBudget, OfAContactThatSticksHasNoEffectOnDissipatedEnergy) {
+  const Traced stuck = traced("1", 1e5);
+  ASSERT_FALSE(stuck.budget.rows.empty());
+  EXPECT_FALSE(stuck.budget.energy_ratio.has_value());
+  for (const ErrorRow& row : stuck.budget.rows) EXPECT_NE(row.goal, dissipated_energy_goal);
+  EXPECT_NE(budget_text(stuck.budget).find("friction dissipates nothing"), std::string::npos);
 }
 
 }  // namespace

@@ -46,6 +46,8 @@ TEST(OptimumBudget, TellsHowFarMoreHarmonicsMoveTheBestPreload) {
   EXPECT_GT(moved, 0.1);
   EXPECT_GT(told(few.budget, best_value_goal), moved);
   EXPECT_LT(told(few.budget, best_value_goal), 2.5 * moved);
+  EXPECT_GT(few.budget.dissipated_energy, 0.0);
+  EXPECT_GT(told(few.budget, best_energy_goal), 0.01);
 }
 
 TEST(OptimumBudget, HasNoRowsWhereADetachedPeakBegins) {

@@ -1,4 +1,5 @@
-"""What every choice of the discretisation does to the highest peak of every curve: one bar per curve, in parts."""
+"""What every choice of the discretisation does to the highest peak of every curve, to its amplitude and to the energy it
+dissipates: one bar per curve, in parts."""
 
 import numpy as np
 
@@ -10,35 +11,49 @@ COLOURS = ("#c44e52", "#4c72b0", "#8172b3", "#55a868", "#ccb974", "#64b5cd", "0.
 SMALLEST = 1e-4  # %, where the axis begins
 
 
-def effects(run, curve):
-    """Sizes of the effects on the amplitude [%], in the order of SOURCES; None without a budget."""
+GOALS = (("peak_amplitude", "effect on the amplitude of the peak [%]"),
+         ("dissipated_energy", "effect on the energy dissipated there [%]"))
+
+
+def effects(run, curve, goal):
+    """Sizes of the effects on a goal [%], in the order of SOURCES; None without rows."""
     rows = [row for row in run.summary.get("error_budget", ())
-            if row["curve"] == curve["name"] and row["goal"] == "peak_amplitude"]
+            if row["curve"] == curve["name"] and row["goal"] == goal]
     if not rows:
         return None
     sizes = {row["source"]: 100.0 * abs(row["effect"]) for row in rows}
     return [sizes.get(source, 0.0) for source in SOURCES]
 
 
-def error_budget_figure(run):
-    """None without a budget."""
-    told = [(run.label(load_of(curve)), effects(run, curve)) for curve, _ in run.curves]
-    told = [(label, sizes) for label, sizes in told if sizes]
-    if not told:
-        return None
-    figure, axes = subplots(1, 1, (7.2, 1.2 + 0.42 * len(told)))
+def draw_goal(axes, told):
+    """told: sizes by source of every curve, or None where there are none."""
     rows = np.arange(len(told))
     height = 0.8 / len(SOURCES)
     for i, (source, colour) in enumerate(zip(SOURCES, COLOURS)):
-        sizes = [max(sizes[i], SMALLEST) for _, sizes in told]
+        sizes = [max(sizes[i], SMALLEST) if sizes else SMALLEST for sizes in told]
         axes.barh(rows + (i - 0.5 * (len(SOURCES) - 1)) * height, sizes, height, left=0.0, color=colour,
                   label=source.replace("_", " "))
+    for row, sizes in zip(rows, told):
+        if not sizes:
+            axes.annotate("friction dissipates nothing", (2 * SMALLEST, row), va="center", fontsize=7, color="0.4")
     axes.set_xscale("log")
-    axes.set_xlim(SMALLEST, max(max(sizes) for _, sizes in told) * 2.0)
-    axes.set_yticks(rows, [label for label, _ in told])
-    axes.invert_yaxis()
-    axes.set_xlabel("effect on the amplitude of the peak [%]")
-    axes.set_title(run.title, loc="left")
+    axes.set_xlim(SMALLEST, 2.0 * max((max(sizes) for sizes in told if sizes), default=1.0))
     light_grid(axes)
-    legend_below(figure, axes.get_legend_handles_labels()[0])
+
+
+def error_budget_figure(run):
+    """None without a budget. Runs of earlier programs tell nothing of the energy."""
+    curves = [curve for curve, _ in run.curves if effects(run, curve, "peak_amplitude")]
+    if not curves:
+        return None
+    goals = [goal for goal in GOALS if any(effects(run, curve, goal[0]) for curve in curves)]
+    figure, grid = subplots(1, len(goals), (3.6 + 3.6 * len(goals), 1.2 + 0.42 * len(curves)), sharey=True, squeeze=False)
+    for axes, (goal, label) in zip(grid[0], goals):
+        draw_goal(axes, [effects(run, curve, goal) for curve in curves])
+        axes.set_xlabel(label)
+    first = grid[0, 0]
+    first.set_yticks(np.arange(len(curves)), [run.label(load_of(curve)) for curve in curves])
+    first.invert_yaxis()
+    first.set_title(run.title, loc="left")
+    legend_below(figure, first.get_legend_handles_labels()[0])
     return figure

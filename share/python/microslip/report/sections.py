@@ -217,7 +217,7 @@ def maps(run, data):
 
 
 def bars_of(rows):
-    """Effects on the amplitude of one curve, the largest first, as bars from a hundredth of a percent."""
+    """Effects on one goal of one curve, the largest first, as bars from a hundredth of a percent."""
     worst = max(abs(row["effect"]) for row in rows) or 1.0
     lines = ""
     for row in sorted(rows, key=lambda row: -abs(row["effect"])):
@@ -239,11 +239,22 @@ def asked_accuracy(run):
     return f"<p>{'; '.join(words)}.</p>"
 
 
+def energy_bars(curve, rows):
+    """What the highest peak dissipates in a period, with what makes its half width."""
+    energy, bar = (curve.get("peak") or {}).get("dissipated_energy_J"), curve["bar"].get("dissipated_energy")
+    if not is_number(energy):
+        return ""
+    if not is_number(bar):
+        return "<p class=note>friction dissipates nothing at the peak</p>"
+    return f"<h3>dissipated {with_half_width(energy, bar)} J ± {percent(bar)}</h3>" + (bars_of(rows) if rows else "")
+
+
 def budget(run, data):
     text = ""
     for curve in run.summary["curves"]:
-        rows = [row for row in run.summary.get("error_budget") or []
-                if row["curve"] == curve["name"] and row["goal"] == "peak_amplitude" and abs(row["effect"]) >= 1e-5]
+        rows, of_energy = ([row for row in run.summary.get("error_budget") or []
+                            if (row["curve"], row["goal"]) == (curve["name"], goal) and abs(row["effect"]) >= 1e-5]
+                           for goal in ("peak_amplitude", "dissipated_energy"))
         bar = curve.get("bar")
         if not bar:
             continue
@@ -251,8 +262,9 @@ def budget(run, data):
         text += (f'<div class=budget><h3>{preload_text(curve)}{"" if not is_number(curve.get("preload_N")) else " N"}: '
                  f'amplitude ± {percent(bar.get("peak_amplitude"))}, frequency ± {percent(bar.get("peak_frequency"))}</h3>'
                  + (bars_of(rows) if rows else "<p class=note>no effect above 0.001 %</p>")
+                 + energy_bars(curve, of_energy)
                  + (f"<p class=note>not known: {escape(unknown)}</p>" if unknown else "") + "</div>")
-    return text and (asked_accuracy(run) + "<p>What each choice of the discretisation does to the amplitude of the highest peak, if it were refined to "
+    return text and (asked_accuracy(run) + "<p>What each choice of the discretisation does to the amplitude of the highest peak and to the energy it dissipates, if it were refined to "
                      f"its end.</p><div class=budgets>{text}</div>")
 
 
