@@ -35,15 +35,45 @@ class Stopwatch {
   std::clock_t cpu_begin_ = std::clock();
 };
 
-TimedStructure structure_of(const Rung& rung, const TimedStructure& base) {
+constexpr std::size_t most_runs = 3;
+
+struct Seconds {
+  double wall = 0.0, cpu = 0.0;
+  int runs = 0;
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+/// Runs work once, and again where there is time for it. Nothing is kept between the runs.
+template <typename Work>
+Seconds timed(Repetitions& again, const Work& work) {
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  do {
+    const Stopwatch watch;
+    work();
+    wall.push_back(watch.seconds());
+    cpu.push_back(watch.cpu_seconds());
+    if (interrupt_requested()) break;
+  } while (wall.size() < most_runs && again.take(wall.front()));
+  return {median(wall), median(cpu), static_cast<int>(wall.size())};
+}
+
+TimedStructure structure_of(const Rung& rung, const TimedStructure& base, Repetitions& again) {
   if (base.solved == nullptr || (rung.same_basis && rung.same_mesh)) return base;
-  if (!rung.same_mesh) return timed_structure(rung.scene);
-  const Stopwatch watch;
+  if (!rung.same_mesh) return timed_structure(rung.scene, again);
   TimedStructure result;
-  result.solved = std::make_shared<const SolvedStructure>(
-      SolvedStructure{base.solved->mesh, solve_structure(base.solved->mesh, rung.scene)});
-  result.seconds = base.mesh_seconds + watch.seconds();
-  result.cpu_seconds = base.mesh_cpu_seconds + watch.cpu_seconds();
+  const Seconds modes = timed(again, [&] {
+    result.solved = std::make_shared<const SolvedStructure>(
+        SolvedStructure{base.solved->mesh, solve_structure(base.solved->mesh, rung.scene)});
+  });
+  result.seconds = base.mesh_seconds + modes.wall;
+  result.cpu_seconds = base.mesh_cpu_seconds + modes.cpu;
+  result.runs = std::min(base.runs, modes.runs);
   return result;
 }
 
@@ -65,23 +95,28 @@ std::optional<double> told_error(const ReducedModel& model, const SceneDescripti
 }
 
 void climb_rung(const Rung& rung, const std::string& source, const TimedStructure& base,
-                std::vector<RungResult>& results) {
-  const TimedStructure structure = structure_of(rung, base);
+                Repetitions& again, std::vector<RungResult>& results) {
+  const TimedStructure structure = structure_of(rung, base, again);
   std::vector<std::string> warnings;
   const ReducedModel model = model_of(rung.scene, structure.solved.get(), warnings);
   const RicherModels richer = richer_models(model, rung.scene, structure.solved.get(), {source});
   for (const CurveRequest& request : curve_requests(rung.scene)) {
     if (interrupt_requested()) throw InterruptedError("interrupted; finished ladders are kept");
     if (std::holds_alternative<LimitName>(request.load)) continue;
-    const Stopwatch watch;
-    CurveResult curve =
-        trace_curve(model, rung.scene, request, [](const auto&) { return !interrupt_requested(); });
-    const double seconds = structure.seconds + watch.seconds();
-    const double cpu_seconds = structure.cpu_seconds + watch.cpu_seconds();
+    CurveResult curve;
+    const Seconds tracing = timed(again, [&] {
+      curve = trace_curve(model, rung.scene, request,
+                          [](const auto&) { return !interrupt_requested(); });
+    });
     const solver::ResponsePoint* peak = highest_peak(curve.curve);
     if (peak == nullptr || !curve.curve.complete) continue;
-    RungResult result{curve.name,  rung.value,      seconds,
-                      cpu_seconds, peak->amplitude, peak->frequency};
+    RungResult result{.curve = curve.name,
+                      .value = rung.value,
+                      .seconds = structure.seconds + tracing.wall,
+                      .cpu_seconds = structure.cpu_seconds + tracing.cpu,
+                      .runs = std::min(structure.runs, tracing.runs),
+                      .amplitude = peak->amplitude,
+                      .frequency = peak->frequency};
     result.estimated_error = told_error(model, rung.scene, richer, source, curve);
     results.push_back(std::move(result));
   }
@@ -109,30 +144,43 @@ void add_errors(const Ladder& ladder, std::vector<RungResult>& results) {
 
 }  // namespace
 
-TimedStructure timed_structure(const SceneDescription& scene) {
+bool Repetitions::take(double seconds) {
+  if (seconds > left_) return false;
+  left_ -= seconds;
+  return true;
+}
+
+TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again) {
   TimedStructure result;
-  if (std::holds_alternative<ModalModel>(scene.model)) return result;
-  const Stopwatch watch;
-  const TemporaryFolder folder;
-  mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
-  check_names(mesh, scene);
-  result.mesh_seconds = watch.seconds();
-  result.mesh_cpu_seconds = watch.cpu_seconds();
-  StructureModes modes = solve_structure(mesh, scene);
+  if (std::holds_alternative<ModalModel>(scene.model)) {
+    result.runs = static_cast<int>(most_runs);
+    return result;
+  }
+  std::optional<mesh::Mesh> mesh;
+  const Seconds meshing = timed(again, [&] {
+    const TemporaryFolder folder;
+    mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
+    check_names(*mesh, scene);
+  });
+  StructureModes modes;
+  const Seconds solving = timed(again, [&] { modes = solve_structure(*mesh, scene); });
   result.solved =
-      std::make_shared<const SolvedStructure>(SolvedStructure{std::move(mesh), std::move(modes)});
-  result.seconds = watch.seconds();
-  result.cpu_seconds = watch.cpu_seconds();
+      std::make_shared<const SolvedStructure>(SolvedStructure{std::move(*mesh), std::move(modes)});
+  result.mesh_seconds = meshing.wall;
+  result.mesh_cpu_seconds = meshing.cpu;
+  result.seconds = meshing.wall + solving.wall;
+  result.cpu_seconds = meshing.cpu + solving.cpu;
+  result.runs = std::min(meshing.runs, solving.runs);
   return result;
 }
 
-std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,
+std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base, Repetitions& again,
                               const std::function<void(const std::string&)>& say) {
   std::vector<RungResult> results;
   for (const Rung& rung : ladder.rungs) {
     const Stopwatch watch;
     try {
-      climb_rung(rung, ladder.source, base, results);
+      climb_rung(rung, ladder.source, base, again, results);
       say(fmt::format("{} = {}: {:.1f} s", ladder.knob, rung.value, watch.seconds()));
     } catch (const SceneError& error) {
       say(fmt::format("{} = {}: left out: {}", ladder.knob, rung.value, error.what()));

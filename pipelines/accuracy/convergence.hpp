@@ -16,8 +16,9 @@ namespace microslip::pipelines {
 struct RungResult {
   std::string curve;
   std::string value;
-  double seconds = 0.0;      ///< wall time: mesh, modes and this curve
+  double seconds = 0.0;      ///< wall time: mesh, modes and this curve; median of `runs`
   double cpu_seconds = 0.0;  ///< processor time of the same
+  int runs = 1;              ///< how often the curve was timed
   double amplitude = 0.0;    ///< of its highest peak [m]
   double frequency = 0.0;    ///< [rad/s]
   std::optional<double>
@@ -30,16 +31,31 @@ struct RungResult {
 struct TimedStructure {
   std::shared_ptr<const SolvedStructure> solved;
   double mesh_seconds = 0.0, mesh_cpu_seconds = 0.0;  ///< of the mesh alone
-  double seconds = 0.0, cpu_seconds = 0.0;            ///< of both
+  double seconds = 0.0, cpu_seconds = 0.0;            ///< of both; medians
+  int runs = 1;                                       ///< how often they were timed
+};
+
+/// Time that repetitions may take together, so that a study ends: once it is over everything is timed once.
+class Repetitions {
+ public:
+  /// @param seconds  of all of them.
+  explicit Repetitions(double seconds) : left_(seconds) {}
+  /// Whether what has just taken so long is run again; takes the time for it.
+  [[nodiscard]] bool take(double seconds);
+
+ private:
+  double left_;
 };
 
 /// @return  nothing solved for kinds without a mesh. @throws as solved_structure().
-[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene);
+[[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again);
 
-/// Curves are traced one after the other, so that times are those of one core. A rung that is refused is left out.
+/// Curves are traced one after the other, so that times are those of one core, three times each where the time for
+/// repetitions allows it. A rung that is refused is left out.
 /// @param base  of the scene, for rungs that share it.
 /// @param say   a sentence for every rung.
 [[nodiscard]] std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,
+                                            Repetitions& again,
                                             const std::function<void(const std::string&)>& say);
 
 }  // namespace microslip::pipelines

@@ -114,7 +114,7 @@ std::string number_or_nothing(const std::optional<double>& number) {
 constexpr std::array ladder_table{
     Column<RungResult>{"value", "", "of the knob; sizes in m",
                        [](const auto& r) { return r.value; }},
-    Column<RungResult>{"seconds", "s", "mesh, modes and this curve, wall time",
+    Column<RungResult>{"seconds", "s", "mesh, modes and this curve, wall time, median of the runs",
                        [](const auto& r) { return format_number(r.seconds); }},
     Column<RungResult>{"cpu_seconds", "s", "the same, processor time",
                        [](const auto& r) { return format_number(r.cpu_seconds); }},
@@ -129,6 +129,8 @@ constexpr std::array ladder_table{
     Column<RungResult>{"order", "1", "of the true error in the size, from the value before",
                        [](const auto& r) { return number_or_nothing(r.order); }},
     Column<RungResult>{"curve", "", "its name", [](const auto& r) { return r.curve; }},
+    Column<RungResult>{"runs", "1", "how often mesh, modes and curve were timed, the least of them",
+                       [](const auto& r) { return fmt::format("{}", r.runs); }},
 };
 
 constexpr std::array campbell_table{

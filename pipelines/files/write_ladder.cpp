@@ -22,12 +22,12 @@ void write_ladder_csv(const std::filesystem::path& file, const std::vector<RungR
 }
 
 std::string ladder_text(const std::string& knob, const std::vector<RungResult>& rungs) {
-  std::string text = fmt::format("{:<18}{:<16}{:>10}{:>14}{:>12}{:>12}{:>7}\n", knob, "curve",
-                                 "seconds", "peak [m]", "true error", "told", "order");
+  std::string text = fmt::format("{:<18}{:<16}{:>10}{:>6}{:>14}{:>12}{:>12}{:>7}\n", knob, "curve",
+                                 "seconds", "of", "peak [m]", "true error", "told", "order");
   for (const RungResult& rung : rungs) {
-    text += fmt::format("{:<18}{:<16}{:>10.2f}{:>14.6g}{:>12}{:>12}{:>7}\n", rung.value, rung.curve,
-                        rung.seconds, rung.amplitude, percent_text(rung.true_error),
-                        percent_text(rung.estimated_error),
+    text += fmt::format("{:<18}{:<16}{:>10.2f}{:>6}{:>14.6g}{:>12}{:>12}{:>7}\n", rung.value,
+                        rung.curve, rung.seconds, rung.runs, rung.amplitude,
+                        percent_text(rung.true_error), percent_text(rung.estimated_error),
                         rung.order ? fmt::format("{:.1f}", *rung.order) : "–");
   }
   return text;

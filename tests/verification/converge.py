@@ -21,7 +21,7 @@ SCENE = os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml")
 LEAN = ("model.element_size=10 mm", "response.preload=[500]", "response.frequency=[326, 336]", "contact.points=8",
         "modes.count=3", "response.harmonics=1")
 KNOBS = ("element_size", "modes", "attachment_degree", "cells", "fit", "second_direction", "harmonics")
-HEADER = "value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,order,curve"
+HEADER = "value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,order,curve,runs"
 
 
 def converge(scene, folder, *settings):
@@ -58,6 +58,12 @@ class Converge(unittest.TestCase):
                 for row in rows:
                     self.assertGreater(float(row["seconds"]), 0.0)
                     self.assertGreater(float(row["cpu_seconds"]), 0.0)
+                    self.assertIn(row["runs"], ("1", "2", "3"))
+
+    def test_times_are_the_median_of_three_runs(self):
+        self.assertIn("median of 3", self.finished.stdout)
+        runs = [row["runs"] for row in table(self.blade, "element_size")]
+        self.assertEqual(set(runs), {"3"})
 
     def test_told_errors_are_the_true_ones(self):
         judged = 0
