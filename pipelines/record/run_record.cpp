@@ -131,25 +131,7 @@ void RunRecord::keep_finished(const CurveResult& result) const {
 
 int RunRecord::run(const std::function<void()>& stages) {
   const PromptEnd promise;
-  std::jthread watch([this](const std::stop_token& stop) {
-    while (!interrupt_requested()) {
-      if (stop.stop_requested()) return;
-      std::this_thread::sleep_for(20ms);
-    }
-    for (auto waited = 0ms; waited < patience && !interrupt_insisted(); waited += 20ms) {
-      if (stop.stop_requested()) return;
-      std::this_thread::sleep_for(20ms);
-    }
-    // A library or a long evaluation is in the way: end here.
-    try {
-      keep_unfinished();
-    } catch (const std::exception& error) {
-      progress_.error(error.what());
-    }
-    fail(ExitCode::incomplete, "interrupted: the same command with --resume goes on");
-    place_.unlock();
-    std::_Exit(static_cast<int>(ExitCode::incomplete));
-  });
+  std::jthread watch([this](const std::stop_token& stop) { end_in_time(stop); });
   try {
     stages();
   } catch (const std::exception& error) {
@@ -161,6 +143,48 @@ int RunRecord::run(const std::function<void()>& stages) {
   watch.request_stop();
   watch.join();
   return finish();
+}
+
+void RunRecord::end_in_time(const std::stop_token& stop) {
+  while (!interrupt_requested() && !is_overdue()) {
+    if (stop.stop_requested()) return;
+    std::this_thread::sleep_for(20ms);
+  }
+  const bool overdue = !interrupt_requested();
+  for (auto waited = 0ms; waited < patience && !interrupt_insisted(); waited += 20ms) {
+    if (stop.stop_requested()) return;
+    std::this_thread::sleep_for(20ms);
+  }
+  // A library or a long evaluation is in the way: end here.
+  const std::string stage = stage_name();
+  try {
+    keep_unfinished();
+  } catch (const std::exception& error) {
+    progress_.error(error.what());
+  }
+  const ExitCode code = overdue ? ExitCode::exhausted : ExitCode::incomplete;
+  const std::string message =
+      overdue ? fmt::format(
+                    "out of time: the stage {} was ended, which takes longer than the budget "
+                    "leaves; what was solved before is there. Take larger elements, fewer "
+                    "modes, or a longer budget",
+                    stage)
+              : "interrupted: the same command with --resume goes on";
+  fail(code, message);
+  if (overdue)
+    std::cerr << "microslip: " << message << std::endl;  // nobody above is left to say it
+  place_.unlock();
+  std::_Exit(static_cast<int>(code));
+}
+
+std::string RunRecord::stage_name() const {
+  const std::vector<StageRecord> stages = progress_.stages();
+  return stages.empty() ? "scene" : stages.back().name;
+}
+
+bool RunRecord::is_overdue() const {
+  constexpr double grace = 0.5;  // stages that look at the clock have ended long before
+  return seconds_left() < -grace && stage_name() != "report";
 }
 
 int RunRecord::finish() {
@@ -421,6 +445,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   summary.optimum = optimum;
   summary.error_budget = budget.rows;
   summary.not_in_bar = budget.unknown;
+  if (!budget.rows.empty()) summary.dissipated_energy = budget.dissipated_energy;
   if (!in_newtons(model)) summary.newtons_per_load = contact_of(model, 1.0).at_rest().carried;
   write_optimum_csv(staged_, request, optimum);
 }

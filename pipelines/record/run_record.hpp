@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <variant>
 
@@ -112,6 +113,10 @@ class RunRecord {
   void show_stage();
   /// The same within a stage, as far as nothing of an earlier run stands there.
   void show_what_is_new();
+  /// Waits until the run has ended; ends it where it answers neither an interrupt nor the end of its budget of time.
+  void end_in_time(const std::stop_token& stop);
+  [[nodiscard]] std::string stage_name() const;
+  [[nodiscard]] bool is_overdue() const;
   int finish();
   void fail(ExitCode code, const std::string& message);
   void tell_failure(ExitCode code, const std::string& message);

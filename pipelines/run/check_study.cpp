@@ -23,6 +23,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/draw_scene.hpp"
 #include "pipelines/run/questions.hpp"
+#include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -47,13 +48,11 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   }
 }
 
-/// Of a mesh that is made here, or read, and its modes with the count that none is missed; anchored at 115 000 degrees of
-/// freedom (factorisation of a sparse three-dimensional mesh: time as n^1.5).
+/// Of a mesh that is made here, or read, and its modes.
 double mesh_and_modes(double degrees_of_freedom, const SceneDescription& scene) {
   const double mesh = (element_size_of(scene) ? 7e-5 : 1e-5) * degrees_of_freedom;
   if (given_modes(scene) != nullptr) return mesh;
-  const double modes = 7.2 * std::pow(degrees_of_freedom / 115'000.0, 1.5) *
-                       std::max(1.0, scene.settings.basis.n_modes / 10.0);
+  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
   constexpr double start = 0.5;  // of the mesher, of the libraries
   return start + mesh + modes;
 }

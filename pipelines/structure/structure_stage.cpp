@@ -24,6 +24,7 @@
 #include "pipelines/structure/given_modes.hpp"
 #include "pipelines/structure/on_all_ranks.hpp"
 #include "pipelines/structure/solver_memory.hpp"
+#include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_members.hpp"
 #include "pipelines/system/machine.hpp"
@@ -118,6 +119,7 @@ std::string arithmetic() {
 
 StructureModes solve_on_all_ranks(const StructureTask& task) {
   require_memory(task.mesh, task.basis.solver);
+  require_time(task.mesh, task.basis.n_modes);
   StructureModes modes;
   on_all_ranks(
       modes_work, [&] { return bytes_of(task); }, [&] { modes = solve(task); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 namespace microslip::pipelines {
@@ -28,13 +29,16 @@ double seconds_spent() {
 
 double seconds_left() { return allowed - seconds_spent(); }
 
-bool time_is_short() {
+double seconds_to_work() {
+  if (std::isinf(allowed.load())) return allowed;
   constexpr double share = 0.1;
   constexpr double least = 2.0;
   constexpr double most = 0.5;  // of a budget of few seconds
   const double writing = std::max(share * allowed, std::min(least, most * allowed));
-  return seconds_left() < writing;
+  return seconds_left() - writing;
 }
+
+bool time_is_short() { return seconds_to_work() < 0.0; }
 
 bool cut_short() {
   if (!time_is_short()) return false;

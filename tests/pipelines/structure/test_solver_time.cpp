@@ -1,0 +1,49 @@
+// Modes that a budget of time has no room for are not begun.
+#include "pipelines/structure/solver_time.hpp"
+
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "pipelines/system/deadline.hpp"
+#include "pipelines/system/exit_code.hpp"
+#include "tests/support/box_mesh.hpp"
+
+namespace microslip::pipelines::test_solver_time {
+namespace {
+
+struct Budget {
+  explicit Budget(double seconds) { begin_deadline(seconds); }
+  ~Budget() { begin_deadline(std::numeric_limits<double>::infinity()); }
+  Budget(const Budget&) = delete;
+  Budget& operator=(const Budget&) = delete;
+  Budget(Budget&&) = delete;
+  Budget& operator=(Budget&&) = delete;
+};
+
+TEST(SolverTime, GrowsWithTheMeshAndTheNumberOfModes) {
+  EXPECT_GT(modes_seconds(200'000.0, 10), 2.0 * modes_seconds(100'000.0, 10));
+  EXPECT_GT(modes_seconds(1e5, 40), 3.0 * modes_seconds(1e5, 10));
+}
+
+TEST(SolverTime, WhatFitsIsBegunAndWhatDoesNotIsRefusedWithWhatWouldHelp) {
+  const mesh::Mesh mesh = test::box_mesh(mesh::ElementType::hex8, {});
+  EXPECT_NO_THROW(require_time(mesh, 10));
+  const double seconds = modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), 10);
+  {
+    const Budget enough(10.0 * seconds + 60.0);
+    EXPECT_NO_THROW(require_time(mesh, 10));
+  }
+  const Budget little(0.1 * seconds);
+  try {
+    require_time(mesh, 10);
+    FAIL() << "begun";
+  } catch (const std::exception& error) {
+    EXPECT_EQ(exit_code_of(error), ExitCode::exhausted);
+    EXPECT_NE(std::string(error.what()).find("larger elements"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_solver_time
