@@ -77,6 +77,16 @@ class Results(Case):
         self.assertEqual(list(self.run_.budget["effect"]), [row["effect"] for row in summary["error_budget"]])
         self.assertEqual(self.run_.scene["response"]["harmonics"], 1)
 
+    def test_peaks_have_what_they_dissipate_and_its_bar(self):
+        peaks = self.run_.peaks
+        for name in ("preload_50", "preload_100"):
+            row, curve = peaks["curve"].index(name), self.run_.curves[name]
+            at_peak = np.argmax(curve["amplitude_m"])
+            self.assertAlmostEqual(peaks["dissipated_energy_J"][row] / curve.energy["dissipated_energy_J"][at_peak], 1, delta=1e-6)
+            rows = [row for row in self.run_.summary["error_budget"] if (row["curve"], row["goal"]) == (name, "dissipated_energy")]
+            self.assertAlmostEqual(peaks["energy_bar"][row], sum(abs(row["effect"]) for row in rows), delta=1e-12)
+            self.assertGreater(peaks["energy_bar"][row], 1e-6)
+
     def test_the_energy_of_the_motion_is_that_of_the_map(self):
         curve, contact = self.run_.curves["preload_50"], self.run_.maps["preload_50_peak"]
         at_peak = np.array(curve["mark"]) == "peak"
