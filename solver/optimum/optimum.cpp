@@ -125,6 +125,13 @@ std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParame
   return text.str();
 }
 
+std::string lowest_so_far(const PeakOfParameter& best) {
+  std::ostringstream text;
+  text.precision(4);
+  text << "the lowest so far at " << best.parameter;
+  return text.str();
+}
+
 void check(const OptimumOptions& options) {
   const bool positive = options.scale == ParameterScale::linear || options.lower > 0.0;
   if (!positive || !(options.upper > options.lower) || options.n_scan < 3) {
@@ -436,7 +443,9 @@ class Search {
     result_.flat = flat_interval(result_.trace);
     result_.objection = objection();
     result_.found = result_.objection.empty();
-    result_.message = valley(result_.trace, result_.best);
+    result_.message = result_.objection == out_of_time
+                          ? lowest_so_far(result_.best)  // what lies beside it was not solved
+                          : valley(result_.trace, result_.best);
     if (!result_.found) result_.message = result_.objection + "; " + result_.message;
     if (result_.best.place == PeakPlace::range_end && !one_frequency_) {
       result_.message += "; the largest amplitude lies at an end of the frequency range";
