@@ -241,7 +241,12 @@ class Plans {
       structure += move->structure;
       curves *= move->curves;
     }
-    plan.seconds = structure * spent_.structure + curves * spent_.curves;
+    const bool only_harmonics = std::ranges::all_of(plan.moves, [](const auto& one) {
+      return one.first == "harmonics" || one.second->text.empty();
+    });
+    const double again =
+        only_harmonics ? spent_.inexact_curves.value_or(spent_.curves) : spent_.curves;
+    plan.seconds = structure * spent_.structure + curves * again;
     if (!(plan.seconds < cheapest_.seconds)) return;
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       if (bar_after(errors_[i], plan) > bounds_[i]) return;
@@ -306,6 +311,11 @@ double largest_bar(const std::vector<CurveBudget>& budgets) {
     }
   }
   return any ? largest : none;
+}
+
+bool is_exact(const CurveBudget& budget, double tolerance) {
+  const bool is_linear = budget.rows.empty() && budget.unknown.empty();
+  return is_linear || largest_bar({budget}) <= tolerance;
 }
 
 std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets) {

@@ -24,10 +24,15 @@ struct Refinement {
 struct SpentSeconds {
   double structure = 0.0;  ///< mesh and modes
   double curves = 0.0;
+  /// Of the curves that are not exact enough yet: these alone are solved again where only harmonics change. Empty: all.
+  std::optional<double> inexact_curves{};
 };
 
 /// The largest bar of all budgets, of amplitude or frequency; infinite where one has none, or there is none.
 [[nodiscard]] double largest_bar(const std::vector<CurveBudget>& budgets);
+
+/// A linear limit, or within the tolerance.
+[[nodiscard]] bool is_exact(const CurveBudget& budget, double tolerance);
 
 /// Sources that one of the bars leaves out, named once.
 [[nodiscard]] std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets);

@@ -26,7 +26,13 @@ SpentSeconds spent_on(const Solution& solution) {
   if (solution.structure) {
     spent.structure = per_freedom * static_cast<double>(solution.structure->modes.n_dofs);
   }
-  for (const CurveResult& curve : solution.curves) spent.curves += curve.curve.seconds;
+  double inexact = 0.0;
+  for (std::size_t i = 0; i < solution.curves.size(); ++i) {
+    const double seconds = solution.curves[i].curve.seconds;
+    spent.curves += seconds;
+    if (!is_exact(solution.budgets[i], solution.scene.accuracy.tolerance)) inexact += seconds;
+  }
+  spent.inexact_curves = inexact;
   return spent;
 }
 
@@ -39,6 +45,13 @@ std::optional<SolvedAgain> refined(const Solution& before, const Refinement& ste
     return std::nullopt;
   }
   return round;
+}
+
+/// To two digits.
+std::string seconds_text(double seconds) {
+  if (seconds < 100.0) return fmt::format("{:.2g} s", seconds);
+  const double unit = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
+  return fmt::format("{:.0f} s", unit * std::round(seconds / unit));
 }
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -85,18 +98,24 @@ void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record) {
     std::string left;
     const auto next =
         refinement(solution.scene, solution.budgets, accuracy.asked, spent_on(solution), left);
-    missing = next ? fmt::format("next: {}, some {:.2g} s or more", next->text, next->seconds)
-                   : fmt::format("this program cannot refine what is left{}{}",
-                                 left.empty() ? "" : ": ", left);
-    // A mesh that is begun cannot be stopped.
-    const bool too_long = next && next->new_mesh && next->seconds > seconds_left();
+    missing =
+        next ? fmt::format("next: {}, some {} or more", next->text, seconds_text(next->seconds))
+             : fmt::format("this program cannot refine what is left{}{}", left.empty() ? "" : ": ",
+                           left);
+    // A mesh that is begun cannot be stopped; what curves take is told less well. Time that a round
+    // would only use up is left to maps and best value.
+    const double unsure = next && next->new_mesh ? 1.0 : 2.0;
+    const bool too_long = next && next->seconds > unsure * seconds_to_work();
     if (!next || cut_short() || (too_long && leave_out())) break;
-    record.progress().info(fmt::format("{}; now with {}", reached_text(accuracy), next->text));
+    record.progress().info(fmt::format("{}; now with {}, some {} of one core",
+                                       reached_text(accuracy), next->text,
+                                       seconds_text(next->seconds)));
     const double begin = seconds_spent();
     std::string obstacle;
     std::optional<SolvedAgain> round = refined(solution, *next, jobs, record.progress(), obstacle);
     if (!round) {
-      missing = fmt::format("next: {}, more than {:.2g} s", next->text, seconds_spent() - begin);
+      missing =
+          fmt::format("next: {}, more than {}", next->text, seconds_text(seconds_spent() - begin));
       if (!obstacle.empty()) missing = fmt::format("{} cannot be kept: {}", next->text, obstacle);
       break;
     }

@@ -14,12 +14,6 @@
 namespace microslip::pipelines {
 namespace {
 
-/// A linear limit, or within the tolerance.
-bool is_exact(const CurveBudget& budget, double tolerance) {
-  const bool is_linear = budget.rows.empty() && budget.unknown.empty();
-  return is_linear || largest_bar({budget}) <= tolerance;
-}
-
 StructurePointer structure_of(const Solution& before, const Refinement& step,
                               const SolvedAgain& round) {
   if (!before.structure || !step.new_mesh) return before.structure;

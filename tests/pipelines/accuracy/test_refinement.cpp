@@ -55,6 +55,21 @@ TEST(Refinement, SharesTheToleranceAmongSources) {
   EXPECT_GT(step->seconds, spent.structure + spent.curves);
 }
 
+// Curves that are exact enough stay where harmonics alone change, and cost nothing.
+TEST(Refinement, PricesHarmonicsByTheCurvesThatAreSolvedAgain) {
+  std::string left;
+  const std::vector<CurveBudget> told{budget({{"mesh", 0.005}, {"harmonics", 0.05}})};
+  SpentSeconds few = spent;
+  few.inexact_curves = 0.1 * spent.curves;
+  const auto all = refinement(blade(), told, tolerance, spent, left);
+  const auto some = refinement(blade(), told, tolerance, few, left);
+  ASSERT_TRUE(all && some);
+  EXPECT_TRUE(some->only_harmonics);
+  EXPECT_LT(some->seconds, all->seconds);
+  EXPECT_TRUE(is_exact(budget({{"mesh", 0.5 * tolerance}}), tolerance));
+  EXPECT_FALSE(is_exact(told[0], tolerance));
+}
+
 TEST(Refinement, TakesTheCheapestWayThatIsEnough) {
   std::string left;
   const std::vector<CurveBudget> told{
