@@ -143,7 +143,7 @@ class AskedAccuracy(unittest.TestCase):
         for stage, budget, settings in (("modes", 4, (*sized, "--set", "modes.count=80")), ("modes", 4, (*sized, *rotating)),
                                         ("mesh", 3, ("--set", "model.element_size=0.8 mm"))):
             with self.subTest(settings):
-                folder = os.path.join(WORK, "meshed")
+                folder = os.path.join(WORK, f"meshed_{len(settings)}")  # in that of an earlier run its summary would stay
                 begin = time.monotonic()
                 run = program("run", scene("blade_to_ground"), "-q", "-j1", "--budget", f"{budget} s", "-o", folder,
                               "--without", "plots", "--without", "maps", *settings, environment=environment)
