@@ -48,6 +48,7 @@ RunOptions options_of(const Arguments& arguments, const std::filesystem::path& o
   RunOptions options;
   options.output = output;
   options.jobs = arguments.jobs;
+  options.repeat_seconds = arguments.repeat_seconds;
   if (arguments.resume) options.start = RunStart::resumed;
   options.cache = cache_of(arguments);
   if (arguments.quiet) options.verbosity = Verbosity::quiet;

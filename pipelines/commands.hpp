@@ -30,6 +30,7 @@ struct Arguments {
   int engine_orders = 8;               // of `campbell`: the highest
   std::string tolerance;
   std::string budget;
+  double repeat_seconds = 240.0;  // of converge
   bool resume = false;
   bool no_cache = false;
   bool dry_run = false;

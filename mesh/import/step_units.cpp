@@ -126,9 +126,9 @@ std::optional<StepUnit> si_unit(const std::string& statement) {
 /// A unit by its statement, through those it is defined by: CONVERSION_BASED_UNIT('INCH',#7), where #7 is
 /// LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#8).
 std::optional<StepUnit> unit_of(const Statements& statements, int number, int depth = 0) {
-  constexpr int deepest = 4;
+  constexpr int most_nested = 4;
   const std::string& statement = statements.at(number);
-  if (statement.find("LENGTH_UNIT") == statement.npos || depth > deepest) return std::nullopt;
+  if (statement.find("LENGTH_UNIT") == statement.npos || depth > most_nested) return std::nullopt;
   const std::string conversion = between(statement, "CONVERSION_BASED_UNIT(", ")");
   if (conversion.empty()) return si_unit(statement);
   const std::string& measure = statements.at(number_in(between(conversion + ')', ",", ")")));

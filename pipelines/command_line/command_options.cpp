@@ -157,6 +157,11 @@ void add_converge(CLI::App& app, Arguments& a, Action& chosen) {
                   [&] { return run_scene(a, converge_study); }),
       a);
   with_output(command, a, "folder for converge/; default runs/SCENE");
+  command
+      ->add_option("--repeat", a.repeat_seconds,
+                   "seconds to spend on timing stages again, for the median of three; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
 }
 
 void add_columns(CLI::App& app, Arguments& a, Action& chosen) {

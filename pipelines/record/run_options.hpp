@@ -15,10 +15,11 @@ struct RunOptions {
   Verbosity verbosity = Verbosity::normal;
   RunStart start = RunStart::anew;
   std::filesystem::path
-      cache;            ///< of results of earlier runs (system/result_cache.hpp); empty: none
-  bool plots = true;    ///< pictures and report.html; report.md is always written
-  bool maps = true;     ///< contact maps and the motion at the peaks
-  bool bracket = true;  ///< the search for a best value again with other contact data
+      cache;  ///< of results of earlier runs (system/result_cache.hpp); empty: none
+  double repeat_seconds = 0.0;  ///< of converge: for stages timed again, three times at most
+  bool plots = true;            ///< pictures and report.html; report.md is always written
+  bool maps = true;             ///< contact maps and the motion at the peaks
+  bool bracket = true;          ///< the search for a best value again with other contact data
 };
 
 }  // namespace microslip::pipelines

@@ -24,8 +24,7 @@ int converge_study(const SceneDescription& scene, const RunOptions& options) {
   };
   fem::use_one_blas_thread();  // every rung takes what it takes on one core
   // What [accuracy] says of a run has no part in it: nothing is refined, and no budget ends it.
-  constexpr double for_repetitions = 240.0;  // s: the default blade is done in a quarter of an hour
-  Repetitions again(for_repetitions);
+  Repetitions again(options.repeat_seconds);
   const TimedStructure base = timed_structure(scene, again);
   say(fmt::format("mesh and modes: {:.1f} s, median of {}", base.seconds, base.runs));
   for (const Ladder& ladder : ladders(scene)) {

@@ -134,14 +134,15 @@ class AskedAccuracy(unittest.TestCase):
 
     def test_a_mesh_and_modes_end_in_time(self):
         """The mesh is kept by the first command, so that the others have the whole budget for the modes: 80 of them are not begun;
-        those of a rotating blade, which the forecast knows nothing of, are ended."""
+        those of a rotating blade, which the forecast knows nothing of, are ended, in curves where the machine is fast."""
         environment = {**without_plots(), "MICROSLIP_CACHE": os.path.join(WORK, "cache")}
         sized = ("--set", "model.element_size=4 mm")
         mesh = program("mesh", scene("blade_to_ground"), *sized, "-o", os.path.join(WORK, "m.msh"), environment=environment)
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         rotating = ("--set", "static.axis={origin=[0,-0.3,0],direction=[0,0,1]}", "--set", "static.speed=314")
-        for stage, budget, settings in (("modes", 4, (*sized, "--set", "modes.count=80")), ("modes", 4, (*sized, *rotating)),
-                                        ("mesh", 3, ("--set", "model.element_size=0.8 mm"))):
+        for stages, budget, settings in ((("modes",), 4, (*sized, "--set", "modes.count=80")),
+                                         (("modes", "contact", "curves"), 4, (*sized, *rotating)),
+                                         (("mesh",), 3, ("--set", "model.element_size=0.8 mm"))):
             with self.subTest(settings):
                 folder = os.path.join(WORK, f"meshed_{len(settings)}")  # in that of an earlier run its summary would stay
                 begin = time.monotonic()
@@ -153,7 +154,7 @@ class AskedAccuracy(unittest.TestCase):
                 self.assertEqual((run.returncode, result["exit_code"]), (4, 4), run.stderr)
                 self.assertIn("out of time", result["message"])
                 self.assertIn("larger elements", run.stderr)
-                self.assertEqual(result["stages"][-1]["name"], stage)
+                self.assertIn(result["stages"][-1]["name"], stages)
                 self.assertLess(seconds, budget + 2.0)
 
     def test_every_kind_of_run_ends_in_time(self):

@@ -25,7 +25,7 @@ HEADER = "value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_erro
 
 
 def converge(scene, folder, *settings):
-    command = [PROGRAM, "converge", scene, "-o", folder]
+    command = [PROGRAM, "converge", scene, "--repeat", "5", "-o", folder]  # the first stages three times
     for setting in settings:
         command += ["--set", setting]
     return subprocess.run(command, capture_output=True, text=True, timeout=600, env=without_plots())

@@ -40,7 +40,8 @@ void divide_points(solver::Scene& scene) {
   const auto repeated = [&](const auto& rows) { return rows.replicate(parts, 1).eval(); };
   std::vector<contact::PointParameters> points;
   for (Eigen::Index part = 0; part < parts; ++part) {
-    const double share = parts > 1 ? 0.8 + 0.4 * static_cast<double>(part) / (parts - 1.0) : 1.0;
+    const double share =
+        parts > 1 ? 0.8 + 0.4 * static_cast<double>(part) / static_cast<double>(parts - 1) : 1.0;
     for (contact::PointParameters point : patch.patch().points()) {
       point.rest_load *= share;
       points.push_back(point);

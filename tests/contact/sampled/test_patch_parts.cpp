@@ -101,7 +101,7 @@ TEST_P(PatchParts, BitsDoNotDependOnTheNumberOfCores) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Directions, PatchParts, ::testing::Values(false, true),
-                         [](const auto& info) { return info.param ? "Two" : "One"; });
+                         [](const auto& test) { return test.param ? "Two" : "One"; });
 
 }  // namespace
 }  // namespace microslip::contact::sampled::test_patch_parts
