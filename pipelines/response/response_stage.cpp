@@ -301,15 +301,21 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
 
 namespace {
 
-/// Points that take so many evaluations, one after the other, that their steps are cut by noise.
+/// Sticks, for about as long as from one instant to the next, as they are 128 to a period.
+bool sticks_shortly(const solver::ResponsePoint& point) {
+  constexpr double share = 0.03;
+  return point.report.stick_share > 0.0 && point.report.stick_share < share;
+}
+
+/// Points that stick shortly and take so many evaluations, one after the other, that noise must be what cuts their steps.
 class DearPoints {
  public:
   /// @return whether it has come to that.
   bool add(const solver::ResponsePoint& point) {
     constexpr std::size_t in_a_row = 40;
     constexpr long usual = 30;  // six, or twelve among many folds
-    evaluations_.push_back(point.contact_evaluations);
-    sum_ += point.contact_evaluations;
+    evaluations_.push_back(sticks_shortly(point) ? point.contact_evaluations : 0);
+    sum_ += evaluations_.back();
     if (evaluations_.size() <= in_a_row) return false;
     sum_ -= evaluations_[evaluations_.size() - 1 - in_a_row];
     met_ = met_ || sum_ > usual * static_cast<long>(in_a_row);
@@ -323,9 +329,10 @@ class DearPoints {
   bool met_ = false;
 };
 
-/// A branch that did not reach its end, or whose peaks and folds cannot be found.
+/// A branch of such points that did not reach its end, or whose peaks and folds cannot be found.
 bool walked_on_noise(const solver::ResponseCurve& curve) {
   using solver::Diagnosis;
+  if (std::ranges::none_of(curve.points, sticks_shortly)) return false;
   constexpr std::array ends{Diagnosis::out_of_range, Diagnosis::unbounded, Diagnosis::interrupted};
   if (!curve.complete) return std::ranges::find(ends, curve.diagnosis) == ends.end();
   constexpr auto most_unsolved = 2;
