@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -21,9 +22,9 @@ struct FaceFrame {
   std::optional<Eigen::Vector3d> slip_direction;
 
   FaceFrame() = default;
-  FaceFrame(const Eigen::Matrix3d& everywhere) : plane(everywhere) {}
-  FaceFrame(const Eigen::Matrix3d& of_the_face, const Eigen::Vector3d& of_places)
-      : plane(of_the_face), slip_direction(of_places) {}
+  FaceFrame(Eigen::Matrix3d everywhere) : plane(std::move(everywhere)) {}
+  FaceFrame(Eigen::Matrix3d of_the_face, Eigen::Vector3d of_places)
+      : plane(std::move(of_the_face)), slip_direction(std::move(of_places)) {}
 
   [[nodiscard]] bool is_local() const { return slip_direction.has_value(); }
   [[nodiscard]] Eigen::Matrix3d at(const Eigen::Vector3d& normal) const {

@@ -71,10 +71,13 @@ double frequency_factor(const ReducedModel& model, const ReducedModel& other, do
 void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,
                const RicherModel& richer, const CurveResult& result, double load) {
   const auto begin = std::chrono::steady_clock::now();
-  solver::ContinuationOptions options = continuation_options(scene, model);
+  const ReducedModel solved = model_of(model, result.curve);
+  ReducedModel refined = richer.model;
+  refined.effects.located = refined.effects.located || solved.effects.located;
+  solver::ContinuationOptions options = continuation_options(scene, solved);
   options.search_starts = 0;
-  const solver::Scene own = solver_scene(model, load);
-  const solver::Scene other = solver_scene(richer.model, load);
+  const solver::Scene own = solver_scene(solved, load);
+  const solver::Scene other = solver_scene(refined, load);
   const double factor =
       frequency_factor(model, richer.model, highest_peak(result.curve)->frequency);
   const auto peak =

@@ -98,8 +98,9 @@ Changes changes_with(const solver::Scene& own, const solver::Scene& with,
 
 }  // namespace
 
-std::vector<ErrorRow> rows_left_out(const ReducedModel& model, const SceneDescription& scene,
+std::vector<ErrorRow> rows_left_out(const ReducedModel& simulated, const SceneDescription& scene,
                                     const CurveResult& result) {
+  const ReducedModel model = model_of(simulated, result.curve);
   const auto* load = std::get_if<double>(&result.load);
   const solver::ResponsePoint* peak = highest_peak(result.curve);
   if (load == nullptr || peak == nullptr || result.integrated || !(peak->amplitude > 0.0))

@@ -121,7 +121,8 @@ EffectDecision mean_coupling(const EffectFacts& facts) {
   EffectDecision decision =
       with_normal_motion(facts, "the mean approach changes the load", &ContactReach::bias_load);
   if (decision.simulated != yes || facts.setting("mean_coupling") != "off") return decision;
-  const double change = decision.indicator.value_or(HUGE_VAL);
+  if (!decision.indicator) return decision;  // nothing that can move it is asked for
+  const double change = *decision.indicator;
   if (change > effect_row("mean_coupling").threshold) {
     decision.refusal = fmt::format(
         "the mean approach changes the load by up to {} its value in the linear limits, and no law "

@@ -308,6 +308,10 @@ std::string scene_of_matrices(const fs::path& stiffness, const fs::path& folder)
   const fs::path mass = stiffness.parent_path() / "mass.mtx";
   const fs::path nodes = stiffness.parent_path() / "nodes.csv";
   for (const fs::path& needed : {mass, nodes}) {
+    if (fs::exists(needed) && fs::equivalent(needed, stiffness)) {
+      throw SceneError(fmt::format("{}: is the mass; begin with the stiffness that lies beside it",
+                                   stiffness.string()));
+    }
     if (fs::exists(needed)) continue;
     throw SceneError(fmt::format(
         "{}: {} does not lie beside it; a stiffness goes with mass.mtx and nodes.csv (for "

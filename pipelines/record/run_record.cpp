@@ -146,15 +146,12 @@ int RunRecord::run(const std::function<void()>& stages) {
 }
 
 void RunRecord::end_in_time(const std::stop_token& stop) {
-  while (!interrupt_requested() && !is_overdue()) {
-    if (stop.stop_requested()) return;
-    std::this_thread::sleep_for(20ms);
-  }
-  const bool overdue = !interrupt_requested();
   for (auto waited = 0ms; waited < patience && !interrupt_insisted(); waited += 20ms) {
     if (stop.stop_requested()) return;
     std::this_thread::sleep_for(20ms);
+    if (!interrupt_requested() && !is_overdue()) waited = -20ms;  // a stage may end by itself
   }
+  const bool overdue = !interrupt_requested();
   // A library or a long evaluation is in the way: end here.
   const std::string stage = stage_name();
   try {
@@ -439,6 +436,11 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
   progress_.info(fmt::format("{}: {}", what, best_text(optimum, unit, budget)));
   for (const std::string& note : optimum.notes) progress_.info("optimum: " + note);
   for (const std::string& warning : optimum.warnings) progress_.warning("optimum: " + warning);
+  note_optimum(model, request, optimum, budget);
+}
+
+void RunRecord::note_optimum(const ReducedModel& model, const OptimumRequest& request,
+                             const solver::Optimum& optimum, const CurveBudget& budget) {
   const std::lock_guard lock(mutex_);
   OptimumSummary& summary = summary_.optimum.emplace();
   summary.request = request;

@@ -92,6 +92,10 @@ class RunRecord {
   void maps_are_drawn();
   /// Motion of the whole blade at one solution.
   void keep_motion(const std::string& name, const solver::ResponsePoint& point);
+  /// For summary.json, before errors are told.
+  void note_optimum(const ReducedModel& model, const OptimumRequest& request,
+                    const solver::Optimum& optimum, const CurveBudget& budget);
+  /// The same with its lines in the log.
   void keep_optimum(const ReducedModel& model, const OptimumRequest& request,
                     const solver::Optimum& optimum, const CurveBudget& budget);
   void keep_bracket(OptimumBracket bracket);

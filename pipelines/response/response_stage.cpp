@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -276,6 +277,13 @@ void trace_about_peak(const ReducedModel& model, double load, solver::Continuati
 
 }  // namespace
 
+ReducedModel model_of(ReducedModel model, const solver::ResponseCurve& curve) {
+  model.effects.located = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
+    return event.remedy == solver::Remedy::located_events;
+  });
+  return model;
+}
+
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result) {
   const solver::ResponseCurve& curve = result.curve;
@@ -284,9 +292,7 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
   if (curve.diagnosis == solver::Diagnosis::interrupted || interrupt_requested() || cut_short())
     return;
   model.effects.n_harmonics = highest;
-  model.effects.located = std::ranges::any_of(curve.log, [](const solver::SolverEvent& event) {
-    return event.remedy == solver::Remedy::located_events;
-  });
+  model = model_of(std::move(model), curve);
   solver::ContinuationOptions options = continuation_options(scene, model);
   options.search_starts = 0;
   options.judge_stability = false;
@@ -366,7 +372,9 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
   solver::ResponseCurve again =
       solver::trace_response(balanced_scene(located, load, exact), exact,
                              [](const auto&) { return !interrupt_requested() && !cut_short(); });
-  if (!again.complete && curve.complete) return curve;
+  if (!again.complete && (curve.complete || again.points.size() < curve.points.size())) {
+    return curve;
+  }
   again.log.insert(again.log.begin(),
                    {curve.points.empty() ? options.frequency_begin : curve.points.back().frequency,
                     solver::Remedy::located_events});

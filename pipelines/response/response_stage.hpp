@@ -64,6 +64,9 @@ void check_harmonics(ReducedModel model, const SceneDescription& scene, double l
                                                const SceneDescription& scene,
                                                const CurveResult& result);
 
+/// The model a curve was solved with: events located where it was traced again with them.
+[[nodiscard]] ReducedModel model_of(ReducedModel model, const solver::ResponseCurve& curve);
+
 /// The highest solved peak; without one the largest point. nullptr: no points.
 [[nodiscard]] const solver::ResponsePoint* highest_peak(const solver::ResponseCurve& curve);
 

@@ -65,6 +65,7 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   if (failures[0]) std::rethrow_exception(failures[0]);
   // What the search has found is kept though maps or bracket have failed.
   CurveBudget budget;
+  record.note_optimum(solution.model, *scene.response->optimum, best, budget);
   std::string left_out;
   in_parallel(2, beside ? 2 : 1, [&](std::size_t i) {
     if (i == 0) budget = budget_of(solution, best, options.jobs);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/contact_force.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
@@ -104,6 +105,9 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     richer.note = "out of time: errors but those of the harmonics are not told";
     if (structure != nullptr) {
       richer.unknown = {"mesh", "basis", "cells", "fit", "second_direction"};
+    }
+    if (contact::is_sampled(model.patches, model.effects)) {
+      richer.unknown.emplace_back("instants");
     }
   } else {
     richer = richer_models(model, scene, structure);

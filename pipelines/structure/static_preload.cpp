@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -172,12 +173,19 @@ std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDes
     mesh::SurfaceSampling sampling = mesh::sample_surface(
         mesh.nodes(), mesh.surface(scene.contacts[i].surface), contact_points(scene.settings, i));
     const bool is_local = has_local_frames(mesh, scene.contacts[i]);
-    auto to_cells = approach_of(sampling.to_centres, sampling.centre_normals, is_local);
-    auto to_vertices = approach_of(sampling.to_vertices, sampling.vertex_normals, is_local);
-    patches.push_back({std::move(sampling), std::move(to_cells), std::move(to_vertices)});
+    RestingPatch& patch = patches.emplace_back();
+    patch.to_cells = approach_of(sampling.to_centres, sampling.centre_normals, is_local);
+    patch.to_vertices = approach_of(sampling.to_vertices, sampling.vertex_normals, is_local);
+    patch.sampling = std::move(sampling);
   }
-  const contact::ElasticRest rest =
-      contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
+  const contact::ElasticRest rest = [&] {
+    try {
+      return contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
+    } catch (const std::runtime_error& error) {
+      throw RefusedError(
+          fmt::format("{}: {}", scene.contacts.front().static_preload, error.what()));
+    }
+  }();
   Eigen::Index first_freedom = 0;
   Eigen::Index first_point = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -70,7 +70,6 @@ PeakFamilies::PeakFamilies(const SceneFamily& family, const ContinuationOptions&
   spacing_ = (position(options.upper) - position(options.lower)) / (options.n_values - 1);
   std::vector<double> checks;
   checks.reserve(static_cast<std::size_t>(options_.n_checks));
-  checks.reserve(static_cast<std::size_t>(options_.n_checks));
   for (int i = 0; i < options_.n_checks; ++i) checks.push_back(parameter(check_position(i)));
   PeakWork work;
   range_ = with_common_harmonics(family_, checks, choosing_, work);
@@ -419,6 +418,7 @@ void PeakFamilies::trace() {
   const int last = options_.n_values - 1;
   for (int i = 0; i <= last; ++i) asked_.insert(value_position(i));
   std::vector<double> checks;
+  checks.reserve(static_cast<std::size_t>(options_.n_checks));
   for (int i = 0; i < options_.n_checks; ++i) checks.push_back(check_position(i));
   trace_ahead(checks, 0);
   for (const double check : checks) seed(check);
