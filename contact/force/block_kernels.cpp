@@ -5,8 +5,8 @@
 namespace microslip::contact {
 namespace {
 
-// NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its alignment as a template argument,
-// so sums are plain arrays.
+// NOLINTBEGIN(modernize-avoid-c-arrays): a vector type loses its attributes as a template
+// argument, so sums are plain arrays.
 
 template <int W>
 MICROSLIP_INLINE double total(const typename Lanes<W>::Vector& x) {
@@ -24,7 +24,7 @@ MICROSLIP_INLINE void add_force(std::size_t n_modes, std::size_t n_points, const
   for (std::size_t mode = 0; mode < n_modes; ++mode) {
     Vector s[3] = {};
     for (std::size_t point = 0; point < n_points; point += W) {
-      const Vector& shape = lanes_at<W>(phi + mode * block_points + point);
+      const Vector shape = lanes_at<W>(phi + mode * block_points + point);
       for (std::size_t r = 0; r < 3; ++r) {
         s[r] += shape * lanes_at<W>(force + r * block_points + point);
       }

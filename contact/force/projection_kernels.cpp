@@ -21,7 +21,7 @@ MICROSLIP_INLINE void spread(const ProjectionSizes& size, const double* phi, con
           typename Lanes<W>::Vector sum = a[0] * lanes_at<W>(phi + m);
           for (std::size_t t = 1; t < S; ++t)
             sum += a[t] * lanes_at<W>(phi + t * size.phi_stride + m);
-          lanes_at<W>(row + m) = sum;
+          put_lanes<W>(row + m, sum);
         }
       }
     }
@@ -46,8 +46,9 @@ MICROSLIP_INLINE void add_tile(const ProjectionSizes& size, std::size_t n, const
   }
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < I; ++i) {
-    lanes_at<W>(sum + i * size.stride) += left[i];
-    lanes_at<W>(sum + i * size.stride + W) += right[i];
+    double* to = sum + i * size.stride;
+    put_lanes<W>(to, lanes_at<W>(to) + left[i]);
+    put_lanes<W>(to + W, lanes_at<W>(to + W) + right[i]);
   }
 }
 

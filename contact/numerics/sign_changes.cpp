@@ -243,8 +243,8 @@ MICROSLIP_INLINE void sample_nodes(const Sampling& p) {
       re_slope = dx * cos - dy * sin;
       im_slope = dx * sin + dy * cos;
     }
-    lanes_at<W>(p.value + i) = im + p.mean;
-    lanes_at<W>(p.slope + i) = re_slope;
+    put_lanes<W>(p.value + i, im + p.mean);
+    put_lanes<W>(p.slope + i, re_slope);
   }
 }
 

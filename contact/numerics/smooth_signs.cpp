@@ -13,9 +13,9 @@
 namespace microslip::contact {
 namespace {
 
-constexpr int n = 12;
-using Series = Eigen::Matrix<double, n, 1>;
-using Square = Eigen::Matrix<double, n, n>;
+constexpr int n_nodes = 12;
+using Series = Eigen::Matrix<double, n_nodes, 1>;
+using Square = Eigen::Matrix<double, n_nodes, n_nodes>;
 
 /// What does not depend on the functions.
 struct Tables {
@@ -28,7 +28,7 @@ struct Tables {
 double value(const Series& c, double x) {
   double next = 0.0;
   double after = 0.0;
-  for (int k = n - 1; k > 0; --k) {
+  for (int k = n_nodes - 1; k > 0; --k) {
     const double now = 2.0 * x * next - after + c[k];
     after = next;
     next = now;
@@ -39,11 +39,11 @@ double value(const Series& c, double x) {
 Tables make_tables() {
   Tables t;
   std::array<Square, 2> half_values;
-  for (int i = 0; i < n; ++i) {
-    t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n);
-    for (int k = 0; k < n; ++k) {
+  for (int i = 0; i < n_nodes; ++i) {
+    t.node[i] = -std::cos(std::numbers::pi * (i + 0.5) / n_nodes);
+    for (int k = 0; k < n_nodes; ++k) {
       const double T = std::cos(k * std::acos(t.node[i]));
-      t.coefficients(k, i) = (k == 0 ? 1.0 : 2.0) / n * T;
+      t.coefficients(k, i) = (k == 0 ? 1.0 : 2.0) / n_nodes * T;
       half_values[0](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] - 1.0)));
       half_values[1](i, k) = std::cos(k * std::acos(0.5 * (t.node[i] + 1.0)));
     }
@@ -59,11 +59,12 @@ const Tables& tables() {
 }
 
 /// Σ_{k>0} |c_k|.
-double variation(const Series& c) { return c.tail<n - 1>().cwiseAbs().sum(); }
+double variation(const Series& c) { return c.tail<n_nodes - 1>().cwiseAbs().sum(); }
 
 Series derivative(const Series& c) {
   Series d = Series::Zero();
-  for (int k = n - 1; k > 0; --k) d[k - 1] = (k + 1 < n ? d[k + 1] : 0.0) + 2.0 * k * c[k];
+  for (int k = n_nodes - 1; k > 0; --k)
+    d[k - 1] = (k + 1 < n_nodes ? d[k + 1] : 0.0) + 2.0 * k * c[k];
   d[0] *= 0.5;
   return d;
 }
@@ -77,13 +78,13 @@ class Search {
   /// @param before  tails of the cell twice as long.
   void cover(double begin, double end, int depth, double before = INFINITY) {
     const double half = 0.5 * (end - begin);
-    Eigen::Matrix<double, n, 2> values;
-    for (int i = 0; i < n; ++i) {
+    Eigen::Matrix<double, n_nodes, 2> values;
+    for (int i = 0; i < n_nodes; ++i) {
       const std::array<double, 2> f = functions_(begin + half * (1.0 + tables().node[i]));
       values(i, 0) = f[0];
       values(i, 1) = f[1];
     }
-    const Eigen::Matrix<double, n, 2> c = tables().coefficients.lazyProduct(values);
+    const Eigen::Matrix<double, n_nodes, 2> c = tables().coefficients.lazyProduct(values);
     std::array<bool, 2> resolved{};
     bool settled = true;
     double top = 0.0;
@@ -126,7 +127,8 @@ class Search {
     if (std::abs(c[0]) > variation(c) + margin * tail) return true;
     const Series d = derivative(c);
     const double ends = std::min(std::abs(value(c, -1.0)), std::abs(value(c, 1.0)));
-    return ends > margin * tail && std::abs(d[0]) > variation(d) + margin * n * n * tail;
+    return ends > margin * tail &&
+           std::abs(d[0]) > variation(d) + margin * n_nodes * n_nodes * tail;
   }
 
   void isolate(const Series& c, double begin, double end, double narrowest, int function) {

@@ -9,23 +9,26 @@
 
 namespace microslip::contact {
 
-/// W doubles side by side; aligned as the arrays are, to one double only.
+/// W doubles side by side.
 template <int W>
 struct Lanes {
-  using Vector
-      [[gnu::vector_size(W * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] =
-          double;
+  using Vector [[gnu::vector_size(W * sizeof(double))]] = double;
 };
+
+// Arrays are aligned to one double only: they are copied, which is one instruction, instead of seen
+// through a vector type of that alignment, which Clang forgets in templates.
 
 /// The W numbers from here on.
 template <int W>
-MICROSLIP_INLINE const typename Lanes<W>::Vector& lanes_at(const double* from) {
-  return *reinterpret_cast<const typename Lanes<W>::Vector*>(from);
+MICROSLIP_INLINE typename Lanes<W>::Vector lanes_at(const double* from) {
+  typename Lanes<W>::Vector lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
+  return lanes;
 }
 
 template <int W>
-MICROSLIP_INLINE typename Lanes<W>::Vector& lanes_at(double* to) {
-  return *reinterpret_cast<typename Lanes<W>::Vector*>(to);
+MICROSLIP_INLINE void put_lanes(double* to, const typename Lanes<W>::Vector& lanes) {
+  __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
 /// Those of one kind of kernels that this machine can run, the fastest last.

@@ -36,7 +36,7 @@ MICROSLIP_INLINE void synthesize_tile(std::size_t rows, const double* basis,
   }
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t b = 0; b < block_packs; ++b) {
-      pack_at(values + i * block_size + b * pack_size) = sum[i][b];
+      put_pack(values + i * block_size + b * pack_size, sum[i][b]);
     }
   }
 }
@@ -65,7 +65,7 @@ MICROSLIP_INLINE void analyze_tile(std::size_t n, std::size_t stride, const doub
   }
   for (std::size_t k = 0; k < N; ++k) {
     for (std::size_t b = 0; b < block_packs; ++b) {
-      pack_at(sums + k * block_size + b * pack_size) = sum[k][b];
+      put_pack(sums + k * block_size + b * pack_size, sum[k][b]);
     }
   }
 }
@@ -89,9 +89,9 @@ MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, con
       const std::size_t at = i * block_size + b;
       const Pack r = rest_load + stiffness * pack_at(v + at);
       const Pack load = larger(r, Pack{});
-      pack_at(closeness + at) = r;
-      pack_at(normal + at) = load;
-      pack_at(half_width + at) = ratio * load;
+      put_pack(closeness + at, r);
+      put_pack(normal + at, load);
+      put_pack(half_width + at, ratio * load);
     }
   }
 }
@@ -197,13 +197,13 @@ MICROSLIP_INLINE void band_of(std::size_t n, const SmoothArrays& constants, cons
       const Pack turn = g > Pack{} ? both + last : Pack{};
       const Pack w = turn == 2.0 ? -far : up.height;
       const Pack W = turn == 1.0 ? far : -down.height;
-      pack_at(band.low + at) = turn > Pack{} ? w : here - g;
-      pack_at(band.high + at) = turn > Pack{} ? W : here + g;
-      pack_at(band.turns + at) = turn;
+      put_pack(band.low + at, turn > Pack{} ? w : here - g);
+      put_pack(band.high + at, turn > Pack{} ? W : here + g);
+      put_pack(band.turns + at, turn);
       if constexpr (touches) {
         const Pack now = pack_at(closeness + at);
         const Pack closes = smaller(now, r.begin <= Pack{} ? Pack{} + 1.0 : Pack{});
-        pack_at(band.landed + at) = closes > Pack{} ? landing(position, r, now - r.begin) : -far;
+        put_pack(band.landed + at, closes > Pack{} ? landing(position, r, now - r.begin) : -far);
       }
     }
   }
@@ -223,7 +223,7 @@ MICROSLIP_INLINE void friction_all(std::size_t n, const SmoothArrays& constants,
     const Pack stiffness = pack_at(constants.tangential_stiffness + b);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = i * block_size + b;
-      pack_at(friction + at) = stiffness * (pack_at(u + at) - pack_at(slider + at));
+      put_pack(friction + at, stiffness * (pack_at(u + at) - pack_at(slider + at)));
     }
   }
 }
@@ -232,7 +232,8 @@ MICROSLIP_INLINE void outer_all(std::size_t n_rows, const double* a, const doubl
                                 double* sum) {
   for (std::size_t k = 0; k < n_rows; ++k, sum += n_rows) {
     const double number = factor * a[k];
-    for (std::size_t l = 0; l < n_rows; l += pack_size) pack_at(sum + l) += number * pack_at(b + l);
+    for (std::size_t l = 0; l < n_rows; l += pack_size)
+      put_pack(sum + l, pack_at(sum + l) + number * pack_at(b + l));
   }
 }
 
@@ -245,8 +246,8 @@ MICROSLIP_INLINE void range_all(std::size_t n, const double* values, double* lea
       low = smaller(low, x);
       high = larger(high, x);
     }
-    pack_at(least + b) = low;
-    pack_at(most + b) = high;
+    put_pack(least + b, low);
+    put_pack(most + b, high);
   }
 }
 
@@ -310,8 +311,8 @@ MICROSLIP_INLINE void pass(const LineArrays& a, Pack* s) {
         state = slip_state(start, low, high);
       }
       if constexpr (kind.last) {
-        pack_at(a.state + at) = pack_at(a.closeness + at) > Pack{} ? state : Pack{} + 3.0;
-        pack_at(a.slider + at) = s[b];
+        put_pack(a.state + at, pack_at(a.closeness + at) > Pack{} ? state : Pack{} + 3.0);
+        put_pack(a.slider + at, s[b]);
       }
     }
   }

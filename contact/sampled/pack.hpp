@@ -13,12 +13,10 @@
 
 namespace microslip::contact::sampled {
 
-using Pack [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
+using Pack = Lanes<8>::Vector;
 
-MICROSLIP_INLINE const Pack& pack_at(const double* from) {
-  return *reinterpret_cast<const Pack*>(from);
-}
-MICROSLIP_INLINE Pack& pack_at(double* to) { return *reinterpret_cast<Pack*>(to); }
+MICROSLIP_INLINE Pack pack_at(const double* from) { return lanes_at<8>(from); }
+MICROSLIP_INLINE void put_pack(double* to, const Pack& pack) { put_lanes<8>(to, pack); }
 
 MICROSLIP_INLINE Pack larger(const Pack& a, const Pack& b) { return a > b ? a : b; }
 MICROSLIP_INLINE Pack smaller(const Pack& a, const Pack& b) { return a < b ? a : b; }

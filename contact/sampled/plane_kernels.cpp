@@ -84,18 +84,20 @@ MICROSLIP_INLINE Pair slip(const PlaneArrays& a, std::size_t now, double* turns,
       equal ? turned_round<derivatives>(step) : turned_elliptic<derivatives>(step);
   if constexpr (task != Task::march) {
     const Pack begins = where(goes_on, Pack{}, Pack{} + 1.0);
-    pack_at(a.entry + now) = where(touches, Pack{} + 2.0, begins);
+    put_pack(a.entry + now, where(touches, Pack{} + 2.0, begins));
   }
   if constexpr (derivatives) {
-    const auto number = [&](TurnNumber k) -> Pack& { return pack_at(turns + k * block_size); };
-    number(by_angle) = turn.by_angle;
-    number(by_way_p) = turn.by_way.p;
-    number(by_way_r) = turn.by_way.r;
-    number(by_first_width_p) = turn.by_first.p;
-    number(by_first_width_r) = turn.by_first.r;
-    number(by_last_width_p) = turn.by_last.p;
-    number(by_last_width_r) = turn.by_last.r;
-    number(onset) = part;
+    const auto put = [&](TurnNumber k, const Pack& value) {
+      put_pack(turns + k * block_size, value);
+    };
+    put(by_angle, turn.by_angle);
+    put(by_way_p, turn.by_way.p);
+    put(by_way_r, turn.by_way.r);
+    put(by_first_width_p, turn.by_first.p);
+    put(by_first_width_r, turn.by_first.r);
+    put(by_last_width_p, turn.by_last.p);
+    put(by_last_width_r, turn.by_last.r);
+    put(onset, part);
   }
   if (!any_above_zero(both(touches, slips))) return turn.e;
   const Pair landed = settled_direction<equal>(times(ends.W1, pull), ends.W1);
@@ -125,19 +127,20 @@ MICROSLIP_INLINE void one_step(const PlaneArrays& a, std::size_t then, std::size
   point.pull = where(ends.r1, pull, Pair{});
   point.slips = slips;
   if constexpr (task != Task::march) {
-    pack_at(a.slider_p + now) = point.s.p;
-    pack_at(a.slider_r + now) = point.s.r;
-    pack_at(a.pull_p + now) = point.pull.p;
-    pack_at(a.pull_r + now) = point.pull.r;
-    pack_at(a.state + now) = where(ends.r1, where(slips, Pack{} + 4.0, Pack{}), Pack{} + 3.0);
+    put_pack(a.slider_p + now, point.s.p);
+    put_pack(a.slider_r + now, point.s.r);
+    put_pack(a.pull_p + now, point.pull.p);
+    put_pack(a.pull_r + now, point.pull.r);
+    put_pack(a.state + now, where(ends.r1, where(slips, Pack{} + 4.0, Pack{}), Pack{} + 3.0));
   }
 }
 
 template <bool equal, Task task>
 MICROSLIP_INLINE void pass(const PlaneArrays& a, double* state, double* ever) {
   for (std::size_t lane = 0; lane < block_size; lane += pack_size) {
-    const auto number = [&](std::size_t k) -> Pack& {
-      return pack_at(state + k * block_size + lane);
+    const auto number = [&](std::size_t k) { return pack_at(state + k * block_size + lane); };
+    const auto put = [&](std::size_t k, const Pack& value) {
+      put_pack(state + k * block_size + lane, value);
     };
     Moving point{{number(0), number(1)}, {number(2), number(3)}, number(4)};
     Pack slips{};
@@ -149,19 +152,20 @@ MICROSLIP_INLINE void pass(const PlaneArrays& a, double* state, double* ever) {
                             slips);
       then = now;
     }
-    number(0) = point.s.p;
-    number(1) = point.s.r;
-    number(2) = point.pull.p;
-    number(3) = point.pull.r;
-    number(4) = where(point.slips, Pack{} + 1.0, Pack{});
-    pack_at(ever + lane) = slips;
+    put(0, point.s.p);
+    put(1, point.s.r);
+    put(2, point.pull.p);
+    put(3, point.pull.r);
+    put(4, where(point.slips, Pack{} + 1.0, Pack{}));
+    put_pack(ever + lane, slips);
   }
 }
 
 MICROSLIP_INLINE void start_all(const PlaneArrays& a, double* state) {
   for (std::size_t lane = 0; lane < block_size; lane += pack_size) {
-    const auto number = [&](std::size_t k) -> Pack& {
-      return pack_at(state + k * block_size + lane);
+    const auto number = [&](std::size_t k) { return pack_at(state + k * block_size + lane); };
+    const auto put = [&](std::size_t k, const Pack& value) {
+      put_pack(state + k * block_size + lane, value);
     };
     const Pair x = {pack_at(a.u + lane), pack_at(a.w + lane)};
     const Pair W = {pack_at(a.width_p + lane), pack_at(a.width_r + lane)};
@@ -174,11 +178,11 @@ MICROSLIP_INLINE void start_all(const PlaneArrays& a, double* state) {
     pull = where(slips, e, pull);
     s = where(slips, x - times(W, e), s);
     s = where(r, s, x);
-    number(0) = s.p;
-    number(1) = s.r;
-    number(2) = where(r, pull.p, Pack{});
-    number(3) = where(r, pull.r, Pack{});
-    number(4) = where(slips, Pack{} + 1.0, Pack{});
+    put(0, s.p);
+    put(1, s.r);
+    put(2, where(r, pull.p, Pack{}));
+    put(3, where(r, pull.r, Pack{}));
+    put(4, where(slips, Pack{} + 1.0, Pack{}));
   }
 }
 
@@ -194,7 +198,7 @@ MICROSLIP_INLINE void pass_of(const PlaneArrays& a, bool equal, double* state, d
 MICROSLIP_INLINE void invert_all(std::size_t n, const double* values, double* inverse) {
   for (std::size_t at = 0; at < n * block_size; at += pack_size) {
     const Pack x = pack_at(values + at);
-    pack_at(inverse + at) = where(x, 1.0 / where(x, x, Pack{} + 1.0), Pack{});
+    put_pack(inverse + at, where(x, 1.0 / where(x, x, Pack{} + 1.0), Pack{}));
   }
 }
 

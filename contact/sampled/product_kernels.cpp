@@ -18,7 +18,7 @@ MICROSLIP_INLINE void spread_signals(std::size_t n_modes, std::size_t n_rows,
     for (std::size_t l = 0; l < n_rows; l += pack_size) {
       Pack sum = shape_0[m] * pack_at(J[0] + l) + shape_1[m] * pack_at(J[1] + l);
       if constexpr (S == 3) sum += shape_2[m] * pack_at(J[2] + l);
-      pack_at(y + l) = sum;
+      put_pack(y + l, sum);
     }
   }
 }
@@ -52,7 +52,10 @@ MICROSLIP_INLINE void product_tile(const ProductSizes& size, std::size_t n, cons
   }
 #pragma GCC unroll 5
   for (std::size_t i = 0; i < I; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) lanes_at<W>(sum + i * size.stride + j * W) += s[i][j];
+    for (std::size_t j = 0; j < 3; ++j) {
+      double* to = sum + i * size.stride + j * W;
+      put_lanes<W>(to, lanes_at<W>(to) + s[i][j]);
+    }
   }
 }
 

@@ -81,7 +81,6 @@ def main():
     assert len(rows) < 300, len(rows)
     for row in rows:
         assert float(row["residual"]) < 1e-10 and float(row["energy_imbalance"]) < 1e-7, row
-    # Nearly all friction is 4 mu n0 |u| a period: the peak lies below that without friction.
     peak = max(float(row["amplitude_m"]) for row in rows)
     print(f"{len(rows)} points, peak {peak:.6g} m, slip {max(float(row['slip_share']) for row in rows):.4f}")
     assert max(float(row["slip_share"]) for row in rows) > 0.99

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,10 +80,11 @@ Answers answers(const solver::Scene& scene, const solver::ContinuationOptions& o
   return result;
 }
 
+/// Largest of all answers, over the largest amplitude; none: left to hard_cases.short_stick.
 /// @param make  the scene, anew.
 template <typename Make>
-double difference(const std::string& name, const Make& make, double begin, double end,
-                  int n_harmonics) {
+std::optional<double> difference(const std::string& name, const Make& make, double begin,
+                                 double end, int n_harmonics) {
   SCOPED_TRACE(name + ", harmonics " + std::to_string(n_harmonics));
   solver::ContinuationOptions options = tests::frequency_range(begin, end);
   options.n_harmonics = n_harmonics;
@@ -93,7 +95,7 @@ double difference(const std::string& name, const Make& make, double begin, doubl
   if (located.slip_share > 1.0 - 2.0 / instants) {
     std::printf("%s: slips all the time but %.1e of it: not compared\n", name.c_str(),
                 1.0 - located.slip_share);
-    return 0.0;
+    return std::nullopt;
   }
   scene = make();
   tests::use_lanes(scene, instants);
@@ -115,35 +117,33 @@ double difference(const std::string& name, const Make& make, double begin, doubl
 
 TEST(LanesAgainstEvents, RandomScenesHaveTheSameCurves) {
   double largest = 0.0;
+  int n_compared = 0;
   const int n_scenes = tests::campaign_size(40);
   for (int seed = 0; seed < n_scenes; ++seed) {
     const auto number = static_cast<std::uint64_t>(seed);
+    const auto divided = [&] {
+      solver::Scene scene = std::move(tests::random_scene(number).scene);
+      divide_points(scene);
+      return scene;
+    };
     const solver::ContinuationOptions range = tests::random_scene(number).options;
-    largest =
-        std::max(largest, difference(
-                              "random " + std::to_string(seed),
-                              [&] {
-                                solver::Scene scene = std::move(tests::random_scene(number).scene);
-                                divide_points(scene);
-                                return scene;
-                              },
-                              range.frequency_begin, range.frequency_end, seed % 2 == 0 ? 3 : 5));
+    const auto found = difference("random " + std::to_string(seed), divided, range.frequency_begin,
+                                  range.frequency_end, seed % 2 == 0 ? 3 : 5);
+    if (!found) continue;
+    ++n_compared;
+    largest = std::max(largest, *found);
   }
+  EXPECT_GE(10 * n_compared, 9 * n_scenes);
   std::printf("largest difference, over the largest amplitude: %.1e\n", largest);
 }
 
 TEST(LanesAgainstEvents, SoHaveAChainThatJumpsAndPatches) {
-  double largest = difference(
-      "chain", [] { return tests::three_dof_scene(30.0); }, 18.0 * Hz, 28.0 * Hz, 3);
+  const auto chain = [] { return tests::three_dof_scene(30.0); };
+  EXPECT_TRUE(difference("chain", chain, 18.0 * Hz, 28.0 * Hz, 3));
   for (const double preload : {-50.0, 20.0, 200.0}) {
-    largest = std::max(largest, difference(
-                                    "patch " + std::to_string(preload),
-                                    [&] {
-                                      return tests::patch_scene({4, 48}, preload);
-                                    },
-                                    250.0 * Hz, 400.0 * Hz, 5));
+    const auto patch = [&] { return tests::patch_scene({4, 48}, preload); };
+    EXPECT_TRUE(difference("patch " + std::to_string(preload), patch, 250.0 * Hz, 400.0 * Hz, 5));
   }
-  std::printf("largest difference, over the largest amplitude: %.1e\n", largest);
 }
 
 }  // namespace
