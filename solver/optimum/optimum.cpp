@@ -464,25 +464,48 @@ class Search {
   Optimum result_;
 };
 
-/// Bounds that a search with few harmonics has narrowed.
-OptimumOptions about(const OptimumOptions& options, double best) {
-  constexpr double factor = 3.0;
-  constexpr double share = 0.25;  // of a linear scale
-  constexpr int n_scan = 5;
-  const bool logarithmic = options.scale == ParameterScale::logarithmic;
-  const double way = share * (options.upper - options.lower);
-  OptimumOptions near = options;
-  near.lower = std::max(options.lower, logarithmic ? best / factor : best - way);
-  near.upper = std::min(options.upper, logarithmic ? best * factor : best + way);
-  near.n_scan = std::min(options.n_scan, n_scan);
+/// Where a trace, read from one of its ends, falls to a limit that its lowest value is below.
+template <class Iterator>
+double first_below(Iterator begin, Iterator end, double limit) {
+  const auto inside = std::find_if(
+      begin, end, [limit](const PeakOfParameter& one) { return one.amplitude <= limit; });
+  if (inside == begin) return inside->parameter;
+  const auto outside = std::prev(inside);
+  const double share = (limit - inside->amplitude) / (outside->amplitude - inside->amplitude);
+  return inside->parameter + share * (outside->parameter - inside->parameter);
+}
 
+/// Bounds that a search with few harmonics has narrowed: to what is nearly as low, within a factor of three.
+OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
+  constexpr double clearly_higher = 1.6;  // few harmonics err by up to a third
+  constexpr double factor = 3.0;
+  constexpr double least_factor = 1.5;
+  constexpr double share = 0.25;  // of a linear scale
+  constexpr double least_share = 0.1;
+  constexpr int n_scan = 5;
+  const double best = first.best.parameter;
+  const bool logarithmic = options.scale == ParameterScale::logarithmic;
+  const double span = options.upper - options.lower;
+  const auto beside = [&](double of_best, double of_span) {
+    return logarithmic ? std::array{best / of_best, best * of_best}
+                       : std::array{best - of_span * span, best + of_span * span};
+  };
+  const std::array farthest = beside(factor, share);
+  const std::array nearest = beside(least_factor, least_share);
+  const double limit = clearly_higher * first.best.amplitude;
+  const double low = first_below(first.trace.begin(), first.trace.end(), limit);
+  const double high = first_below(first.trace.rbegin(), first.trace.rend(), limit);
+  OptimumOptions near = options;
+  near.lower = std::max(options.lower, std::clamp(low, farthest[0], nearest[0]));
+  near.upper = std::min(options.upper, std::clamp(high, nearest[1], farthest[1]));
+  near.n_scan = std::min(options.n_scan, n_scan);
   return near;
 }
 
 constexpr int few = 3;  // harmonics
 
-/// Few harmonics tell where the best value lies, to a factor of three; there it is searched with those given, or with
-/// those that its own peak needs where they are chosen. What few do not find is searched everywhere.
+/// Few harmonics tell where the best value lies; there it is searched with those given, or with those that its own peak
+/// needs where they are chosen. What few do not find is searched everywhere.
 Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions& range,
                             const OptimumOptions& options) {
   OptimumOptions first_options = options;
@@ -498,7 +521,7 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
   PeakWork work;
   const ContinuationOptions chosen =
       with_common_harmonics(family, {first.best.parameter}, range, work);
-  const OptimumOptions near = about(options, first.best.parameter);
+  const OptimumOptions near = about(options, first);
   Optimum result = Search(family, chosen, near).run();
   const double rounding = 1e-9 * (near.upper - near.lower);
   const double best = result.best.parameter;
