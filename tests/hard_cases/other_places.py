@@ -142,6 +142,8 @@ class Places:
     def machines(self):
         base = without_plots()
         bare = {key: value for key, value in base.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        # The kernels of OpenBLAS that someone has chosen stay: others add up in another order, as another machine does.
+        nothing = {key: base[key] for key in ("PYTHONPATH", "OPENBLAS_CORETYPE") if key in base}
         kinds = {
             "OMP_NUM_THREADS 0": {"environment": {**base, "OMP_NUM_THREADS": "0"}},
             "OMP_NUM_THREADS 1": {"environment": {**base, "OMP_NUM_THREADS": "1"}},
@@ -155,7 +157,7 @@ class Places:
             "no locale": {"environment": {**base, "LC_ALL": "C"}},
             "no display": {"environment": bare},
             "a display that is none": {"environment": {**base, "DISPLAY": ":77"}},
-            "nothing in the environment": {"environment": {"PYTHONPATH": base["PYTHONPATH"]}},
+            "nothing in the environment": {"environment": nothing},
             "a home that is none": {"environment": {**base, "HOME": "/no/such/home", "XDG_CACHE_HOME": ""}},
             "no PATH, and so no ssh for MPI": {"environment": {**base, "PATH": "/no/such/folder"}},
             "another time zone": {"environment": {**base, "TZ": "Asia/Kathmandu"}},
