@@ -86,6 +86,11 @@ Scene with_force(const Scene& scene, std::unique_ptr<contact::ModalForce> force)
   return other;
 }
 
+/// A linear response has the harmonics of its excitation alone.
+ContinuationOptions with_excited_harmonics(const Scene& scene, const ContinuationOptions& options) {
+  return with_harmonics(options, least_harmonics(scene));
+}
+
 /// What was evaluated was linear.
 void forget_evaluations(ResponseCurve& curve) {
   curve.contact_evaluations = 0;
@@ -106,7 +111,8 @@ std::optional<ResponseCurve> trace_certified(const Scene& scene, const Continuat
   const LinearLimit limit = stuck ? LinearLimit::stuck : LinearLimit::free;
   const Scene linear = with_force(
       scene, std::make_unique<LinearForce>(limit_stiffness(scene, limit), *scene.contact));
-  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  const ContinuationOptions excited = with_excited_harmonics(scene, options);
+  ResponseCurve curve = CurveTracer(linear, excited, observe).run();
   forget_evaluations(curve);
   curve.certificate = std::string("proved ") + (stuck ? "fully stuck" : "free of contact") +
                       " over the whole range (" + std::to_string(proof.n_intervals) +
@@ -141,7 +147,8 @@ std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const Continuatio
   const Eigen::Index n = scene.n_modes();
   const Scene linear = with_force(
       scene, std::make_unique<LinearForce>(at.jacobian.block(n, n, n, n), *scene.contact));
-  ResponseCurve curve = CurveTracer(linear, options, observe).run();
+  const ContinuationOptions excited = with_excited_harmonics(scene, options);
+  ResponseCurve curve = CurveTracer(linear, excited, observe).run();
   forget_evaluations(curve);
   curve.contact_evaluations = 1;
   curve.certificate =
@@ -264,8 +271,7 @@ ResponseCurve trace_linear(const Scene& scene, LinearLimit limit,
                                                            : contact::CycleReport{0.0, 0.0, 1.0});
   }
   const Scene linear = with_force(scene, std::move(force));
-  ContinuationOptions alone = options;
-  if (options.harmonic_tolerance > 0.0) alone = with_harmonics(options, least_harmonics(scene));
+  ContinuationOptions alone = with_excited_harmonics(scene, options);
   alone.search_starts = 0;  // a linear response is the only one
   alone.linear_certificate = false;
   const std::optional<double> unbounded =

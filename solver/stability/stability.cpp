@@ -258,7 +258,6 @@ StabilityReport slow_flow_stability(const HarmonicBalance& balance, const Eigen:
 
 StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::MatrixXd& jacobian,
                                double frequency, StabilityReport slow) {
-  if (balance.set().highest() == 1) return slow;
   StabilityReport report = slow;
   const Harmonics rest(1, balance.scene().n_modes());
   if (is_damped_linear(balance.scene(), rest, std::numeric_limits<double>::infinity())) {
@@ -266,6 +265,7 @@ StabilityReport hill_stability(const HarmonicBalance& balance, const Eigen::Matr
     report.basis = StabilityBasis::damped_linear;
     return report;
   }
+  if (balance.set().highest() == 1) return slow;
   report.stability = Stability::not_assessed;
   report.basis = StabilityBasis::hill;
   const Scene& scene = balance.scene();
