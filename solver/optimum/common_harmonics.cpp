@@ -1,5 +1,7 @@
 #include "solver/optimum/common_harmonics.hpp"
 
+#include <cmath>
+
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/continuation.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
@@ -7,26 +9,50 @@
 
 namespace microslip::solver {
 
+namespace {
+
+/// Those that the highest peaks of the curve at a value need.
+CurveHarmonics chosen_at(const SceneFamily& family, double value, const ContinuationOptions& range,
+                         PeakWork& work) {
+  const Scene scene = family(value);
+  const HarmonicSet least = least_harmonics(scene);
+  const auto trace = [&](const HarmonicSet& harmonics) {
+    ContinuationOptions given = with_harmonics(range, harmonics);
+    given.search_starts = 0;
+    return trace_response(scene, given, until_stopped(range));
+  };
+  const ResponseCurve curve = trace(least);
+  CurveHarmonics chosen = choose_harmonics(scene, range, least, curve, trace);
+  work.iterations += curve.iterations + chosen.iterations;
+  work.contact_evaluations += curve.contact_evaluations + chosen.contact_evaluations;
+  return chosen;
+}
+
+}  // namespace
+
 ContinuationOptions with_common_harmonics(const SceneFamily& family,
                                           const std::vector<double>& values,
                                           const ContinuationOptions& range, PeakWork& work) {
   if (!(range.harmonic_tolerance > 0.0)) return range;
   HarmonicSet set(1);
   for (const double value : values) {
-    const Scene scene = family(value);
-    const HarmonicSet least = least_harmonics(scene);
-    const auto trace = [&](const HarmonicSet& harmonics) {
-      ContinuationOptions given = with_harmonics(range, harmonics);
-      given.search_starts = 0;
-      return trace_response(scene, given, until_stopped(range));
-    };
-    const ResponseCurve curve = trace(least);
-    const CurveHarmonics chosen = choose_harmonics(scene, range, least, curve, trace);
-    set = set.united(chosen.set.orders());
-    work.iterations += curve.iterations + chosen.iterations;
-    work.contact_evaluations += curve.contact_evaluations + chosen.contact_evaluations;
+    set = set.united(chosen_at(family, value, range, work).set.orders());
   }
   return with_harmonics(range, set);
+}
+
+std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
+                                                const PeakOfParameter& best,
+                                                const ContinuationOptions& given,
+                                                const ContinuationOptions& range, PeakWork& work) {
+  if (!(range.harmonic_tolerance > 0.0)) return std::nullopt;
+  const CurveHarmonics own = chosen_at(family, best.parameter, range, work);
+  const double amplitude = own.highest.amplitude;
+  const bool agrees = std::abs(best.amplitude - amplitude) <= range.harmonic_tolerance * amplitude;
+  const HarmonicSet now(given.orders);
+  const HarmonicSet all = now.united(own.set.orders());
+  if (!(amplitude > 0.0) || agrees || all == now) return std::nullopt;
+  return LackedHarmonics{with_harmonics(range, all), amplitude};
 }
 
 double left_out_at(const Scene& scene, const ResponsePoint& peak,

@@ -4,6 +4,7 @@
 /// peaks of a few of them need.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/optimum/peak_trace.hpp"
@@ -18,6 +19,23 @@ namespace microslip::solver {
                                                         const std::vector<double>& values,
                                                         const ContinuationOptions& range,
                                                         PeakWork& work);
+
+/// What a peak asks for beyond harmonics that peaks at other values have chosen.
+struct LackedHarmonics {
+  ContinuationOptions range;  ///< with them as well, given
+  double amplitude = 0.0;     ///< of the peak with all that it chooses itself
+};
+
+/// @param best   the highest peak at its value, solved for with the harmonics of `given`.
+/// @param range  chooses harmonics.
+/// @param work   what that costs is added.
+/// @return empty: with those that it chooses itself it is as high, within the tolerance of `range`, or they are all
+///         given already, or are not found.
+[[nodiscard]] std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
+                                                              const PeakOfParameter& best,
+                                                              const ContinuationOptions& given,
+                                                              const ContinuationOptions& range,
+                                                              PeakWork& work);
 
 /// What the harmonics of a peak leave out, over its amplitude; harmonics are chosen by `range`.
 [[nodiscard]] double left_out_at(const Scene& scene, const ResponsePoint& peak,

@@ -504,6 +504,28 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
 
 constexpr int few = 3;  // harmonics
 
+/// Searches again as long as the peak at the best value asks for harmonics that those of other values have not.
+/// @param chosen  by other peaks; takes those in.
+Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationOptions& range,
+                                  const OptimumOptions& options, ContinuationOptions& chosen,
+                                  PeakWork& work) {
+  constexpr int most_searches = 3;
+  for (int searches = 1;; ++searches) {
+    Optimum result = Search(family, chosen, options).run();
+    if (!result.found) return result;
+    std::optional<LackedHarmonics> lacked =
+        lacked_harmonics(family, result.best, chosen, range, work);
+    if (!lacked) return result;
+    if (searches == most_searches) {
+      result.warnings.push_back(
+          sentence("with harmonics of its own the peak at the best value is ", lacked->amplitude) +
+          " m: those of the search do not tell it");
+      return result;
+    }
+    chosen = std::move(lacked->range);
+  }
+}
+
 /// Few harmonics tell where the best value lies; there it is searched with those given, or with those that its own peak
 /// needs where they are chosen. What few do not find is searched everywhere.
 Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions& range,
@@ -519,10 +541,9 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
   if (is_stopped(first)) return first;
   if (!first.found) return Search(family, range, options).run();
   PeakWork work;
-  const ContinuationOptions chosen =
-      with_common_harmonics(family, {first.best.parameter}, range, work);
+  ContinuationOptions chosen = with_common_harmonics(family, {first.best.parameter}, range, work);
   const OptimumOptions near = about(options, first);
-  Optimum result = Search(family, chosen, near).run();
+  Optimum result = search_with_own_harmonics(family, range, near, chosen, work);
   const double rounding = 1e-9 * (near.upper - near.lower);
   const double best = result.best.parameter;
   const bool left = (best <= near.lower + rounding && near.lower > options.lower) ||
