@@ -49,7 +49,7 @@ set(uses_solver_enrichment balance branch peak)
 set(uses_solver_curve balance branch stability enrichment)
 set(uses_solver_optimum balance peak enrichment curve)
 
-# `face` are the sources at the root but the program; main.cpp, the program, uses all.
+# `face` are the sources at the root.
 set(drawers_pipelines system text description sections scene import model structure effects response accuracy
   files record run cycle face command_line)
 set(uses_pipelines_text system)
@@ -68,7 +68,7 @@ set(uses_pipelines_run system text description scene import model structure effe
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_face system text description sections scene import model structure effects response accuracy files
   record run cycle)
-set(uses_pipelines_command_line system text cycle face)
+set(uses_pipelines_command_line system text structure cycle face)
 
 # Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that
 # can be balanced) becomes arrays with the tools of contact/patch. Everything else of contact/ is its face.
@@ -136,11 +136,10 @@ function(is_drawn from to result)
     set(${result} TRUE PARENT_SCOPE)
     if(NOT drawer)
       source_of(${from} sources)
-      string(REGEX REPLACE "\\.cpp$" ".hpp" own ${from})
-      if(NOT sources OR NOT EXISTS ${ROOT}/${own})
-        return()  # a value, whose users answer for what it shows; or the program, which uses all
+      if(NOT sources)
+        return()  # a value, whose users answer for what it shows
       endif()
-      drawers_behind(${own} drawer)
+      drawers_behind(${from} drawer)
     endif()
     drawers_behind(${to} used)
     list(REMOVE_ITEM used ${drawer} ${uses_${room}_${drawer}})
@@ -218,7 +217,7 @@ foreach(room IN LISTS rooms)
       list(APPEND failures "${header}: no other room needs it, it belongs into a drawer")
     endif()
   endforeach()
-  # The face of a room is headers; pipelines/ has the program besides.
+  # The face of a room is headers; pipelines/ has their sources besides, the pages to read first.
   file(GLOB sources RELATIVE ${ROOT} ${ROOT}/${room}/*.cpp)
   if(sources AND NOT room STREQUAL "pipelines")
     list(APPEND failures "${sources}: sources belong into a drawer")
