@@ -7,10 +7,10 @@
 
 #include "mesh/mesh.hpp"
 #include "pipelines/description/scene_description.hpp"
-#include "pipelines/effect_table.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
 #include "pipelines/effects/effect_record.hpp"
 #include "pipelines/model/reduced_model.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 

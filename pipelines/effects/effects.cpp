@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "pipelines/effect_table.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_choice.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/effect_table.hpp"
 #include "pipelines/files/columns.hpp"
 #include "pipelines/system/output_file.hpp"
+#include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/units.hpp"
 
 namespace microslip::pipelines {

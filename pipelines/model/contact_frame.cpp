@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "mesh/surface.hpp"
-#include "pipelines/effect_table.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "contact/contact_force.hpp"
 #include "fem/slepc_session.hpp"
-#include "pipelines/effect_table.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/text/effect_table.hpp"
 #include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {

@@ -5,11 +5,11 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/damping_ratios.hpp"
-#include "pipelines/effect_table.hpp"
 #include "pipelines/effects/effects.hpp"
 #include "pipelines/run/curve_family.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {

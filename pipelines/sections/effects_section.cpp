@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "pipelines/effect_table.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
 namespace {

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "contact/harmonics.hpp"
-#include "pipelines/effect_table.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/effects/effect_indicators.hpp"
@@ -23,6 +22,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 #include "tests/support/asked_force.hpp"
 
 namespace microslip::pipelines::test_effects {

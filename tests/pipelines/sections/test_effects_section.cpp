@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/effect_table.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/system/scene_error.hpp"
+#include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines::test_effects_section {
 namespace {
