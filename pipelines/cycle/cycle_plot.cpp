@@ -1,10 +1,8 @@
 #include "pipelines/cycle/cycle_plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,6 +10,7 @@
 #include "contact/phase.hpp"
 #include "pipelines/cycle/cycle_columns.hpp"
 #include "pipelines/cycle/cycle_row.hpp"
+#include "pipelines/files/columns.hpp"
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -19,7 +18,6 @@
 namespace microslip::pipelines {
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
 /// Half degrees draw a smooth loop; high harmonics get a fixed number of points per wave.
 constexpr int fewest_intervals = 720;
 constexpr int intervals_per_wave = 24;
@@ -54,21 +52,11 @@ contact::ContactState state_from(const Segments& segments, double phase) {
 }
 
 std::string csv_of(const Eigen::VectorXd& phases, const contact::PointHistory& history) {
-  std::string text =
-      "phase_deg,u_m,v_m,w_m,friction_Pa,normal_Pa,friction_w_Pa,slip_m,slip_w_m,state\n";
+  std::string text = header_of(cycle_columns()) + '\n';
   for (Eigen::Index i = 0; i < phases.size(); ++i) {
     const contact::PointInstant& at = history.instants[static_cast<std::size_t>(i)];
-    const std::array<double, 9> numbers{phases[i] < contact::two_pi ? phases[i] * degrees : 360.0,
-                                        at.motion[0],
-                                        at.motion[1],
-                                        at.motion[2],
-                                        at.traction[0],
-                                        at.traction[1],
-                                        at.traction[2],
-                                        at.slider[0],
-                                        at.slider[1]};
-    for (const double number : numbers) text += format_number(number) + ',';
-    text.append(state_name(state_from(history.segments, phases[i]))).append("\n");
+    const char* const state = state_name(state_from(history.segments, phases[i]));
+    text.append(row_of(cycle_columns(), {phases[i], at, state})).append("\n");
   }
   return text;
 }

@@ -1,7 +1,9 @@
 #include "pipelines/files/columns.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -89,6 +91,34 @@ constexpr std::array point_table{
                           [](const auto& p) { return fmt::format("{}", n_harmonics(p)); }},
 };
 
+/// Of the column of that name in curves/NAME.csv.
+constexpr std::size_t place_of(std::string_view name) {
+  const auto* const found = std::ranges::find(point_table, name, &Column<ResponsePoint>::name);
+  return static_cast<std::size_t>(found - point_table.begin());
+}
+
+/// A column of a curve in the history of its run.
+template <std::size_t place>
+constexpr Column<HistoryRow> of_point{
+    point_table[place].name, point_table[place].unit, point_table[place].doc,
+    [](const auto& row) { return point_table[place].text(row.point); }};
+
+constexpr std::array history_table{
+    Column<HistoryRow>{"curve", "", "its name", [](const auto& row) { return row.curve; }},
+    Column<HistoryRow>{
+        "frequency_Hz", "Hz", "of the excitation",
+        [](const auto& row) { return format_number(row.point.frequency / contact::two_pi); }},
+    of_point<place_of("amplitude_m")>,
+    of_point<place_of("stable")>,
+    of_point<place_of("stick_share")>,
+    of_point<place_of("slip_share")>,
+    of_point<place_of("separated_share")>,
+    of_point<place_of("iterations")>,
+    of_point<place_of("mark")>,
+    Column<HistoryRow>{"seconds", "s", "wall time since the program began",
+                       [](const auto& row) { return fmt::format("{:.3f}", row.seconds); }},
+};
+
 constexpr std::array patch_table{
     Column<CycleReport>{"stick_share", "1", "of (area of the patch x period) that sticks",
                         [](const auto& r) { return format_number(r.stick_share); }},
@@ -107,10 +137,6 @@ constexpr std::array trust_table{
         [](const auto& a) { return format_number(a.amplitude * (1.0 + a.bar)); }},
 };
 
-std::string number_or_nothing(const std::optional<double>& number) {
-  return number ? format_number(*number) : "";
-}
-
 constexpr std::array ladder_table{
     Column<RungResult>{"value", "", "of the knob; sizes in m",
                        [](const auto& r) { return r.value; }},
@@ -123,11 +149,11 @@ constexpr std::array ladder_table{
     Column<RungResult>{"peak_frequency_Hz", "Hz", "where it is",
                        [](const auto& r) { return format_number(in_hertz(r.frequency)); }},
     Column<RungResult>{"true_error", "1", "amplitude over that of the finest value, less 1",
-                       [](const auto& r) { return number_or_nothing(r.true_error); }},
+                       [](const auto& r) { return or_empty(r.true_error); }},
     Column<RungResult>{"estimated_error", "1", "the same as the error budget tells it",
-                       [](const auto& r) { return number_or_nothing(r.estimated_error); }},
+                       [](const auto& r) { return or_empty(r.estimated_error); }},
     Column<RungResult>{"order", "1", "of the true error in the size, from the value before",
-                       [](const auto& r) { return number_or_nothing(r.order); }},
+                       [](const auto& r) { return or_empty(r.order); }},
     Column<RungResult>{"curve", "", "its name", [](const auto& r) { return r.curve; }},
     Column<RungResult>{"runs", "1", "how often mesh, modes and curve were timed, the least of them",
                        [](const auto& r) { return fmt::format("{}", r.runs); }},
@@ -199,6 +225,35 @@ constexpr std::array preload_table{preload_column, peak_frequency_column, peak_a
                                    place_column, optimum_mark_column};
 constexpr std::array parameter_table{value_column, peak_frequency_column, peak_amplitude_column,
                                      place_column, optimum_mark_column};
+
+constexpr std::array sampled_cycle_table{
+    Column<CycleInstant>{"phase_deg", "deg", "from 0 to 360",
+                         [](const auto& i) {
+                           return format_number(i.phase < contact::two_pi ? i.phase * degrees
+                                                                          : 360.0);
+                         }},
+    Column<CycleInstant>{"u_m", "m", "relative displacement along p, mean included",
+                         [](const auto& i) { return format_number(i.at.motion[0]); }},
+    Column<CycleInstant>{"v_m", "m", "along q, mean included, positive when it closes",
+                         [](const auto& i) { return format_number(i.at.motion[1]); }},
+    Column<CycleInstant>{"w_m", "m", "along r, mean included",
+                         [](const auto& i) { return format_number(i.at.motion[2]); }},
+    Column<CycleInstant>{"friction_Pa", "Pa",
+                         "friction along p; in N where the stiffness of the point is in N/m",
+                         [](const auto& i) { return format_number(i.at.traction[0]); }},
+    Column<CycleInstant>{"normal_Pa", "Pa", "normal load, likewise",
+                         [](const auto& i) { return format_number(i.at.traction[1]); }},
+    Column<CycleInstant>{"friction_w_Pa", "Pa", "friction along r, likewise",
+                         [](const auto& i) { return format_number(i.at.traction[2]); }},
+    Column<CycleInstant>{"slip_m", "m", "position of the slider along p",
+                         [](const auto& i) { return format_number(i.at.slider[0]); }},
+    Column<CycleInstant>{"slip_w_m", "m", "position of the slider along r",
+                         [](const auto& i) { return format_number(i.at.slider[1]); }},
+    Column<CycleInstant>{
+        "state", "",
+        "stick, positive_slip, negative_slip, slip (in two directions) or separated, from here on",
+        [](const auto& i) { return std::string(i.state); }},
+};
 
 constexpr std::array instant_table{
     MapArray<Eigen::MatrixXd>{"normal_traction_Pa", "Pa", "pressure, n",
@@ -450,6 +505,7 @@ void add_model_tables(std::string& text) {
 std::span<const Column<ResponsePoint>> curve_columns() { return point_table; }
 std::span<const Column<CycleReport>> patch_columns() { return patch_table; }
 std::span<const Column<TrustedAmplitude>> trust_columns() { return trust_table; }
+std::span<const Column<HistoryRow>> history_columns() { return history_table; }
 std::span<const Column<RungResult>> ladder_columns() { return ladder_table; }
 std::span<const Column<CampbellRow>> campbell_columns() { return campbell_table; }
 std::span<const Column<Crossing>> crossing_columns() { return crossing_table; }
@@ -457,6 +513,7 @@ std::span<const Column<ModeRow>> mode_columns() { return mode_table; }
 std::span<const Column<OptimumRow>> optimum_columns(bool of_preload) {
   return of_preload ? std::span<const Column<OptimumRow>>(preload_table) : parameter_table;
 }
+std::span<const Column<CycleInstant>> cycle_columns() { return sampled_cycle_table; }
 std::span<const MapArray<Eigen::MatrixXd>> instant_arrays() { return instant_table; }
 std::span<const MapArray<Eigen::VectorXd>> cycle_arrays() { return cycle_table; }
 std::span<const StateArray<Eigen::VectorXd>> state_arrays() { return state_table; }
@@ -517,12 +574,14 @@ std::string columns_text() {
   add_row(text, mean_entry, "", "_MODE");
   add_row(text, sine_entry, "", "K_MODE");
   add_row(text, cosine_entry, "", "K_MODE");
+  add_table(text, "history.csv", history_table);
   add_table(text, "converge/KNOB.csv", ladder_table);
   add_table(text, "campbell/frequencies.csv", campbell_table);
   add_table(text, "campbell/crossings.csv", crossing_table);
   add_table(text, "modes.csv", mode_table);
   add_table(text, "peak_against_preload.csv (peak_against_parameter.csv: `value` in front)",
             preload_table);
+  add_table(text, "DIR/ID.csv of `cycle --plot DIR`", sampled_cycle_table);
   add_map_tables(text);
   add_model_tables(text);
   return text;

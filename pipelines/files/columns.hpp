@@ -1,5 +1,5 @@
 /// @file
-/// Columns and arrays of curves, modes, maps and models, once: name, unit, meaning and where the value comes from. CSV,
+/// Columns and arrays of curves, modes, maps, models and cycles, once: name, unit, meaning and where the value comes from. CSV,
 /// HDF5 and VTK files are written from these tables and share/doc/columns.md is printed from them: a new column is one
 /// row in columns.cpp. Pictures of a whole mesh (write_vtk.hpp, write_faces.hpp) carry names of the scene instead.
 #pragma once
@@ -8,12 +8,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 
 #include "contact/contact_map.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/patch.hpp"
+#include "contact/point_cycle.hpp"
 #include "pipelines/accuracy/convergence.hpp"
 #include "pipelines/model/reduced_model.hpp"
 #include "pipelines/response/run_results.hpp"
@@ -45,6 +47,14 @@ struct TrustedAmplitude {
 };
 [[nodiscard]] std::span<const Column<TrustedAmplitude>> trust_columns();
 
+/// history.csv, a row per point as it is finished; the first three tell points apart.
+struct HistoryRow {
+  const std::string& curve;
+  const solver::ResponsePoint& point;
+  double seconds = 0.0;
+};
+[[nodiscard]] std::span<const Column<HistoryRow>> history_columns();
+
 /// converge/KNOB.csv, a row per rung and curve.
 [[nodiscard]] std::span<const Column<RungResult>> ladder_columns();
 
@@ -75,6 +85,14 @@ struct OptimumRow {
 };
 /// @param of_preload  else the first column is `value`.
 [[nodiscard]] std::span<const Column<OptimumRow>> optimum_columns(bool of_preload);
+
+/// DIR/ID.csv of `cycle --plot`, a row per instant.
+struct CycleInstant {
+  double phase = 0.0;  ///< [rad], from 0 to 2π
+  const contact::PointInstant& at;
+  std::string_view state;  ///< its name, from this instant on
+};
+[[nodiscard]] std::span<const Column<CycleInstant>> cycle_columns();
 
 /// `at` of a best value: peak, range_end (of the frequency range) or unsolved.
 [[nodiscard]] const char* to_string(solver::PeakPlace place);

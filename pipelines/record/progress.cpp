@@ -15,6 +15,7 @@
 #include <set>
 #include <system_error>
 
+#include "pipelines/files/columns.hpp"
 #include "pipelines/system/output_file.hpp"
 #include "pipelines/system/scene_error.hpp"
 
@@ -42,7 +43,7 @@ std::string duration_text(double seconds) {
 
 /// What a line of history.csv begins with: curve, frequency, amplitude.
 std::string line_begin(const std::string& curve, const solver::ResponsePoint& point) {
-  return curve + ',' + format_number(hertz(point.frequency)) + ',' + format_number(point.amplitude);
+  return row_of(history_columns().first(3), {curve, point});
 }
 
 std::string describe(const std::string& curve, const solver::ResponsePoint& point) {
@@ -96,11 +97,7 @@ void Progress::open_history(RunStart start) {
     text.append(line).append("\n");
     ++history_lines_[line.substr(0, line.find(','))];
   }
-  if (text.empty()) {
-    text =
-        "curve,frequency_Hz,amplitude_m,stable,stick_share,slip_share,separated_share,"
-        "iterations,mark,seconds\n";
-  }
+  if (text.empty()) text = header_of(history_columns()) + '\n';
   write_whole(history_file_, text);
   history_.open(history_file_, std::ios::app);
 }
@@ -259,15 +256,9 @@ void Progress::end_stage() {
 
 void Progress::append_history(const std::string& curve, const solver::ResponsePoint& point) {
   if (!history_.is_open()) return;
-  const char* mark = "";
-  if (point.mark == solver::PointMark::peak) mark = "peak";
-  if (point.mark == solver::PointMark::fold) mark = "fold";
   ++history_lines_[curve];
-  history_ << line_begin(curve, point) << ',' << static_cast<int>(point.stability) << ','
-           << format_number(point.report.stick_share) << ','
-           << format_number(point.report.slip_share) << ','
-           << format_number(point.report.separated_share) << ',' << point.iterations << ',' << mark
-           << ',' << fmt::format("{:.3f}", Seconds(Clock::now() - begin_).count()) << '\n'
+  history_ << row_of(history_columns(), {curve, point, Seconds(Clock::now() - begin_).count()})
+           << '\n'
            << std::flush;
   if (history_) return;
   history_.close();
