@@ -124,8 +124,8 @@ struct ContactDescription {
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   Field friction;                      ///< μ over the patch, in p and r from its centroid
   std::optional<Field> preload_field;  ///< shape of the preload; none: uniform
-  /// "file:line: key" of preload = "static": that of the static loads, in place of a shape; empty: it is not.
-  std::string static_preload;
+  /// "file:line: key" of preload = "static", the static preload in place of a preload field; empty: not given.
+  std::string static_preload_place;
   double gap = 0.0;  ///< before the static loads act [m]; below 0: interference
   std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
   std::optional<double> normal_stiffness;          ///< [N/m³]; without value: "rigid"
@@ -295,7 +295,7 @@ struct SceneDescription {
 
 /// Whether the preload is that of the static loads: of all contacts or of none.
 [[nodiscard]] inline bool has_static_preload(const SceneDescription& scene) {
-  return !scene.contacts.empty() && !scene.contacts.front().static_preload.empty();
+  return !scene.contacts.empty() && !scene.contacts.front().static_preload_place.empty();
 }
 
 /// Of all surfaces of a scene: one entry per patch, one for all points of a modal scene.

@@ -265,7 +265,7 @@ EffectDecision static_preload(const EffectFacts& facts) {
   }
   const bool given = std::ranges::any_of(
       facts.scene.contacts, [](const auto& contact) { return contact.preload_field.has_value(); });
-  return by(false, facts.scene.contacts.empty() ? "points have the preload they are given with"
+  return by(false, facts.scene.contacts.empty() ? "pressure at rest is given with the points"
                    : given                      ? "pressure at rest is contact.preload_field"
                                                 : "pressure at rest is uniform");
 }

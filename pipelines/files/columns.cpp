@@ -309,7 +309,9 @@ constexpr std::array sample_table{
            stiffness<0>},
     Fields{"normal_stiffness", "N/m^3", "likewise along q", stiffness<1>},
     Fields{"tangential_stiffness_r", "N/m^3", "likewise along r", stiffness<2>},
-    Fields{"preload", "Pa", "at unit load: 1 N over the patch, or as given; negative: a gap",
+    Fields{"preload", "Pa",
+           "preload field: rest load at a load of one (1 N over the patch, or the points as "
+           "given); negative: a gap",
            [](const PatchSamples& s) { return s.preload_field; }},
 };
 

@@ -428,7 +428,7 @@ void RunRecord::keep_optimum(const ReducedModel& model, const OptimumRequest& re
                              const solver::Optimum& optimum, const CurveBudget& budget) {
   const std::string unit = !request.of_preload() ? ""
                            : in_newtons(model)   ? " N"
-                                                 : " of the points' preload";
+                                                 : " times the points' rest loads";
   const std::string what =
       request.of_preload() ? "best preload"
       : request.load       ? fmt::format("best {} under preload {:g}", request.key, *request.load)

@@ -53,7 +53,7 @@ void read_static_preload(const SectionReader& s, ContactDescription& contact) {
   }
   constexpr std::array<std::string_view, 1> words{"static"};
   static_cast<void>(s.word("preload", words));
-  contact.static_preload = s.place("preload");
+  contact.static_preload_place = s.place("preload");
   if (s.given("gap")) contact.gap = s.number("gap");
   const char* other = contact.preload_field                            ? "preload_field"
                       : contact.preload_moment != std::array{0.0, 0.0} ? "preload_moment"

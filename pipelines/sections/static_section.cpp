@@ -62,9 +62,11 @@ namespace {
 /// Contacts beside the first have a static preload if it has one.
 void require_same_of_all(const std::vector<ContactDescription>& contacts) {
   for (const ContactDescription& contact : contacts) {
-    if (contact.static_preload.empty() == contacts.front().static_preload.empty()) continue;
-    const std::string& given =
-        contact.static_preload.empty() ? contacts.front().static_preload : contact.static_preload;
+    if (contact.static_preload_place.empty() == contacts.front().static_preload_place.empty())
+      continue;
+    const std::string& given = contact.static_preload_place.empty()
+                                   ? contacts.front().static_preload_place
+                                   : contact.static_preload_place;
     throw SceneError(given +
                      ": \"static\" is solved for all contacts together; give it to all of "
                      "them or to none");
@@ -72,7 +74,7 @@ void require_same_of_all(const std::vector<ContactDescription>& contacts) {
 }
 
 void require_loads_and_supports(const SceneDescription& scene) {
-  const std::string& place = scene.contacts.front().static_preload;
+  const std::string& place = scene.contacts.front().static_preload_place;
   const bool rotates = scene.rotation && scene.rotation->speed > 0.0;
   const bool presses = std::ranges::any_of(
       scene.contacts, [](const ContactDescription& contact) { return contact.gap < 0.0; });

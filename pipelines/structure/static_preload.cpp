@@ -183,7 +183,7 @@ std::vector<RestingPatch> patches_at_rest(const mesh::Mesh& mesh, const SceneDes
       return contact::elastic_rest(face, layer_of(scene, patches, face.approach.size()));
     } catch (const std::runtime_error& error) {
       throw RefusedError(
-          fmt::format("{}: {}", scene.contacts.front().static_preload, error.what()));
+          fmt::format("{}: {}", scene.contacts.front().static_preload_place, error.what()));
     }
   }();
   Eigen::Index first_freedom = 0;
@@ -215,7 +215,7 @@ double total_force(const SceneDescription& scene, const std::vector<RestingPatch
       "{}: the static loads press no contact: where it is nearest it stays {:.3g} m away; turn or "
       "raise the loads of [static] (a force acts on the blade, the contact is pressed along its "
       "outward normal q), or make contact.gap smaller",
-      scene.contacts.front().static_preload, -nearest));
+      scene.contacts.front().static_preload_place, -nearest));
 }
 
 /// n0' [Pa]: pressure, or −k_v times a gap with the stiffness the point has in motion.
@@ -251,7 +251,8 @@ contact::ElasticFace static_face(fem::Structure& structure, const mesh::Mesh& me
                              ? "matrices of a body that is held are needed"
                              : "hold the body by supports.clamped";
     throw RefusedError(fmt::format("{}: no static solution: {}; {}",
-                                   scene.contacts.front().static_preload, error.what(), remedy));
+                                   scene.contacts.front().static_preload_place, error.what(),
+                                   remedy));
   }
   if (rotated.size() > 0) face.approach += freedoms.of(rotated);
   return face;

@@ -150,7 +150,7 @@ inline constexpr auto block_response_keys = joined(
 inline constexpr auto modal_response_keys =
     joined(method_keys,
            std::array{KeySpec{"preload_scale", other, "1", "[1]", 0, 0, false,
-                              "factors on the points' preload, one curve each"},
+                              "factors on the rest loads of the points, one curve each"},
                       KeySpec{"limits", other, "", "false", 0, 0, false,
                               "true: the free and the stuck limit as curves of their own"}},
            result_keys);
