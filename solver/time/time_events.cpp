@@ -94,7 +94,6 @@ contact::GuardScale EventStepper::scale() const {
 
 Eigen::VectorXd EventStepper::acceleration(double time, const ModalMotion& motion,
                                            const TransientMemory& memory) {
-  ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
                               contact != nullptr ? contact->held_force(motion, memory)

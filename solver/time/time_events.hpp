@@ -16,7 +16,6 @@ class EventStepper final : public TimeStepper {
   EventStepper(const TimeSystem& system, const TimeOptions& options);
   void advance_period(TimeState& state, TimeObserver* observer) override;
   [[nodiscard]] long n_events() const override { return n_events_; }
-  [[nodiscard]] long n_evaluations() const override { return n_evaluations_; }
   [[nodiscard]] Eigen::VectorXd contact_force(const TimeState& state) const override {
     return system_.contact()->held_force(state.motion, state.memory);
   }
@@ -59,7 +58,6 @@ class EventStepper final : public TimeStepper {
   long max_events_;
   long period_events_ = 0;
   long n_events_ = 0;
-  long n_evaluations_ = 0;
 };
 
 }  // namespace microslip::solver

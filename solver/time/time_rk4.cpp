@@ -30,7 +30,6 @@ Rk4Stepper::Rk4Stepper(const TimeSystem& system, const TimeOptions& options)
 
 Eigen::VectorXd Rk4Stepper::acceleration(double time, const ModalMotion& motion,
                                          const TransientMemory& memory) {
-  ++n_evaluations_;
   const contact::TransientForce* contact = system_.contact();
   return system_.acceleration(time, motion,
                               contact != nullptr ? contact->trial_force(motion, memory)

@@ -14,7 +14,6 @@ class Rk4Stepper final : public TimeStepper {
   Rk4Stepper(const TimeSystem& system, const TimeOptions& options);
   void advance_period(TimeState& state, TimeObserver* observer) override;
   [[nodiscard]] long n_events() const override { return n_events_; }
-  [[nodiscard]] long n_evaluations() const override { return n_evaluations_; }
   [[nodiscard]] Eigen::VectorXd contact_force(const TimeState& state) const override {
     return system_.contact()->trial_force(state.motion, state.memory);
   }
@@ -28,7 +27,6 @@ class Rk4Stepper final : public TimeStepper {
   const TimeSystem& system_;
   int n_steps_ = 0;
   long n_events_ = 0;
-  long n_evaluations_ = 0;
 };
 
 }  // namespace microslip::solver

@@ -64,8 +64,7 @@ class TimeStepper {
   /// @param observer  nullptr: nobody looks.
   /// @throws TimeError  `event-chatter`: too many changes of state; `out-of-range`: not finite.
   virtual void advance_period(TimeState& state, TimeObserver* observer) = 0;
-  [[nodiscard]] virtual long n_events() const = 0;       ///< changes of state so far
-  [[nodiscard]] virtual long n_evaluations() const = 0;  ///< of the contact force so far
+  [[nodiscard]] virtual long n_events() const = 0;  ///< changes of state so far
   [[nodiscard]] const TimeLevels& levels() const { return levels_; }
   /// G between two periods, as the method sees it [N/√kg]. The scene must have contact.
   [[nodiscard]] virtual Eigen::VectorXd contact_force(const TimeState& state) const = 0;
