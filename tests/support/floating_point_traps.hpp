@@ -22,7 +22,7 @@ class UntrappedFloatingPoint {
   std::fenv_t before_{};
 };
 
-/// The same for all tests of a file: `const UntrappedFile here(__FILE__);`
+/// The same for all tests of a file: `const UntrappedFile this_file(__FILE__);`
 class UntrappedFile {
  public:
   explicit UntrappedFile(const char* file) { files().insert(stem(file)); }

@@ -13,7 +13,7 @@ namespace microslip::contact::test_contact_force {
 namespace {
 
 // Lanes compute what they then do not take.
-[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
+[[maybe_unused]] const tests::UntrappedFile this_file(__FILE__);
 
 constexpr Eigen::Index n_modes = 3;
 

@@ -21,7 +21,7 @@ namespace microslip::contact::test_pointwise_force {
 namespace {
 
 // Lanes compute what they then do not take.
-[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
+[[maybe_unused]] const tests::UntrappedFile this_file(__FILE__);
 
 constexpr Eigen::Index n_points = 60;
 constexpr Eigen::Index n_modes = 3;

@@ -9,11 +9,8 @@
 
 #include <gtest/gtest.h>
 
+namespace microslip::contact::test_spare_cores {
 namespace {
-
-using microslip::contact::allow_cores;
-using microslip::contact::CoreShare;
-using microslip::contact::run_on_spare_cores;
 
 /// A test leaves nothing to spare.
 class SpareCores : public ::testing::Test {
@@ -88,3 +85,4 @@ TEST_F(SpareCores, TheFirstExceptionIsThrownOnAndTheCoresAreThereAgain) {
 }
 
 }  // namespace
+}  // namespace microslip::contact::test_spare_cores

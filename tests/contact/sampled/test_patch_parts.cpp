@@ -15,7 +15,7 @@ namespace microslip::contact::sampled::test_patch_parts {
 namespace {
 
 // Lanes compute what they then do not take.
-[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
+[[maybe_unused]] const tests::UntrappedFile this_file(__FILE__);
 
 constexpr double frequency = 40.0;
 constexpr int n_modes = 3;

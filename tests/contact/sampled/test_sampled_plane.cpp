@@ -21,7 +21,7 @@ namespace microslip::contact::sampled::test_sampled_plane {
 namespace {
 
 // Lanes compute what they then do not take.
-[[maybe_unused]] const tests::UntrappedFile lanes(__FILE__);
+[[maybe_unused]] const tests::UntrappedFile this_file(__FILE__);
 
 using test::modal;
 using test::one_point;
