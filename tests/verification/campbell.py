@@ -14,30 +14,17 @@ from program_run import without_plots
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+from plate_model import plate_model
 
-SCENE = """
-[model]
-kind = "mesh"
-file = "{source}/share/scenes/plate/coarse.inp"
-length_unit = "mm"
-[material]
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-density = 7800
-[supports]
-clamped = [{clamped}]
-[static]
-{static}
-[modes]
-count = 4
-"""
+PLATE = os.path.join(SOURCE, "share", "scenes", "plate", "coarse.inp")
 AXIS = 'axis = { origin = [0, "-200 mm", 0], direction = [0, 0, 1] }'
 
 
-def scene(name, static=AXIS, clamped='"root"'):
+def scene(name, static=AXIS, clamped=("root",)):
     path = os.path.join(WORK, name + ".toml")
     with open(path, "w", encoding="utf-8") as stream:
-        stream.write(SCENE.format(source=SOURCE, static=static, clamped=clamped))
+        stream.write(plate_model(PLATE, clamped) + f"[static]\n{static}\n[modes]\ncount = 4\n")
     return path
 
 
@@ -118,7 +105,7 @@ class Campbell(unittest.TestCase):
         self.refused(1, ["model.kind", "chain"], "campbell", chain, "--speeds", "0", "10", "3")
 
     def test_physics_that_has_no_answer(self):
-        self.refused(2, ["rigid-body modes", "clamp"], "modes", scene("free", AXIS + "\nspeed = 100", ""))
+        self.refused(2, ["rigid-body modes", "clamp"], "modes", scene("free", AXIS + "\nspeed = 100", ()))
         inward = 'axis = { origin = [0, "300 mm", 0], direction = [0, 0, 1] }\nspeed = "40000 rpm"'
         self.refused(2, ["40000 rpm", "lower the speed"], "modes", scene("inward", inward))
 

@@ -29,6 +29,7 @@ PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:]
 sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
 import mesh_files
+from plate_model import plate_model
 
 PLATE = os.path.join(SOURCE, "share", "scenes", "plate")
 PRINTED = 5e-6
@@ -37,7 +38,6 @@ SOLVED = 1e-9
 MATRICES = 1e-6
 
 SCENE = """
-[model]
 {model}
 [modes]
 damping_ratio = 0.002
@@ -61,16 +61,7 @@ second_direction = "off"
 [accuracy]
 error_budget = "off"
 """
-OWN = """kind = "mesh"
-file = "{}"
-length_unit = "mm"
-[material]
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-density = 7800
-[supports]
-clamped = ["root"]"""
-OWN_PLATE = OWN.format(os.path.join(WORK, "plate.msh"))
+OWN_PLATE = plate_model(os.path.join(WORK, "plate.msh"))
 
 
 def path(name):
@@ -97,7 +88,7 @@ def numbers_of(name, scene):
 
 
 def given(file, more="", density="density = 7800"):
-    return f'kind = "modes"\nfile = "{file}"\nmesh = "{PLATE}/plate.inp"\nlength_unit = "mm"\n{more}\n[material]\n{density}'
+    return f'[model]\nkind = "modes"\nfile = "{file}"\nmesh = "{PLATE}/plate.inp"\nlength_unit = "mm"\n{more}\n[material]\n{density}'
 
 
 def refusal(model, modes=""):
@@ -173,7 +164,7 @@ class GivenModes(unittest.TestCase):
         mesh_files.write_med(self.mesh, path("modes.med"))
         frequency, shapes = self.on_mesh()
         mesh_files.add_med_modes(path("modes.med"), "modes___DEPL", frequency, shapes)
-        model = f'kind = "modes"\nfile = "{path("modes.med")}"\nlength_unit = "mm"\nmass_unit = "kg"\n[material]\ndensity = 7800'
+        model = f'[model]\nkind = "modes"\nfile = "{path("modes.med")}"\nlength_unit = "mm"\nmass_unit = "kg"\n[material]\ndensity = 7800'
         self.compare("med", result_of("med", model), self.none, SOLVED)
 
         def changed(change):
@@ -208,7 +199,7 @@ class GivenModes(unittest.TestCase):
         mesh_files.write_punch(path("punched.pch"), frequency, shapes)
         points = list(self.mesh.points)
         names = {'"contact"': '"PLOAD4 1"', **{f'"{name}"': f'"SET {points.index(name) + 1}"' for name in "AB"}}
-        model = f'kind = "modes"\nfile = "{path("punched.pch")}"\nlength_unit = "mm"\nmass_unit = "kg"\n{{}}[material]\ndensity = 7800'
+        model = f'[model]\nkind = "modes"\nfile = "{path("punched.pch")}"\nlength_unit = "mm"\nmass_unit = "kg"\n{{}}[material]\ndensity = 7800'
 
         def scene(name, more=""):
             text = SCENE.format(model=model.format(more), modes="")
@@ -274,10 +265,10 @@ class GivenModes(unittest.TestCase):
     def matrices(**changed):
         files = {"stiffness": "stiffness.mtx", "mass": "mass.mtx", "nodes": "nodes.csv", "mesh": "coarse.inp"}
         keys = [f'{key} = "{changed.get(key, os.path.join(PLATE, name))}"' for key, name in files.items()]
-        return "\n".join(['kind = "modes"', 'length_unit = "mm"', *keys])
+        return "\n".join(['[model]', 'kind = "modes"', 'length_unit = "mm"', *keys])
 
     def test_matrices(self):
-        own = OWN.format(os.path.join(PLATE, "coarse.inp"))
+        own = plate_model(os.path.join(PLATE, "coarse.inp"))
         for residual in ("none", "stiffness", "attachment"):
             modes = f'count = 4\nresidual = "{residual}"'
             found, expected = result_of("matrices", self.matrices(), modes), result_of("coarse", own, modes)
@@ -517,7 +508,7 @@ class GivenModes(unittest.TestCase):
         self.assertEqual(finished.returncode, 0, finished.stderr)
         self.assertIn(f'warning: {path("joined.inp")}:173: *EQUATION is no part of the mesh', finished.stdout)
         self.assertIn("joined.inp:173: *EQUATION is not read: without it this is another structure",
-                      refusal(OWN.format(path("joined.inp"))))
+                      refusal(plate_model(path("joined.inp"))))
 
     def test_a_body_of_two_densities(self):
         """Its tip weighs fifteen times as much: by the mass of one density its modes are not orthogonal."""

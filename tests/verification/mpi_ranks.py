@@ -18,6 +18,9 @@ from program_run import without_plots
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:4]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+from plate_model import plate_model
+
 SCENES = os.path.join(SOURCE, "share", "scenes")
 BLADE = os.path.join(SCENES, "blade_to_ground.toml")
 PLATE = os.path.join(SCENES, "plate_matrices.toml")
@@ -100,8 +103,7 @@ class Ranks(unittest.TestCase):
     def test_speeds_one_after_the_other(self):
         scene = path("rotating.toml")
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(f'[model]\nkind = "mesh"\nfile = "{SCENES}/plate/coarse.inp"\nlength_unit = "mm"\n[material]\n'
-                       'youngs_modulus = "210 GPa"\npoissons_ratio = 0.3\ndensity = 7800\n[supports]\nclamped = ["root"]\n'
+            file.write(plate_model(f"{SCENES}/plate/coarse.inp") +
                        '[static]\naxis = { origin = [0, "-200 mm", 0], direction = [0, 0, 1] }\n[modes]\ncount = 4\n')
         for n in (1, 2):
             call(on_ranks(n, "campbell", scene, "--speeds", "0", "3000 rpm", "3", "-q", "-o", path(f"speeds_{n}")))

@@ -27,6 +27,9 @@ from program_run import run_scene, without_plots
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
 del sys.argv[1:]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+from plate_model import plate_model
+
 SCENE = os.path.join(SOURCE, "share", "scenes", "blade_static_preload.toml")
 COARSE = ["model.element_size=20 mm", "modes.count=3", "contact.points=100", "response.maps=[]", "accuracy.error_budget=off",
           "effects.second_direction=off"]
@@ -185,17 +188,7 @@ class OfMatrices(unittest.TestCase):
         with open(MATRICES, encoding="utf-8") as stream:
             text = stream.read()
         begin, end = text.index("[model]"), text.index("[modes]")
-        own = text[:begin] + f"""[model]
-kind = "mesh"
-file = "{PLATE}/coarse.inp"
-length_unit = "mm"
-[material]
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-density = 7800
-[supports]
-clamped = ["root"]
-""" + text[end:]
+        own = text[:begin] + plate_model(os.path.join(PLATE, "coarse.inp")) + text[end:]
         with open(path("own.toml"), "w", encoding="utf-8") as stream:
             stream.write(own)
         found = contact_of(run_scene(PROGRAM, MATRICES, path("by_matrices"), *STATIC))[2]
