@@ -65,12 +65,4 @@ double tilt_size(const ReducedModel& model, const SceneDescription& scene) {
   return most;
 }
 
-double curvature_size(const ReducedModel& model) {
-  double most = 0.0;
-  for (const contact::Patch& patch : model.patches) {
-    most = std::max(most, patch.off_plane);
-  }
-  return most;
-}
-
 }  // namespace microslip::pipelines

@@ -1,5 +1,5 @@
 /// @file
-/// Dimensionless sizes of what a contact is like at rest: roughness, moments, curvature of its face. Under the smallest
+/// Dimensionless sizes of what a contact is like at rest: roughness, moments. Under the smallest
 /// load that presses, of those a scene asks for.
 #pragma once
 
@@ -13,8 +13,5 @@ namespace microslip::pipelines {
 
 /// Moment of the preload over load times half the size of its area, the larger about p and r. Infinite without load.
 [[nodiscard]] double tilt_size(const ReducedModel& model, const SceneDescription& scene);
-
-/// Vertices of a patch off the plane through its centroid, over its size; the largest of all patches.
-[[nodiscard]] double curvature_size(const ReducedModel& model);
 
 }  // namespace microslip::pipelines
