@@ -137,16 +137,7 @@ void set_contact(ModalModel& model, const SectionReader& s, const Rectangle& rec
 }
 
 void set_forces(ModalModel& model, SectionReader& s, const Eigen::MatrixXd& shapes) {
-  const toml::node& node = *s.node("forces");
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("forces", "expected a list of tables { force = …, … }", &node);
-  toml::array completed;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("forces", "expected tables { force = …, … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader load(entry.as_table(), section_spec("force.block"), "excitation.forces",
-                             s.file(), complete);
+  s.tables("forces", "force.block", "{ force = …, … }", [&](const SectionReader& load) {
     const Eigen::Vector3d force = read_vector3(load, "force");
     Vector6 whole = point_motion(read_vector3(load, "at")).transpose() * force;
     whole.tail<3>() += read_vector3(load, "moment");
@@ -154,9 +145,7 @@ void set_forces(ModalModel& model, SectionReader& s, const Eigen::MatrixXd& shap
     // F sin(θ + φ) = F cos φ sin θ + F sin φ cos θ
     model.force_sine += std::cos(phase) * (shapes.transpose() * whole);
     if (phase != 0.0) model.force_cosine += std::sin(phase) * (shapes.transpose() * whole);
-    completed.push_back(std::move(complete));
-  }
-  s.complete("forces", std::move(completed));
+  });
 }
 
 }  // namespace

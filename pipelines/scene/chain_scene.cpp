@@ -110,26 +110,16 @@ Contact read_contact(const SectionReader& s, const ChainSystem& system) {
 }
 
 std::vector<Contact> read_contacts(SectionReader& s, const ChainSystem& system) {
-  const toml::node& node = *s.node("points");
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("points", "expected a list of tables { slip = …, … }", &node);
   std::vector<Contact> contacts;
-  toml::array completed;
   double shares = 0.0;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("points", "expected tables { slip = …, … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader point(entry.as_table(), section_spec("contact.chain.point"),
-                              "contact.points", s.file(), complete);
+  s.tables("points", "contact.chain.point", "{ slip = …, … }", [&](const SectionReader& point) {
     contacts.push_back(read_contact(point, system));
     shares += contacts.back().whole.rest_load;
-    completed.push_back(std::move(complete));
+  });
+  if (!contacts.empty() && !(shares > 0.0)) {
+    s.fail("points", "every share of the preload is 0", s.node("points"));
   }
-  if (!contacts.empty() && !(shares > 0.0))
-    s.fail("points", "every share of the preload is 0", &node);
   for (Contact& contact : contacts) contact.whole.rest_load /= shares;
-  s.complete("points", std::move(completed));
   return contacts;
 }
 
@@ -185,16 +175,7 @@ void set_contacts(ModalModel& model, const std::vector<Contact>& contacts,
 }
 
 void set_forces(ModalModel& model, SectionReader& s, const ChainSystem& system) {
-  const toml::node& node = *s.node("forces");
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
-  toml::array completed;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader force(entry.as_table(), section_spec("force.chain"), "excitation.forces",
-                              s.file(), complete);
+  s.tables("forces", "force.chain", "{ at = …, … }", [&](const SectionReader& force) {
     const Eigen::Index at = coordinate(force, "at", force.text("at"), system, force.node("at"));
     const double amplitude = force.number("amplitude");
     const double phase = force.number("phase") * std::numbers::pi / 180.0;
@@ -203,9 +184,7 @@ void set_forces(ModalModel& model, SectionReader& s, const ChainSystem& system) 
     if (phase != 0.0) {
       model.force_cosine += amplitude * std::sin(phase) * system.shapes.row(at).transpose();
     }
-    completed.push_back(std::move(complete));
-  }
-  s.complete("forces", std::move(completed));
+  });
 }
 
 }  // namespace

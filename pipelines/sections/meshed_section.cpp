@@ -305,17 +305,8 @@ std::string settle_residual(SectionReader& s, BasisSettings& basis,
 
 std::vector<ForceDescription> read_forces(SectionReader& s, std::string_view spec,
                                           std::vector<PointDescription>& points) {
-  const toml::node& node = *s.node("forces");
-  const toml::array* list = node.as_array();
-  if (list == nullptr) s.fail("forces", "expected a list of tables { at = …, … }", &node);
-  const SectionSpec keys = section_spec(spec);
   std::vector<ForceDescription> forces;
-  toml::array completed;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("forces", "expected tables { at = …, … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader force(entry.as_table(), keys, s.path() + ".forces", s.file(), complete);
+  s.tables("forces", spec, "{ at = …, … }", [&](const SectionReader& force) {
     ForceDescription description;
     description.at = read_place(force, "at", points);
     description.place = force.place("at");
@@ -323,9 +314,7 @@ std::vector<ForceDescription> read_forces(SectionReader& s, std::string_view spe
     description.amplitude = force.number("amplitude");
     if (spec == "force") description.phase_deg = force.number("phase");
     forces.push_back(description);
-    completed.push_back(std::move(complete));
-  }
-  s.complete("forces", std::move(completed));
+  });
   return forces;
 }
 

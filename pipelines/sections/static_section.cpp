@@ -26,23 +26,12 @@ double read_speed(const SectionReader& s) {
 }
 
 std::vector<PressureDescription> read_pressures(SectionReader& s) {
-  const toml::node& node = *s.node("pressure");
-  const toml::array* list = node.as_array();
-  if (list == nullptr)
-    s.fail("pressure", "expected a list of tables { surface = …, value = … }", &node);
   std::vector<PressureDescription> pressures;
-  toml::array completed;
-  for (const toml::node& entry : *list) {
-    if (!entry.is_table()) s.fail("pressure", "expected tables { surface = …, value = … }", &entry);
-    toml::table complete;
-    complete.is_inline(true);
-    const SectionReader pressure(entry.as_table(), section_spec("static.pressure"),
-                                 "static.pressure", s.file(), complete);
-    pressures.push_back(
-        {pressure.text("surface"), pressure.number("value"), pressure.place("surface")});
-    completed.push_back(std::move(complete));
-  }
-  s.complete("pressure", std::move(completed));
+  s.tables("pressure", "static.pressure", "{ surface = …, value = … }",
+           [&](const SectionReader& pressure) {
+             pressures.push_back(
+                 {pressure.text("surface"), pressure.number("value"), pressure.place("surface")});
+           });
   return pressures;
 }
 

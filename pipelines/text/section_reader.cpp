@@ -111,6 +111,23 @@ const toml::node& SectionReader::required(std::string_view key) const {
   return *found;
 }
 
+void SectionReader::tables(std::string_view key, std::string_view keys, std::string_view example,
+                           const std::function<void(const SectionReader&)>& read) {
+  const toml::node& node = required(key);
+  const toml::array* list = node.as_array();
+  if (list == nullptr) fail(key, fmt::format("expected a list of tables {}", example), &node);
+  toml::array completed;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_table()) fail(key, fmt::format("expected tables {}", example), &entry);
+    toml::table complete;
+    complete.is_inline(true);
+    read(SectionReader(entry.as_table(), section_spec(keys), fmt::format("{}.{}", path_, key),
+                       file_, complete));
+    completed.push_back(std::move(complete));
+  }
+  this->complete(key, std::move(completed));
+}
+
 double SectionReader::number_in(const toml::node& node, std::string_view key) const {
   const KeySpec& spec = spec_of(key);
   double value = 0.0;

@@ -3,6 +3,7 @@
 /// are told here, with file and line; what was read is written into the completed scene.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,13 @@ class SectionReader {
   /// The node as given, or its default; nullptr for an optional key that is absent.
   [[nodiscard]] const toml::node* node(std::string_view key) const;
   [[nodiscard]] bool given(std::string_view key) const;
+
+  /// Reads a list of tables one by one and completes them.
+  /// @param keys     name of their keys, as section_spec() has it.
+  /// @param example  what a table looks like, for messages: "{ at = …, … }".
+  /// @throws SceneError  no list of tables; an unknown key in one.
+  void tables(std::string_view key, std::string_view keys, std::string_view example,
+              const std::function<void(const SectionReader&)>& read);
 
   /// A number in a node, with or without a unit, finite and in the range of the key.
   [[nodiscard]] double number_in(const toml::node& node, std::string_view key) const;
