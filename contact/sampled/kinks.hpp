@@ -34,7 +34,7 @@ struct SmoothPoint {
   }
 };
 
-/// The march of one point, columns of a block (line_kernels.hpp).
+/// The march of one point, columns of a block (lanes/line_kernels.hpp).
 struct LineColumns {
   const double* u = nullptr;
   const double* closeness = nullptr;

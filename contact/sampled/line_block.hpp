@@ -1,6 +1,6 @@
 /// @file
 /// Steady cycles of a block of points along one direction: motion in, Fourier sums of friction and load,
-/// states and derivatives out (line_kernels.hpp, line_point.hpp).
+/// states and derivatives out (lanes/line_kernels.hpp, line_point.hpp).
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact/force/sleeping_set.hpp"
+#include "contact/lanes/line_kernels.hpp"
 #include "contact/sampled/instants.hpp"
-#include "contact/sampled/line_kernels.hpp"
 #include "contact/sampled/line_point.hpp"
 #include "contact/surface/surface_law.hpp"
 

@@ -85,7 +85,7 @@ LineDerivatives::Anchor LineDerivatives::landing(std::size_t before, std::size_t
           .by_approach = -way * closeness_by_approach / change};
 }
 
-/// As the kernel lands (line_kernels.cpp), by four instants.
+/// As the kernel lands (lanes/line_kernels.cpp), by four instants.
 LineDerivatives::Anchor LineDerivatives::smooth_landing(std::size_t now, double normal_stiffness,
                                                         const LineColumns& columns) const {
   const std::size_t n = instants_->size();

@@ -1,6 +1,6 @@
 /// @file
 /// Steady cycles of a block of points in two directions: motion in, Fourier sums of friction and load, states and
-/// derivatives out (plane_kernels.hpp, plane_point.hpp; theory section 23.1).
+/// derivatives out (lanes/plane_kernels.hpp, plane_point.hpp; theory section 23.1).
 ///
 /// The virgin slider, s = 0 at instant 0, is marched through the period. A period that parts and touches down, or
 /// without slip, has settled it; else period follows on period, s ← Φ(s), and the last two of them tell where the
@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "contact/force/sleeping_set.hpp"
+#include "contact/lanes/plane_kernels.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/plane_corner.hpp"
-#include "contact/sampled/plane_kernels.hpp"
 #include "contact/sampled/plane_point.hpp"
 #include "contact/surface/surface_law.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/sampled/line_kernels.hpp"
+#include "contact/lanes/line_kernels.hpp"
 
 namespace microslip::contact::sampled {
 namespace {

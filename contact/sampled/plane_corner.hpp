@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "contact/sampled/plane_kernels.hpp"
+#include "contact/lanes/plane_kernels.hpp"
 
 namespace microslip::contact::sampled {
 

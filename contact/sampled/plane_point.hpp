@@ -4,7 +4,7 @@
 ///
 ///   stick   df = K (dx − ds) + K' dv (x − s)          slip   df = e dL + L e_⊥ dα,   L = μ n           (1)
 ///   ds  after slip at i   dx − dW e − W e_⊥ dα   there,      after touch-down   that of the landing    (2)
-///   dα  from instant to instant by the numbers of linearise() (plane_kernels.hpp)
+///   dα  from instant to instant by the numbers of linearise() (lanes/plane_kernels.hpp)
 ///
 /// What a point remembers is ds in stick, dα in slip, nothing apart. A period is walked from a touch-down, or from
 /// slip, where it is one number: dα₀ = D + M dα₀ closes it. A point that never slips remembers what pushed it.
@@ -17,10 +17,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact/lanes/plane_kernels.hpp"
+#include "contact/lanes/product_kernels.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/plane_corner.hpp"
-#include "contact/sampled/plane_kernels.hpp"
-#include "contact/sampled/product_kernels.hpp"
 #include "contact/sampled/runs.hpp"
 
 namespace microslip::contact::sampled {

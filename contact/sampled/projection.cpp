@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "contact/sampled/product_kernels.hpp"
+#include "contact/lanes/product_kernels.hpp"
 
 namespace microslip::contact::sampled {
 namespace {

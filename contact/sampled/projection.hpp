@@ -13,10 +13,10 @@
 
 #include <Eigen/Core>
 
+#include "contact/lanes/product_kernels.hpp"
 #include "contact/modal_force.hpp"
 #include "contact/patch.hpp"
 #include "contact/sampled/instants.hpp"
-#include "contact/sampled/product_kernels.hpp"
 
 namespace microslip::contact::sampled {
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact/lanes/line_kernels.hpp"
 #include "contact/point/cycle_segments.hpp"
 #include "contact/point/period_states.hpp"
-#include "contact/sampled/line_kernels.hpp"
 
 namespace microslip::contact::sampled {
 

@@ -1,6 +1,6 @@
 /// @file
 /// A signal between two instants: the cubic with the slopes that its neighbours give at both ends, as the kernels have
-/// it (line_kernels.cpp). From one step to the next it is C¹; its error is of third order in the step.
+/// it (lanes/line_kernels.cpp). From one step to the next it is C¹; its error is of third order in the step.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "contact/sampled/block_size.hpp"
+#include "contact/lanes/block_size.hpp"
 
 namespace microslip::contact::sampled {
 

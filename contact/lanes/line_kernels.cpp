@@ -1,9 +1,9 @@
-#include "contact/sampled/line_kernels.hpp"
+#include "contact/lanes/line_kernels.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "contact/sampled/pack.hpp"
+#include "contact/lanes/pack.hpp"
 
 namespace microslip::contact::sampled {
 namespace {

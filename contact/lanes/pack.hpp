@@ -8,8 +8,8 @@
 
 #include <cstddef>
 
+#include "contact/lanes/block_size.hpp"
 #include "contact/numerics/vector_lanes.hpp"
-#include "contact/sampled/block_size.hpp"
 
 namespace microslip::contact::sampled {
 

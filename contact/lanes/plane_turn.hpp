@@ -3,7 +3,7 @@
 /// section 23.1).
 #pragma once
 
-#include "contact/sampled/pack.hpp"
+#include "contact/lanes/pack.hpp"
 
 namespace microslip::contact::sampled {
 

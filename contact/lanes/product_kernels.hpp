@@ -1,5 +1,5 @@
 /// @file
-/// Inner loops of the projection (projection.hpp):
+/// Inner loops of the projection (sampled/projection.hpp):
 ///
 ///   spread    y[m][l] = Σ_s φ_s[m] J_s[l]           J Φ of one point, one row of its friction
 ///   product   C[a][j] += Σ_rows φ[row][a] y[row][j]

@@ -1,6 +1,6 @@
-#include "contact/sampled/plane_kernels.hpp"
+#include "contact/lanes/plane_kernels.hpp"
 
-#include "contact/sampled/plane_turn.hpp"
+#include "contact/lanes/plane_turn.hpp"
 
 namespace microslip::contact::sampled {
 namespace {

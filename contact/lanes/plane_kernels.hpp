@@ -23,7 +23,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "contact/sampled/block_size.hpp"
+#include "contact/lanes/block_size.hpp"
 
 namespace microslip::contact::sampled {
 

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/sampled/block_size.hpp"
+#include "contact/lanes/block_size.hpp"
 
 namespace microslip::contact::sampled {
 

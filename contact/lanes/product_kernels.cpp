@@ -1,6 +1,6 @@
-#include "contact/sampled/product_kernels.hpp"
+#include "contact/lanes/product_kernels.hpp"
 
-#include "contact/sampled/pack.hpp"
+#include "contact/lanes/pack.hpp"
 
 namespace microslip::contact::sampled {
 namespace {
