@@ -7,8 +7,10 @@
 #include <iterator>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipelines/files/columns.hpp"
 #include "pipelines/files/write_csv.hpp"
 #include "pipelines/files/write_map.hpp"
 #include "pipelines/files/write_summary.hpp"
@@ -199,7 +201,8 @@ TEST(WriteReport, CellsWithoutANumberAreNamedByFileLineAndColumn) {
   write_whole(file, whole);
   replace_in(file, "\n" + frequency + ",", "\n");
   expect_parts(complaint_of(folder.path()),
-               {"curves/preload_100.csv:2: 16 values under 17 column names"});
+               {fmt::format("curves/preload_100.csv:2: {} values under {} column names",
+                            curve_columns().size() - 1, curve_columns().size())});
   replace_in(file, "amplitude_m", "amplitude");
   expect_parts(complaint_of(folder.path()),
                {"curves/preload_100.csv:1: column \"amplitude_m\" is missing"});
