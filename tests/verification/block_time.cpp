@@ -40,7 +40,7 @@ struct Block {
 
 Block block(std::vector<std::string> settings) {
   settings.emplace_back("response.harmonics=9");
-  Block result{read_scene(std::string(MICROSLIP_SCENES) + "/block_rough.toml", settings), {}};
+  Block result{read_scene(MICROSLIP_SCENES "/block_rough.toml", settings), {}};
   result.model = reduced_model(result.scene);
   result.model.effects = contact_effects(result.model, result.scene);
   return result;
