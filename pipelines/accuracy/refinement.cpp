@@ -77,7 +77,7 @@ Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double
     // A curve with one harmonic is a hundredth of one with those that matter.
     const double first = std::max(3.0, 40.0 / given.highest);
     const double price = given.chosen()
-                             ? std::pow(before / choice, 0.3)
+                             ? std::pow(before / choice, 0.6)
                              : first * std::pow(share_of_harmonics * tolerance / choice, 0.3);
     moves.push_back({.most = choice,
                      .curves = price,
@@ -133,26 +133,36 @@ Moves moves_of_second_direction() {
 
 /// Singular stresses at re-entrant edges make the error fall as the element size there alone (theory 22). Measured on
 /// the default blade: elements of a share q of the others at these edges leave 0.2 + 0.8 q of the error.
+double left_with_edges(double share) { return 0.2 + 0.8 * share; }
+
+/// Of the time of mesh and modes.
+double price_of_edges(double share) { return share < 1.0 ? 1.0 + 0.1 / (share * share) : 1.0; }
+
 Moves moves_of_mesh(const SceneDescription& scene) {
-  if (!element_size_of(scene)) return {};
+  const std::optional<double> given = element_size_of(scene);
+  if (!given) return {};
   constexpr double power_of_time = 3.3;  // of 1/size: mesh, factorisation, modes
   const auto* blade = std::get_if<BladeModel>(&scene.model);
-  const bool even = blade != nullptr && !blade->sizes.edge_size;
+  const double now =
+      blade != nullptr ? std::min(1.0, blade->sizes.edge_size.value_or(*given) / *given) : 1.0;
+  std::vector<double> shares{now};
+  for (const double finer : {0.5, 0.33, 0.2}) {
+    if (blade != nullptr && finer < 0.9 * now) shares.push_back(finer);
+  }
   Moves moves;
   for (const double factor : {1.0, 0.85, 0.7, 0.6, 0.5, 0.35, 0.25}) {
-    for (const double edges : {1.0, 0.5, 0.33, 0.2}) {
-      if (edges < 1.0 ? !even : factor == 1.0) continue;
-      const double left = edges < 1.0 ? 0.2 + 0.8 * edges : 1.0;
-      const double more = edges < 1.0 ? 1.0 + 0.1 / (edges * edges) : 1.0;
-      const double size = factor * *element_size_of(scene);
+    for (const double edges : shares) {
+      if (edges == now && factor == 1.0) continue;
+      const double size = factor * *given;
       std::string text = fmt::format("elements of {:.3g} mm", 1e3 * size);
       if (edges < 1.0) text += fmt::format(", of {:.3g} mm at sharp edges", 1e3 * edges * size);
-      moves.push_back({.factor = factor * left,
-                       .structure = more * std::pow(factor, -power_of_time),
+      moves.push_back({.factor = factor * left_with_edges(edges) / left_with_edges(now),
+                       .structure = price_of_edges(edges) / price_of_edges(now) *
+                                    std::pow(factor, -power_of_time),
                        .text = std::move(text),
-                       .apply = [factor, edges](SceneDescription& finer) {
+                       .apply = [factor, edges, now](SceneDescription& finer) {
                          finer = with_elements_scaled(std::move(finer), factor);
-                         if (edges == 1.0) return;
+                         if (edges == now) return;
                          mesh::ElementSizes& sizes = std::get<BladeModel>(finer.model).sizes;
                          sizes.edge_size = edges * sizes.element_size;
                        }});

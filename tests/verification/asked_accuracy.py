@@ -141,7 +141,7 @@ class AskedAccuracy(unittest.TestCase):
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         rotating = ("--set", "static.axis={origin=[0,-0.3,0],direction=[0,0,1]}", "--set", "static.speed=314")
         for stages, budget, settings in ((("modes",), 4, (*sized, "--set", "modes.count=80")),
-                                         (("modes", "contact", "curves"), 4, (*sized, *rotating)),
+                                         (("modes", "contact", "curves", "accuracy"), 4, (*sized, *rotating)),
                                          (("mesh",), 3, ("--set", "model.element_size=0.8 mm"))):
             with self.subTest(settings):
                 folder = os.path.join(WORK, f"meshed_{len(settings)}")  # in that of an earlier run its summary would stay
@@ -153,8 +153,10 @@ class AskedAccuracy(unittest.TestCase):
                 print(f"{budget} s, ended after {seconds:.1f} s in {result['stages'][-1]['name']}: {run.stderr.strip()}")
                 self.assertEqual((run.returncode, result["exit_code"]), (4, 4), run.stderr)
                 self.assertIn("out of time", result["message"])
-                self.assertIn("larger elements", run.stderr)
-                self.assertIn(result["stages"][-1]["name"], stages)
+                last = result["stages"][-1]["name"]
+                self.assertIn(last, stages)
+                if last in ("mesh", "modes"):
+                    self.assertIn("larger elements", run.stderr)
                 self.assertLess(seconds, budget + 2.0)
 
     def test_every_kind_of_run_ends_in_time(self):

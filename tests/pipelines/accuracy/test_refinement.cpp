@@ -107,7 +107,12 @@ TEST(Refinement, RefinesAtSharpEdgesBeforeEverywhere) {
   EXPECT_LT(*sizes.edge_size, 0.004);
   const auto finer = refinement(step->scene, {budget({{"mesh", 0.03}})}, tolerance, spent, left);
   ASSERT_TRUE(finer.has_value());
-  EXPECT_LT(*element_size_of(finer->scene), 0.004) << "and then both";
+  const mesh::ElementSizes& again = std::get<BladeModel>(finer->scene.model).sizes;
+  EXPECT_DOUBLE_EQ(again.element_size, 0.004);
+  EXPECT_LT(*again.edge_size, *sizes.edge_size);
+  const auto both = refinement(finer->scene, {budget({{"mesh", 0.03}})}, tolerance, spent, left);
+  ASSERT_TRUE(both.has_value());
+  EXPECT_LT(*element_size_of(both->scene), 0.004) << "and then everywhere";
 }
 
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
