@@ -141,7 +141,7 @@ class AskedAccuracy(unittest.TestCase):
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         rotating = ("--set", "static.axis={origin=[0,-0.3,0],direction=[0,0,1]}", "--set", "static.speed=314")
         for stages, budget, settings in ((("modes",), 4, (*sized, "--set", "modes.count=80")),
-                                         (("modes", "contact", "curves", "accuracy"), 4, (*sized, *rotating)),
+                                         (("modes", "contact", "curves", "accuracy", "report"), 4, (*sized, *rotating)),
                                          (("mesh",), 3, ("--set", "model.element_size=0.8 mm"))):
             with self.subTest(settings):
                 folder = os.path.join(WORK, f"meshed_{len(settings)}")  # in that of an earlier run its summary would stay
