@@ -1,5 +1,6 @@
 #include "solver/optimum/common_harmonics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/balance/first_harmonics.hpp"
@@ -10,6 +11,9 @@
 namespace microslip::solver {
 
 namespace {
+
+constexpr double worth_another_search =
+    0.01;  // of an amplitude: a valley is as level over some per cent
 
 /// Those that the highest peaks of the curve at a value need.
 CurveHarmonics chosen_at(const SceneFamily& family, double value, const ContinuationOptions& range,
@@ -48,7 +52,8 @@ std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
   if (!(range.harmonic_tolerance > 0.0)) return std::nullopt;
   const CurveHarmonics own = chosen_at(family, best.parameter, range, work);
   const double amplitude = own.highest.amplitude;
-  const bool agrees = std::abs(best.amplitude - amplitude) <= range.harmonic_tolerance * amplitude;
+  const double same = std::max(range.harmonic_tolerance, worth_another_search);
+  const bool agrees = std::abs(best.amplitude - amplitude) <= same * amplitude;
   const HarmonicSet now(given.orders);
   const HarmonicSet all = now.united(own.set.orders());
   if (!(amplitude > 0.0) || agrees || all == now) return std::nullopt;

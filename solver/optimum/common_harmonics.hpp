@@ -29,7 +29,7 @@ struct LackedHarmonics {
 /// @param best   the highest peak at its value, solved for with the harmonics of `given`.
 /// @param range  chooses harmonics.
 /// @param work   what that costs is added.
-/// @return empty: with those that it chooses itself it is as high, within the tolerance of `range`, or they are all
+/// @return empty: with those that it chooses itself it is as high, within the tolerance of `range` or 1 %, or they are all
 ///         given already, or are not found.
 [[nodiscard]] std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
                                                               const PeakOfParameter& best,

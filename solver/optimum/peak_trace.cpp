@@ -30,7 +30,7 @@ constexpr std::size_t most_seeds =
 constexpr double of_interest = 0.5;
 // Peaks of a curve lower than that are not followed: should one become the highest, the curve at
 // the best value has it.
-constexpr double worth_following = 0.25;
+constexpr double worth_following = 0.5;
 
 bool same(const LocalPeak& a, const ResponsePoint& b) {
   return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
@@ -408,6 +408,7 @@ void PeakFamilies::seed(double position, int search_starts) {
 
 void PeakFamilies::settle() {
   while (!pending_.empty()) {
+    if (pending_.size() > 1) trace_ahead({pending_.begin(), pending_.end()}, 0);
     const double next = *pending_.begin();
     pending_.erase(pending_.begin());
     seed(next);
