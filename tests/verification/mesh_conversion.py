@@ -374,6 +374,25 @@ class OtherFiles(Conversion):
                     if result.code and ending in (".vtu", ".vtk", ".e", ".med"):
                         self.assertIn("cut off", result.message)
 
+    def test_vtk_arrays_of_one_component(self):
+        """Legacy SCALARS, as gmsh and ParaView write them, and NumberOfComponents="1" of XML: a column, not a row."""
+        mesh = mesh_files.curved_element("tetra")
+        places = "\n".join(" ".join(map(str, place)) for place in mesh.nodes.tolist())
+        self.assert_names(self.deck("# vtk DataFile Version 3.0\nbar\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                                    f"POINTS 4 double\n{places}\nCELLS 3 13\n4 0 1 2 3\n3 0 1 2\n3 0 1 3\nCELL_TYPES 3\n10\n5\n5\n"
+                                    "CELL_DATA 3\nSCALARS held int 1\nLOOKUP_TABLE default\n0\n1\n0\n"
+                                    "SCALARS face int\nLOOKUP_TABLE default\n0\n0\n3\n"
+                                    "POINT_DATA 4\nSCALARS A int 1\nLOOKUP_TABLE default\n0\n0\n0\n1\n", "deck.vtk"),
+                          {"held": 1, "face 3": 1}, {"A": 1})
+        self.assert_names(self.deck('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>'
+                                    '<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" '
+                                    f'NumberOfComponents="3" format="ascii">\n{places}\n</DataArray></Points><Cells>'
+                                    '<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>'
+                                    '<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>'
+                                    '<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells><PointData>'
+                                    '<DataArray type="Int32" Name="A" NumberOfComponents="1" format="ascii">0 0 0 1</DataArray>'
+                                    "</PointData></Piece></UnstructuredGrid></VTKFile>", "deck.vtu"), {}, {"A": 1})
+
     def test_exodus_side_sets(self):
         if importlib.util.find_spec("netCDF4") is None:
             self.skipTest("netCDF4 is not installed: Exodus files cannot be read")

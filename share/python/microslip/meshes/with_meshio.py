@@ -56,6 +56,8 @@ def read_vtk(path):
 
 def _valued_sets(name, values, numbers):
     values = np.asarray(values)
+    if values.shape[1:] == (1,):
+        values = values[:, 0]
     if values.ndim != 1 or not np.issubdtype(values.dtype, np.integer):
         return {}
     found = np.unique(values)
