@@ -18,15 +18,30 @@
 namespace microslip::pipelines {
 namespace {
 
+bool is_surface(const mesh::Mesh& mesh, const std::string& name) {
+  return std::ranges::count(mesh.surface_names(), name) > 0;
+}
+
+/// Where a surface and a node set have one name, supports hold the nodes of the set.
+std::vector<Eigen::Index> nodes_of(const mesh::Mesh& mesh, PlaceRole role,
+                                   const std::string& name) {
+  const bool takes_surface =
+      role == PlaceRole::contact || (role != PlaceRole::clamped && is_surface(mesh, name));
+  return takes_surface ? mesh.surface(name).nodes : mesh.node_set(name);
+}
+
+/// A force at a set is the same at each of its nodes, an output their mean: no faces weigh there.
+bool lies_by_its_nodes(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
+  if (!mesh.has_faces(name)) return true;
+  return (role == PlaceRole::force || role == PlaceRole::output) && !is_surface(mesh, name);
+}
+
 ScenePlace place_of(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
-  ScenePlace place{.role = role, .name = name, .nodes = mesh.node_set(name), .centre = {}};
-  if (std::ranges::count(mesh.surface_names(), name) > 0) {
-    const mesh::Surface& surface = mesh.surface(name);
-    place.area = surface.area;
-    place.centre = mesh::fit_plane(mesh.nodes(), surface).centroid;
-  } else {
-    place.centre = mesh.nodes()(place.nodes, Eigen::all).colwise().mean();
-  }
+  ScenePlace place{.role = role, .name = name, .nodes = nodes_of(mesh, role, name), .centre = {}};
+  if (mesh.has_faces(name)) place.area = mesh.surface(name).area;
+  place.centre = lies_by_its_nodes(mesh, role, name)
+                     ? Eigen::Vector3d(mesh.nodes()(place.nodes, Eigen::all).colwise().mean())
+                     : mesh::fit_plane(mesh.nodes(), mesh.surface(name)).centroid;
   return place;
 }
 

@@ -21,8 +21,9 @@ struct ScenePlace {
   PlaceRole role = PlaceRole::clamped;
   std::string name;                 ///< of the mesh
   std::vector<Eigen::Index> nodes;  ///< of the mesh
-  double area = 0.0;                ///< [m²]; 0: points
-  Eigen::Vector3d centre;           ///< [m]; of a surface the centroid, else the mean of the nodes
+  double area = 0.0;                ///< of its faces [m²]; 0: it has none
+  Eigen::Vector3d
+      centre;  ///< [m]; of faces the centroid, of nodes and of what acts at a set their mean
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of a force, of the output, of slip
 };
 

@@ -429,11 +429,10 @@ constexpr std::array table{
              "is the preload in newtons, the mesh in its unit?", pressure},
     Question{Stage::mesh, "the nearest node is", "% of an element", 0.0, 100.0, "",
              "is the point on the body, and in the axes of the mesh?", distance_of_points},
-    Question{
-        Stage::mesh, "the number of nodes that are not in both", "", 0.0, 0.0, "",
-        "a contact and a pressure take the surface, supports, forces and output the set; rename "
-        "one of them in the file if that is not what you mean",
-        two_of_one_name},
+    Question{Stage::mesh, "the number of nodes that are not in both", "", 0.0, 0.0, "",
+             "a contact, a pressure, forces and output take the surface, supports the set; rename "
+             "one of them in the file if that is not what you mean",
+             two_of_one_name},
     Question{Stage::modes, "the frequency range reaches", "%", 0.0, 150.0, "",
              "modes beyond the last are left out; raise modes.count or lower the range",
              range_beyond_modes},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,36 @@ TEST(ScenePlaces, EachHasALineWithNodesAreaAndCentre) {
       "  preload 1200 N: 1e+04 Pa; -600 N: a gap of 5e-07 m; a gap of 2e-06 m",
       "point (0, 0, 0.4): the nearest node, at (0, 0, 0.4) m, is 0 m away"};
   EXPECT_EQ(lines, expected);
+}
+
+TEST(ScenePlaces, ASetOfNodesThatHoldsFacesHasTheirAreaAndCentroid) {
+  const SceneDescription scene = parse_scene(text, "box.toml", "/", {"excitation.forces[0].at=x1"});
+  const mesh::Mesh with_surfaces = box(scene);
+  mesh::Mesh::NodeSets sets = with_surfaces.node_sets();
+  for (const std::string& name : with_surfaces.surface_names()) {
+    sets[name] = with_surfaces.surface(name).nodes;
+  }
+  Eigen::MatrixX3d nodes = with_surfaces.nodes();
+  for (const Eigen::Index node : sets["x1"]) nodes(node, 2) *= nodes(node, 2) / 0.4;  // more below
+  const mesh::Mesh mesh(nodes, with_surfaces.elements(), {}, sets);
+  const std::vector<std::string> lines = describe_places(mesh, scene);
+  EXPECT_EQ(lines[0], "clamped z0: 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
+  EXPECT_EQ(lines[1], "force x1: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.15) m")
+      << "each node takes as much: the force acts at their mean";
+  EXPECT_EQ(lines[3], "contact x1: 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m, flat to 0 m");
+}
+
+TEST(ScenePlaces, ForcesTakeTheSurfaceAndSupportsTheSetOfOneName) {
+  const SceneDescription scene = parse_scene(text, "box.toml", "/", {"excitation.forces[0].at=z0"});
+  const mesh::Mesh plain = box(scene);
+  std::map<std::string, std::vector<mesh::FaceBlock>> surfaces;
+  for (const std::string& name : plain.surface_names()) surfaces[name] = plain.surface(name).faces;
+  mesh::Mesh::NodeSets sets = plain.node_sets();
+  sets["z0"] = {plain.surface("z0").nodes.front()};
+  const mesh::Mesh mesh(plain.nodes(), plain.elements(), surfaces, sets);
+  const std::vector<std::string> lines = describe_places(mesh, scene);
+  EXPECT_TRUE(lines[0].starts_with("clamped z0: 1 node")) << lines[0];
+  EXPECT_EQ(lines[1], "force z0: along (1, 0, 0), 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
 }
 
 TEST(OuterFaces, AreTheSkinOfTheMesh) {
