@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effects.hpp"
+#include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/given_matrices.hpp"
 #include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/model/contact_preload.hpp"
@@ -65,13 +67,15 @@ double coarser_meshes(double degrees_of_freedom, const SceneDescription& scene) 
          mesh_and_modes(degrees_of_freedom / (fewer * fewer), scene);
 }
 
-Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
+/// @param model  where the scene brings its modes, else nullptr.
+Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene,
+                     const ReducedModel* model) {
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
   forecast.modes_seconds = mesh_and_modes(forecast.degrees_of_freedom, scene);
   forecast.solver_memory = solver_memory(mesh, scene.settings.basis.solver);
   forecast.memory_gb = memory_before_modes + 1e-3 * forecast.solver_memory->needed_mb();
-  add_curves(scene, nullptr, forecast);
+  add_curves(scene, model, forecast);
   const double more = coarser_meshes(forecast.degrees_of_freedom, scene);
   if (forecast.response.errors > 0.0) forecast.response.errors += more;
   if (forecast.response_along_r && forecast.response_along_r->errors > 0.0) {
@@ -168,8 +172,20 @@ void ask(CheckResult& result, const What&... what) {
   for (std::string& question : questions(what...)) result.warnings.push_back(std::move(question));
 }
 
-void check_meshed(const SceneDescription& scene, const std::filesystem::path& picture,
-                  CheckResult& result, std::ostream& out) {
+/// Modes of a file are read, not solved for: what `run` asks of modes can be asked here.
+ReducedModel check_given_modes(const mesh::Mesh& mesh, const SceneDescription& scene,
+                               CheckResult& result, std::ostream& out) {
+  const SolvedStructure structure{mesh, solve_structure(mesh, scene)};
+  for (const std::string& line : structure.modes.notes) out << line << '\n';
+  result.warnings.insert(result.warnings.end(), structure.modes.warnings.begin(),
+                         structure.modes.warnings.end());
+  return model_of(scene, &structure, result.warnings);
+}
+
+/// @return the model, where the scene brings its modes.
+std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
+                                         const std::filesystem::path& picture, CheckResult& result,
+                                         std::ostream& out) {
   const TemporaryFolder folder;
   const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
   if (interrupt_requested()) throw InterruptedError("interrupted");
@@ -178,10 +194,9 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
   for (const std::string& line : describe_places(mesh, scene)) out << line << '\n';
   for (std::string& warning : mesh::shape_warnings(mesh))
     result.warnings.push_back(std::move(warning));
+  std::optional<ReducedModel> model;
   if (given_modes(scene) != nullptr) {
-    const StructureModes modes = solve_structure(mesh, scene);  // they are read
-    for (const std::string& line : modes.notes) out << line << '\n';
-    result.warnings.insert(result.warnings.end(), modes.warnings.begin(), modes.warnings.end());
+    model = check_given_modes(mesh, scene, result, out);
   } else if (given_matrices(scene) != nullptr) {
     const fem::GivenMatrices matrices = matrices_of(mesh, scene);  // they are read and checked
     fmt::print(out, "mass of what is free to move, by the matrix: {:.6g} kg\n",
@@ -195,20 +210,29 @@ void check_meshed(const SceneDescription& scene, const std::filesystem::path& pi
         "sticks holds");
   }
   ask(result, scene, mesh);
+  if (model) ask(result, scene, *model);
   if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
   if (has_static_preload(scene)) out << describe_static_preload(mesh, scene) << '\n';
   if (!picture.empty()) {
     const std::string failure = draw_scene(mesh, scene, picture);
     if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
   }
-  result.forecast = forecast_of(mesh, scene);
+  result.forecast = forecast_of(mesh, scene, model ? &*model : nullptr);
   describe(result.forecast, scene.response.has_value(), out);
   if (given_modes(scene) == nullptr) {
     if (std::string text = memory_warning(*result.forecast.solver_memory); !text.empty()) {
       result.warnings.push_back(std::move(text));
     }
   }
-  result.effects = effects_of(scene, nullptr, &mesh);
+  result.effects = effects_of(scene, model ? &*model : nullptr, &mesh);
+  return model;
+}
+
+const char* left_to_run(bool modes_are_known) {
+  return modes_are_known
+             ? "asked by `run` alone, which knows the curves: how large the amplitude is\n"
+             : "asked by `run` alone, which knows the modes and the curves: whether modes lie in "
+               "the frequency range, whether the face slides along r, how large the amplitude is\n";
 }
 
 }  // namespace
@@ -219,6 +243,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
   CheckResult result;
   result.warnings = scene_warnings(scene);
   ask(result, scene);
+  bool modes_are_known = false;
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
     if (!picture.empty()) {
       throw SceneError(
@@ -231,7 +256,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
     add_curves(scene, &model, result.forecast);
     describe(result.forecast, scene.response.has_value(), out);
   } else {
-    check_meshed(scene, picture, result, out);
+    modes_are_known = check_meshed(scene, picture, result, out).has_value();
   }
   for (const EffectRecord& effect : result.effects) {
     if (effect.objection.empty()) continue;
@@ -240,8 +265,7 @@ CheckResult check_study(const SceneDescription& scene, const std::filesystem::pa
   for (const std::string& warning : result.warnings) out << "warning: " << warning << '\n';
   describe(result.effects, out);
   if (scene.response && !std::holds_alternative<ModalModel>(scene.model)) {
-    out << "asked by `run` alone, which knows the modes and the curves: whether modes lie in the "
-           "frequency range, whether the face slides along r, how large the amplitude is\n";
+    out << left_to_run(modes_are_known);
   }
   out << (scene.response
               ? "the scene is complete and consistent\n"

@@ -248,6 +248,24 @@ class GivenModes(unittest.TestCase):
         with open(path("punched.pch"), encoding="ascii") as stream:
             self.assertIn("mass-normalised modes have 1 kg", told(stream.readlines()))
 
+    def test_check_asks_what_the_modes_tell(self):
+        """They are read, so that a range without any of them is told before a run."""
+        frequency = self.arrays["frequency_Hz"]
+        scene = write_scene("asked.toml", given(path("modes.npz"), 'mass_unit = "kg"'), "")
+
+        def checked(low, high):
+            finished = subprocess.run([PROGRAM, "check", scene, "--set", f"response.frequency=[{low}, {high}]"],
+                                      capture_output=True, text=True)
+            self.assertEqual(finished.returncode, 0, finished.stderr)
+            return finished.stdout
+
+        last = frequency.max()
+        self.assertIn("response.frequency: the number of modes is 0 between", checked(0.1 * frequency[0], 0.2 * frequency[0]))
+        self.assertIn("% of the last natural frequency", checked(10.0 * last, 11.0 * last))
+        usual = checked(0.9 * frequency[0], 1.1 * frequency[0])
+        self.assertNotIn("response.frequency:", usual)
+        self.assertIn("which knows the curves: how large the amplitude is", usual)
+
     def test_op2_is_told_what_to_do_instead(self):
         self.assertIn("VECTOR(PUNCH)=ALL", refusal(given(path("modes.op2"))))
 
