@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,6 +37,22 @@ class Lines {
     }
     throw SceneError(
         fmt::format("{}: the file ends at line {}; expected {}", name_, number_, expected));
+  }
+
+  /// That the line read last has an end, as all have in a whole file: a number may lack digits.
+  void require_line_end() const {
+    if (!text_.eof()) return;
+    fail(
+        "the file ends within this line: it seems to be cut off. Copy it once more; if it is "
+        "whole, end the line");
+  }
+
+  /// That nothing but empty lines follows. @throws SceneError  there is more.
+  void require_end(const std::string& expected) {
+    for (std::string line; std::getline(text_, line);) {
+      ++number_;
+      if (line.find_first_not_of(" \t\r") != std::string::npos) fail("expected " + expected);
+    }
   }
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -92,7 +109,21 @@ Eigen::Triplet<double> read_entry(Lines& lines, Eigen::Index n) {
   if (i < 1 || j < 1 || i > n || j > n) {
     lines.fail(fmt::format("entry ({}, {}) lies outside of {} rows and columns", i, j, n));
   }
+  lines.require_line_end();
   return {static_cast<int>(i - 1), static_cast<int>(j - 1), value};
+}
+
+/// Each place once: of a symmetric matrix one half is given.
+void require_once(Triplets& entries, bool symmetric, const std::filesystem::path& file) {
+  const auto place = [](const auto& entry) { return std::pair(entry.row(), entry.col()); };
+  std::ranges::sort(entries, {}, place);
+  const auto twice = std::ranges::adjacent_find(entries, {}, place);
+  if (twice == entries.end()) return;
+  throw SceneError(fmt::format(
+      "{}: entry ({}, {}) stands twice{}; write each once", file.string(), twice->row() + 1,
+      twice->col() + 1,
+      symmetric ? fmt::format(", or is there as ({}, {}) too", twice->col() + 1, twice->row() + 1)
+                : ""));
 }
 
 void require_symmetric(const Sparse& matrix, const std::filesystem::path& file) {
@@ -142,6 +173,8 @@ Sparse read_matrix_market(const std::filesystem::path& file) {
       entries.emplace_back(entry.col(), entry.row(), entry.value());
     }
   }
+  lines.require_end(fmt::format("no more than {} entries, as the size says", n_entries));
+  require_once(entries, symmetric, file);
   Sparse matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   if (!symmetric) require_symmetric(matrix, file);
