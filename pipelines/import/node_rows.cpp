@@ -21,6 +21,17 @@ class NodeFinder {
     std::ranges::sort(order_, {}, [&](Eigen::Index i) { return nodes_(i, 0); });
   }
 
+  /// Another node than one, within `distance` of it along every axis; −1: none.
+  [[nodiscard]] Eigen::Index twin_of(Eigen::Index node, double distance) const {
+    const auto x = [&](Eigen::Index i) { return nodes_(i, 0); };
+    const auto first = std::ranges::lower_bound(order_, x(node) - distance, {}, x);
+    for (auto i = first; i != order_.end() && x(*i) <= x(node) + distance; ++i) {
+      const double away = (nodes_.row(*i) - nodes_.row(node)).cwiseAbs().maxCoeff();
+      if (*i != node && away <= distance) return *i;
+    }
+    return -1;
+  }
+
   /// The node nearest to a place within `distance` along every axis; −1: none.
   [[nodiscard]] Eigen::Index near(const Eigen::RowVector3d& place, double distance) const {
     const auto x = [&](Eigen::Index i) { return nodes_(i, 0); };
@@ -45,12 +56,28 @@ std::string extents(const Eigen::MatrixX3d& nodes) {
   return fmt::format("{:.4g} x {:.4g} x {:.4g} m", size.x(), size.y(), size.z());
 }
 
+double tolerance_of(const mesh::Mesh& mesh) {
+  return node_tolerance * mesh.nodes().cwiseAbs().maxCoeff();
+}
+
 }  // namespace
+
+std::vector<std::array<Eigen::Index, 2>> rows_in_one_place(const mesh::Mesh& mesh,
+                                                           const Eigen::MatrixX3d& nodes,
+                                                           const std::vector<Eigen::Index>& rows) {
+  const NodeFinder finder(nodes);
+  std::vector<std::array<Eigen::Index, 2>> pairs;
+  for (const Eigen::Index row : rows) {
+    const Eigen::Index twin = finder.twin_of(row, tolerance_of(mesh));
+    if (twin >= 0) pairs.push_back({row, twin});
+  }
+  return pairs;
+}
 
 std::vector<Eigen::Index> rows_of_nodes(const mesh::Mesh& mesh, const Eigen::MatrixX3d& nodes,
                                         const std::filesystem::path& file,
                                         const std::string& place_of_file) {
-  const double tolerance = node_tolerance * mesh.nodes().cwiseAbs().maxCoeff();
+  const double tolerance = tolerance_of(mesh);
   const NodeFinder finder(nodes);
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(mesh.n_nodes()));
   Eigen::Index n_missing = 0;

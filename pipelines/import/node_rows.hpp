@@ -2,6 +2,7 @@
 /// Nodes of other codes in the mesh of a scene: by their places, whatever numbers or order they have.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,5 +20,9 @@ namespace microslip::pipelines {
                                                       const Eigen::MatrixX3d& nodes,
                                                       const std::filesystem::path& file,
                                                       const std::string& place_of_file);
+
+/// Rows of nodes of the mesh with another row each that lies in the same place, within the same distance.
+[[nodiscard]] std::vector<std::array<Eigen::Index, 2>> rows_in_one_place(
+    const mesh::Mesh& mesh, const Eigen::MatrixX3d& nodes, const std::vector<Eigen::Index>& rows);
 
 }  // namespace microslip::pipelines

@@ -65,6 +65,24 @@ std::vector<Eigen::Index> columns_of(const ModesOfFile& read, const SceneDescrip
   return columns;
 }
 
+/// Two bodies may touch: which node of two in one place is that of the mesh nothing tells, unless they move as one.
+void check_places(const mesh::Mesh& mesh, const ModesOfFile& read, const Eigen::MatrixX3d& nodes,
+                  const std::vector<Eigen::Index>& rows, const ModesFile& file) {
+  constexpr double apart = 1e-3;  // of the largest displacement of the mode
+  const Eigen::RowVectorXd largest = read.shapes.cwiseAbs().colwise().maxCoeff();
+  for (const auto& [row, twin] : rows_in_one_place(mesh, nodes, rows)) {
+    const Eigen::MatrixXd difference =
+        read.shapes.middleRows<3>(3 * row) - read.shapes.middleRows<3>(3 * twin);
+    if ((difference.cwiseAbs().colwise().maxCoeff().array() <= apart * largest.array()).all()) {
+      continue;
+    }
+    throw SceneError(fmt::format(
+        "{}: two nodes of {} lie at ({:.6g}, {:.6g}, {:.6g}) m and move differently, so that "
+        "nothing tells which is that of the mesh: write the modes at the nodes of this mesh alone",
+        file.place, file.file.filename().string(), nodes(row, 0), nodes(row, 1), nodes(row, 2)));
+  }
+}
+
 bool is_quadratic(const mesh::Mesh& mesh) {
   return std::ranges::all_of(mesh.elements(), [](const mesh::ElementBlock& block) {
     return mesh::is_quadratic(block.type);
@@ -215,9 +233,11 @@ StructureModes given_structure(const mesh::Mesh& mesh, const SceneDescription& s
   basis.n_attachment =
       scene.settings.basis.residual == ResidualKind::attachment ? read.n_attachment : 0;
   basis.n_rigid_body = (basis.frequency.head(basis.n_free()).array() == 0.0).count();
-  basis.shapes = shapes_on(rows_of_nodes(mesh, nodes, model.modes->file, model.modes->place),
-                           read.shapes(Eigen::all, columns)) /
-                 std::sqrt(model.modes->mass_unit);
+  const std::vector<Eigen::Index> rows =
+      rows_of_nodes(mesh, nodes, model.modes->file, model.modes->place);
+  check_places(mesh, read, nodes, rows, *model.modes);
+  basis.shapes =
+      shapes_on(rows, read.shapes(Eigen::all, columns)) / std::sqrt(model.modes->mass_unit);
   check_mass(mesh, scene, modes);
   tell_residual(scene, modes);
   return modes;

@@ -148,6 +148,9 @@ class GivenModes(unittest.TestCase):
                 stream.writelines(lines[:n_lines])
             return refusal(model, modes)
 
+        whole, lines[-1] = lines[-1], lines[-1].rstrip()[:-1]
+        self.assertIn(f"modes.csv:{len(lines)}: the file ends within this line: it seems to be cut off", cut(len(lines)))
+        lines[-1] = whole
         self.assertIn("mode 6, the last one, has 119 rows, mode 1 has 127: the table was cut off", cut(len(lines) - 8))
         self.assertIn("modes.count: 6 modes are asked for", cut(1 + 5 * 127, "count = 6"))  # what else a table says of its end
 
@@ -236,6 +239,7 @@ class GivenModes(unittest.TestCase):
             finished = subprocess.run([PROGRAM, "check", scene("five")], capture_output=True, text=True)
             self.assertEqual(finished.returncode, 0, finished.stderr)
         self.assertIn("expected a number, found \"\": was the file cut off?", told([*lines[:-4], lines[-4][:40]]))
+        self.assertIn("the line ends within the third displacement", told([*lines[:-4], lines[-4][:66]]))
         self.assertIn("mode 3 where mode 2 is expected: one is missing", told(lines[:per_mode] + lines[2 * per_mode:]))
         self.assertIn("there are no modes in it", told(lines[:4]))
         self.assertIn("punched.pch:5: real-imaginary output: complex modes are not read",
@@ -265,6 +269,18 @@ class GivenModes(unittest.TestCase):
         usual = checked(0.9 * frequency[0], 1.1 * frequency[0])
         self.assertNotIn("response.frequency:", usual)
         self.assertIn("which knows the curves: how large the amplitude is", usual)
+
+    def test_two_nodes_in_one_place(self):
+        """They may be one that is written twice; where they move apart nothing tells which is meant."""
+        arrays = {key: np.array(values) for key, values in self.arrays.items()}
+        twice = {"nodes": np.concatenate([arrays["nodes"], arrays["nodes"][:1]]), "frequency_Hz": arrays["frequency_Hz"],
+                 "shapes": np.concatenate([arrays["shapes"], arrays["shapes"][:, :1]], axis=1)}
+        np.savez(path("twice.npz"), **twice)
+        model = given(path("twice.npz"), 'mass_unit = "kg"')
+        subprocess.run([PROGRAM, "check", write_scene("twice.toml", model, "")], check=True, capture_output=True)
+        twice["shapes"][:, -1] = np.abs(arrays["shapes"]).max(axis=(1, 2))[:, None]
+        np.savez(path("twice.npz"), **twice)
+        self.assertIn("two nodes of twice.npz lie at (", refusal(model))
 
     def test_op2_is_told_what_to_do_instead(self):
         self.assertIn("VECTOR(PUNCH)=ALL", refusal(given(path("modes.op2"))))

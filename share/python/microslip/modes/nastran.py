@@ -79,6 +79,7 @@ def _take_node(place, text, mode):
     words = [text[:10], *(text[_FIRST + _WIDTH * i:_FIRST + _WIDTH * (i + 1)] for i in range(3))]
     mode.nodes.append(int(_number(place, words[0])))
     mode.shape.append([_number(place, word) for word in words[1:]])
+    require(len(text) == _FIRST + 3 * _WIDTH, f"{place}: the line ends within the third displacement: was the file cut off?")
 
 
 def _number(place, word):
