@@ -5,6 +5,7 @@ meshio 5.0 is not used here: it takes hex20 nodes in VTK's order, knows no TET10
 import numpy as np
 
 from .content import TYPES, Block, Content, Refused, require
+from .netcdf_length import require_whole
 
 _FAMILIES = {"TET": {4: "tetra", 10: "tetra10"}, "HEX": {8: "hexahedron", 20: "hexahedron20"},
              "WED": {6: "wedge", 15: "wedge15"}, "PYR": {5: "pyramid", 13: "pyramid13"},
@@ -21,6 +22,7 @@ _SIDES = {"tetra": (1, 2, 3, 0), "hexahedron": (2, 3, 4, 5, 0, 1), "wedge": (2, 
 def read(path):
     """A Content. Raises Refused with the block or set."""
     import netCDF4
+    require_whole(path)
     try:
         file = netCDF4.Dataset(path)
     except OSError as error:
