@@ -32,6 +32,20 @@ std::string times(const LeftOut& one) {
   return one.count > 1 ? fmt::format(" ({} of them)", one.count) : "";
 }
 
+/// What the reader made of the file. A mesh that lacks what was left out is told with it: an element of an unknown type
+/// leaves faces and parts that hang on nothing.
+mesh::Mesh read_converted(const fs::path& converted, double unit, const fs::path& file,
+                          const std::vector<LeftOut>& left_out) {
+  if (left_out.empty()) return mesh::read_gmsh(converted, unit, file.string());
+  try {
+    return mesh::read_gmsh(converted, unit, file.string(), mesh::Joined::by_constraints);
+  } catch (const mesh::MeshError& error) {
+    const LeftOut& first = left_out.front();
+    throw SceneError(fmt::format("{}: {}{} is not read; {}. Without it: {}", first.place,
+                                 first.what, times(first), first.remedy, error.what()));
+  }
+}
+
 }  // namespace
 
 void require_whole(const MeshOfFile& read) {
@@ -65,9 +79,8 @@ MeshOfFile read_mesh(const fs::path& file, std::optional<double> length_unit,
   const nlohmann::json& unit = facts.at("length_unit");
   if (!length_unit && !unit.is_null()) length_unit = unit.get<double>();
   std::vector<LeftOut> left_out = left_out_of(facts);
-  const auto joined = left_out.empty() ? mesh::Joined::by_nodes : mesh::Joined::by_constraints;
-  return {mesh::read_gmsh(converted, length_unit.value_or(1.0), file.string(), joined), length_unit,
-          std::move(left_out)};
+  mesh::Mesh mesh = read_converted(converted, length_unit.value_or(1.0), file, left_out);
+  return {std::move(mesh), length_unit, std::move(left_out)};
 }
 
 mesh::Mesh read_mesh(const MeshFileModel& model) {

@@ -10,6 +10,7 @@ usage: mesh_conversion.py SOURCE
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -244,6 +245,11 @@ class AbaqusDecks(Conversion):
         self.refused(BAR + "*SURFACE, NAME=s\nleft, S7\n", "deck.inp:21", "S7")
         self.refused(BAR + "*SURFACE, NAME=s\nup, S1\n", "deck.inp:21", '"up"', "left, right")
         self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n*SURFACE, NAME=S\nleft, S2\n", "deck.inp:22", "deck.inp:20")
+        self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n77, S1\n", "deck.inp:22", 'surface "s": element 77 is not there')
+        self.refused(BAR.replace("C3D8, ELSET=left", "C3D8") + "*ELEMENT, TYPE=C3D4\n9, 1, 2, 4, 11\n*SURFACE, NAME=s\n9, S5\n",
+                     "deck.inp:23", "element 9, a tetra, has no face S5")
+        self.refused(BAR + "*NSET, NSET=a\n11, 1", "deck.inp:21: the file ends within this line: it seems to be cut off")
+        self.assertEqual(self.deck(BAR + "*NSET, NSET=a\n11, 12\n*END STEP").code, 0)
         self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
         self.refused(BAR + "*NSET, NSET=Foot\n1\n*SURFACE, NAME=foot\nleft, S1\n", "deck.inp:22", '"foot"', '"Foot"', "case")
         self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
@@ -301,6 +307,14 @@ class NastranDecks(Conversion):
                      "deck.bdf:15;", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
 
+    def test_two_sets_of_one_number(self):
+        """Once more the same is no harm, as in several subcases; cards of one SPC set add up."""
+        self.refused(NASTRAN.replace("ENDDATA", "SET1,4,1,2\nENDDATA"), "deck.bdf:19: SET 4 is there already with other nodes", "deck.bdf:3",
+                     name="deck.bdf")
+        again = NASTRAN.replace("ENDDATA", "SET1,4,1,2,3,4,11\nSPC1,1,123,11\nENDDATA")
+        result = self.deck(again, "deck.bdf")
+        self.assertEqual(result.code, 0, result.message)
+
     def test_a_deck_that_is_cut_off(self):
         """Between two cards, within one, within a word: every element that is left would be read as it stands."""
         whole = NASTRAN.replace("ENDDATA\n", "")
@@ -340,6 +354,8 @@ class UniversalFiles(Conversion):
                               (lambda text: text.replace("       118", "       199"), ("one.unv:26", "element 1", "199")),
                               (lambda text: text.replace("\ntip\n", "\nbottom\n"), ("bottom", "already")),
                               (lambda text: text.replace("D+00", "X+00", 1), ("one.unv:4",)),
+                              (lambda text: re.sub(r"( 118( +\d+){3} +)10\n", r"\g<1>9\n", text),
+                               ("one.unv:26", "is said to have 9 nodes", "expected 10")),
                               (lambda text: text.replace("\n         2 ", "\n         1 ", 1),
                                ("one.unv: node 1 stands twice, at ", "one.unv:3 and ", "one.unv:5;"))):
             result = self.write(change)
@@ -373,6 +389,58 @@ class OtherFiles(Conversion):
                     self.assertTrue(result.code == 0 or result.message.startswith(self.path("part" + ending)), result.message)
                     if result.code and ending in (".vtu", ".vtk", ".e", ".med"):
                         self.assertIn("cut off", result.message)
+
+    def test_vtk_arrays_of_one_name(self):
+        mesh = mesh_files.curved_element("tetra10")
+        mesh.points = {"first": [0], "other": [1], "first'": [2]}
+        for ending in (".vtu", ".vtk"):
+            mesh_files.write_vtk(mesh, self.path("two" + ending))
+            self.assertEqual(Converted(self.path("two" + ending)).code, 0)
+            with open(self.path("two" + ending), "rb") as file:
+                content = file.read()
+            with open(self.path("two" + ending), "wb") as file:
+                file.write(content.replace(b"other", b"first"))
+            with self.subTest(ending=ending):
+                self.assertIn('two arrays are named "first"; rename one', Converted(self.path("two" + ending)).message)
+
+    def test_med_elements_of_an_unknown_type(self):
+        if importlib.util.find_spec("h5py") is None:
+            self.skipTest("h5py is not installed: .med cannot be read")
+        import h5py
+        mesh_files.write_med(mesh_files.curved_element("hexahedron20"), self.path("brick.med"))
+        with h5py.File(self.path("brick.med"), "r+") as file:
+            mesh = next(iter(file["ENS_MAA"].values()))
+            next(iter(mesh.values()))["MAI"].move("H20", "H99")
+        self.assertIn("brick.med: elements of type H99 are not read; bodies may be TE4", Converted(self.path("brick.med")).message)
+
+    def test_exodus_cut_off(self):
+        """The library reads zeros behind the end: places of nodes that are cut off would be another body."""
+        if importlib.util.find_spec("netCDF4") is None:
+            self.skipTest("netCDF4 is not installed: Exodus files cannot be read")
+        import netCDF4
+        for kind in ("NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA", "NETCDF4"):
+            with netCDF4.Dataset(self.path("whole.e"), "w", format=kind) as file:
+                for name, n in (("time_step", None), ("num_nodes", 5), ("num_el_blk", 1), ("num_el_in_blk1", 1), ("four", 4)):
+                    file.createDimension(name, n)
+                file.title = "five bytes and more"
+                connect = file.createVariable("connect1", "i4", ("num_el_in_blk1", "four"))
+                connect.elem_type = "TETRA"
+                connect[:] = [[1, 2, 3, 4]]
+                for axis, values in zip("xyz", ((0, 1, 0, 0, 7), (0, 0, 1, 0, 7), (0, 0, 0, 1, 7))):
+                    file.createVariable(f"coord{axis}", "f8", ("num_nodes",))[:] = values
+                file.createVariable("time_whole", "f8", ("time_step",))[:] = [1.0, 2.0]
+                file.createVariable("flag", "S1", ("time_step", "four"))[:] = np.full((2, 4), "x", dtype="S1")
+            whole = Converted(self.path("whole.e"))
+            self.assertEqual(whole.code, 0, whole.message)
+            with open(self.path("whole.e"), "rb") as file:
+                content = file.read()
+            for length in (4, 30, len(content) // 2, len(content) - 30, len(content) - 4):
+                with open(self.path("part.e"), "wb") as file:
+                    file.write(content[:length])
+                with self.subTest(kind=kind, length=length):
+                    result = Converted(self.path("part.e"))
+                    self.assertEqual(result.code, 1)
+                    self.assertIn("cut off", result.message)
 
     def test_vtk_arrays_of_one_component(self):
         """Legacy SCALARS, as gmsh and ParaView write them, and NumberOfComponents="1" of XML: a column, not a row."""

@@ -117,7 +117,16 @@ TEST_F(MeshFile, ATieIsAnErrorOfAMeshAndARemarkWhereTheModesAreGiven) {
 TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   EXPECT_EQ(refusal("no/such.inp"), "no/such.inp: no such file");
   expect_words(refusal(write("cut.inp", std::string(deck).substr(0, 30))),
-               {"cut.inp:4", "three coordinates"});
+               {"cut.inp:4", "cut off"});
+  expect_words(
+      refusal(write("short.inp", "*NODE\n1, 0, 0\n2\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n")),
+      {"short.inp:3", "three coordinates"});
+  expect_words(
+      refusal(write("unknown.bdf",
+                    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+                    "GRID,5,,1.,1.,1.\nCTETRA,1,1,1,2,3,4\nCTETX,2,1,2,3,4,5\n"
+                    "CTRIA3,3,2,2,3,5\nENDDATA\n")),
+      {"unknown.bdf:7: CTETX is not read; bodies are CTETRA", "faces belong to no"});
   std::string wrong = deck;
   wrong.replace(wrong.find("60, 0, 0"), 2, "x");
   expect_words(refusal(write("wrong.inp", wrong)), {"wrong.inp:3", "\"x\""});

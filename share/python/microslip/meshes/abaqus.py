@@ -51,11 +51,16 @@ def _lines(path, folder, above):
         file = open(path, encoding="latin-1")
     except OSError as error:
         raise Refused(f"{above[-1] if above else path}: {path} cannot be read: {error.strerror}") from None
+    is_deck = bool(above)
     with file:
         for number, text in enumerate(file, 1):
-            text = text.strip()
+            is_ended, text = text.endswith("\n"), text.strip()
             if not text or text.startswith("**"):
                 continue
+            is_deck = is_deck or text[0] == "*"
+            require(is_ended or text[0] == "*" or not is_deck,
+                    f"{path}:{number}: the file ends within this line: it seems to be cut off. Copy it once more; "
+                    "if it is whole, end the line")
             if text[0] == "*" and re.match(r"\*\s*INCLUDE\b", text, re.I):
                 place = f"{path}:{number}"
                 name = re.search(r"INPUT\s*=\s*(.+)", text, re.I)
@@ -414,6 +419,7 @@ class _Deck:
             part = self._own_name(words[0])
             elements = self.element_sets.get(part, place) if isinstance(part, str) else part
             face = words[1].upper() if len(words) > 1 else ""
+            self._require_faces(card, place, content, elements, _FACES.get(face, 0))
             if not face:
                 found.append(outer[np.isin(outer[:, 0], elements)])
             else:
@@ -421,6 +427,16 @@ class _Deck:
                                         "to S6, SPOS, SNEG, or nothing for all free faces")
                 found.append(np.column_stack([elements, np.full(len(elements), _FACES[face])]))
         return np.unique(np.concatenate(found), axis=0)
+
+    @staticmethod
+    def _require_faces(card, place, content, elements, face):
+        """Of every element the face of that number."""
+        surface = f'{place}: surface "{card.name("NAME")}"'
+        missing = np.setdiff1d(elements, np.concatenate([block.numbers for block in content.blocks]))
+        require(not len(missing), f"{surface}: element {next(iter(missing), None)} is not there")
+        for block in content.blocks:
+            without = np.intersect1d(elements, block.numbers) if face >= len(TYPES[block.type].faces) else ()
+            require(not len(without), f"{surface}: element {next(iter(without), None)}, a {block.type}, has no face S{face + 1}")
 
 
 def _generated(place, words):

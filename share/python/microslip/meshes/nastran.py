@@ -148,7 +148,7 @@ class _Deck:
         self.places = {"node": [], "element": []}  # number and place of each
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers
-        self.node_lists = {}    # name → [node numbers]
+        self.node_lists = {}    # kind and number → [(place, node numbers)]
         self.pressed = {}       # name → [(place, element, corner nodes on the face, corner node off it)]
         self.property_names, self.set_names = {}, {}
         self.left_out = []
@@ -166,7 +166,7 @@ class _Deck:
     def take_case(self, place, text):
         found = re.match(r"SET\s+(\d+)\s*=\s*(.*)", text, re.I)
         if found and found[2].strip().upper() != "ALL":
-            self._hold("SET", int(found[1]), _listed(place, re.split(r"[,\s]+", found[2].strip())))
+            self._hold("SET", place, int(found[1]), _listed(place, re.split(r"[,\s]+", found[2].strip())))
         method = re.match(r"METH[A-Z]*(?:\s*\(.*\))?\s*=\s*(\d+)", text, re.I)
         if method:
             self.methods.add(int(method[1]))
@@ -178,12 +178,12 @@ class _Deck:
         elif name in _ELEMENTS:
             self._take_element(place, words)
         elif name == "SPC1":
-            self._hold("SPC", _whole(place, words, 1, "its set"), _listed(place, words[3:]))
+            self._hold("SPC", place, _whole(place, words, 1, "its set"), _listed(place, words[3:]))
         elif name == "SPC":
             nodes = [_whole(place, words, i, "a node") for i in (2, 5) if i < len(words) and words[i]]
-            self._hold("SPC", _whole(place, words, 1, "its set"), np.array(nodes, dtype=np.int64))
+            self._hold("SPC", place, _whole(place, words, 1, "its set"), np.array(nodes, dtype=np.int64))
         elif name == "SET1" or name == "SET" and words[2:3] == ["GRID"]:
-            self._hold("SET", _whole(place, words, 1, "its number"), _listed(place, words[2 if name == "SET1" else 9:]))
+            self._hold("SET", place, _whole(place, words, 1, "its number"), _listed(place, words[2 if name == "SET1" else 9:]))
         elif name == "PLOAD4":
             self._take_pressure(place, words)
         elif name == "EIGRL":
@@ -194,8 +194,8 @@ class _Deck:
                 leave_out(self.left_out, place, name, f"bodies are {', '.join(list(_SOLID)[:4])}, shells on them name faces; take "
                                                       "it out of the file")
 
-    def _hold(self, kind, number, nodes):
-        self.node_lists.setdefault((kind, number), []).append(nodes)
+    def _hold(self, kind, place, number, nodes):
+        self.node_lists.setdefault((kind, number), []).append((place, nodes))
 
     def _take_node(self, place, words):
         number = _whole(place, words, 1, "its number")
@@ -254,11 +254,14 @@ class _Deck:
 
     def _name_nodes(self, content):
         for (kind, number), parts in self.node_lists.items():
-            nodes = np.unique(np.concatenate(parts))
+            nodes = np.unique(np.concatenate([numbers for _, numbers in parts]))
             known = np.isin(nodes, content.node_numbers)
             if kind == "SPC":
                 content.node_sets[f"SPC {number}"] = nodes
             elif known.all() and len(nodes):  # else it is a set of elements, or of something else
+                for place, numbers in parts[1:]:
+                    require(np.array_equal(np.unique(numbers), np.unique(parts[0][1])),
+                            f"{place}: SET {number} is there already with other nodes, at {parts[0][0]}; renumber one")
                 content.node_sets[self.set_names.get(number, f"SET {number}")] = nodes
 
 

@@ -89,8 +89,8 @@ class _Reader:
             nodes = [node for at in range(first, min(last, end)) for node in self._numbers(at)]
             order = _ORDER.get(own, range(len(nodes)))
             require(len(nodes) == n_nodes == TYPES[own].n_nodes,
-                    f"{self.path}:{line + 1}: element {head[0]} of type {head[1]} has {len(nodes)} nodes; expected "
-                    f"{TYPES[own].n_nodes}")
+                    f"{self.path}:{line + 1}: element {head[0]} of type {head[1]} is said to have {n_nodes} nodes, and {len(nodes)} "
+                    f"follow; expected {TYPES[own].n_nodes}")
             self.rows.setdefault(own, []).append([head[0], *(nodes[i] for i in order)])
             self.lines_of["element"].append((head[0], line + 1))
             line = last

@@ -1,6 +1,7 @@
 """What meshio reads as it should: MED of Salome and Code_Aster (.med), VTK (.vtu, .vtk). Names are ours to find."""
 import contextlib
 import io
+import re
 
 import numpy as np
 
@@ -14,6 +15,7 @@ def read_med(path):
     import h5py
     require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5, or it is cut off; files of MED before version 3 must "
                                 "be converted")
+    _require_known_types(path)
     content, mesh = _read(path, "med")
     for name, numbers in _families(getattr(mesh, "point_tags", {}), mesh.point_data.get("point_tags"), content.node_numbers):
         content.node_sets[name] = numbers
@@ -23,6 +25,19 @@ def read_med(path):
         content.element_sets = dict(_families(mesh.cell_tags, np.concatenate(tags), elements))
     content.length_unit = _med_unit(path)
     return content
+
+
+def _require_known_types(path):
+    """meshio ends on others with their name alone."""
+    import h5py
+    from meshio.med._med import med_to_meshio_type
+    try:
+        with h5py.File(path, "r") as file:
+            found = {kind for mesh in file.get("ENS_MAA", {}).values() for step in mesh.values() for kind in step.get("MAI", ())}
+    except (OSError, AttributeError):
+        return  # a damaged file: meshio says how
+    unknown = sorted(found - set(med_to_meshio_type))
+    require(not unknown, f"{path}: elements of type {', '.join(unknown)} are not read; bodies may be TE4, T10, HE8, H20, PE6, P15, PY5, P13")
 
 
 def _families(groups_of, tags, numbers):
@@ -45,6 +60,7 @@ def _med_unit(path):
 def read_vtk(path):
     """A Content. An array of whole numbers names a set for each of its values: "material 3", and just "held" for an
     array of 0 and 1."""
+    _refuse_arrays_of_one_name(path)
     content, mesh = _read(path, "vtu" if path.lower().endswith(".vtu") else "vtk")
     for name, values in mesh.point_data.items():
         content.node_sets.update(_valued_sets(name, values, content.node_numbers))
@@ -52,6 +68,22 @@ def read_vtk(path):
     for name, values in mesh.cell_data.items():
         content.element_sets.update(_valued_sets(name, np.concatenate(values), elements))
     return content
+
+
+def _refuse_arrays_of_one_name(path):
+    """Of two the later one would take the place of the other."""
+    with open(path, "rb") as file:
+        text = file.read()
+    if path.lower().endswith(".vtu"):
+        parts = [found[2] for found in re.finditer(rb"<(PointData|CellData)\b(.*?)</\1>", text, re.S)]
+        array = re.compile(rb"""<DataArray\b[^>]*?\bName\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+    else:
+        parts = re.split(rb"^(?:POINT|CELL)_DATA\b", text, flags=re.M)[1:]
+        array = re.compile(rb"^(?:SCALARS\s+(\S+)\s+[a-z]\w*|(\S+)\s+\d+\s+\d+\s+[a-z]\w*\s*$)", re.M)
+    for part in parts:
+        names = [b"".join(filter(None, found.groups())) for found in array.finditer(part)]
+        for name in names:
+            require(names.count(name) == 1, f'{path}: two arrays are named "{name.decode("latin-1")}"; rename one')
 
 
 def _valued_sets(name, values, numbers):
