@@ -25,7 +25,7 @@ namespace {
 using Names = std::vector<MeshName>;
 using Words = std::vector<std::string_view>;
 
-constexpr double flat_enough = 0.01;  // of the diameter: as a contact asks for
+constexpr double flat_enough = 0.01;  // of the diameter
 
 /// In quotes, as TOML has it.
 std::string in_quotes(std::string_view text) {
@@ -45,7 +45,12 @@ bool speaks_of(const std::string& name, const Words& words) {
                              [&](std::string_view word) { return lower.find(word) != lower.npos; });
 }
 
-bool can_rub(const MeshName& name) { return name.n_faces > 0 && name.flatness < flat_enough; }
+bool is_plane(const MeshName& name) { return name.n_faces > 0 && name.flatness < flat_enough; }
+
+/// A curved face rubs where its name says so; a node set may be the skin of a part of the body.
+bool can_rub(const MeshName& name, const Words& words) {
+  return is_plane(name) || (name.kind == MeshName::Kind::surface && speaks_of(name.name, words));
+}
 
 /// What a key of the scene may be, the likeliest first.
 Names candidates(const Names& names, const Words& words,
@@ -153,7 +158,7 @@ class SceneMaker {
     for (const MeshName& name : names) {
       const double x = name.centre[span_];
       const double off = std::min(x - read_.mesh.lower()[span_], read_.mesh.upper()[span_] - x);
-      if (!can_rub(name) || off > 1e-3 * extent_[span_]) continue;
+      if (!is_plane(name) || off > 1e-3 * extent_[span_]) continue;
       if (best == nullptr || name.area > best->area) best = &name;
     }
     return best;
@@ -162,7 +167,10 @@ class SceneMaker {
   void choose_contact() {
     const Words words{"contact", "rub", "fric", "slave", "damper", "shroud", "platform", "pload"};
     Names possible = candidates(names_, words, [&](const MeshName& name) {
-      return can_rub(name) && name.name != clamped_;
+      return can_rub(name, words) && name.name != clamped_;
+    });
+    std::stable_partition(possible.begin(), possible.end(), [&](const MeshName& name) {
+      return is_plane(name) && speaks_of(name.name, words);
     });
     const bool is_told = !possible.empty() && speaks_of(possible.front().name, words);
     if (!is_told) {  // what lies along the blade rather than its end
@@ -180,7 +188,8 @@ class SceneMaker {
     values_["contact.surface"] = in_quotes(contact_);
     if (possible.size() > 1) {
       remarks_["contact.surface"] =
-          (is_told ? "plane ones: " : "CHOOSE: no name tells it; plane ones: ") + listed(possible);
+          (is_told ? "or another of: " : "CHOOSE: no name tells it; plane ones: ") +
+          listed(possible);
     }
     // In the face; of two axes in it that along which the blade is longer.
     const Eigen::Vector3d in_face = Eigen::Vector3d::Ones() - chosen.normal.cwiseAbs();

@@ -421,7 +421,7 @@ constexpr std::array modal_contact_keys{
 
 constexpr std::array contact_keys{
     KeySpec{"surface", text, "", "", 0, 0, false,
-            "named plane face that rubs; several: [[contact]] once for each, --set "
+            "named face that rubs; several: [[contact]] once for each, --set "
             "contact[0].KEY=… for one"},
     KeySpec{"name", text, "", "", 0, 0, false,
             "of columns and files where there are several contacts; else that of the surface",

@@ -160,6 +160,13 @@ class Formats(unittest.TestCase):
             self.assertIn("\n" + line, scene)
         self.assertEqual(scene.count("# CHOOSE"), 2)
 
+    def test_init_takes_a_curved_face_that_is_named_as_the_contact(self):
+        """Though another one is plane."""
+        bent = self.mesh.nodes.copy()
+        bent[:, 0] += 5.0 * bent[:, 2] ** 2
+        mesh_files.write_inp(mesh_files.Mesh(bent, self.mesh.blocks, self.mesh.surfaces, self.mesh.points), self.path("bent.inp"))
+        self.assertIn('\nsurface = "contact"', self.scene_of("bent.inp"))
+
     def test_init_takes_coordinates_where_no_place_is_left_for_the_force(self):
         in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks,
                                          {name: self.mesh.surfaces[name] for name in ("root", "contact")}, {})
