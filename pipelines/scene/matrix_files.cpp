@@ -122,8 +122,9 @@ void require_once(Triplets& entries, bool symmetric, const std::filesystem::path
   throw SceneError(fmt::format(
       "{}: entry ({}, {}) stands twice{}; write each once", file.string(), twice->row() + 1,
       twice->col() + 1,
-      symmetric ? fmt::format(", or is there as ({}, {}) too", twice->col() + 1, twice->row() + 1)
-                : ""));
+      symmetric && twice->row() != twice->col()
+          ? fmt::format(", or is there as ({}, {}) too", twice->col() + 1, twice->row() + 1)
+          : ""));
 }
 
 void require_symmetric(const Sparse& matrix, const std::filesystem::path& file) {
