@@ -25,15 +25,17 @@ bool is_surface(const mesh::Mesh& mesh, const std::string& name) {
 /// Where a surface and a node set have one name, supports hold the nodes of the set.
 std::vector<Eigen::Index> nodes_of(const mesh::Mesh& mesh, PlaceRole role,
                                    const std::string& name) {
-  const bool takes_surface =
-      role == PlaceRole::contact || (role != PlaceRole::clamped && is_surface(mesh, name));
+  const bool needs_faces = role == PlaceRole::contact || role == PlaceRole::pressure;
+  const bool takes_surface = needs_faces || (role != PlaceRole::clamped && is_surface(mesh, name));
   return takes_surface ? mesh.surface(name).nodes : mesh.node_set(name);
 }
 
 /// A force at a set is the same at each of its nodes, an output their mean: no faces weigh there.
 bool lies_by_its_nodes(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
   if (!mesh.has_faces(name)) return true;
-  return (role == PlaceRole::force || role == PlaceRole::output) && !is_surface(mesh, name);
+  const bool acts =
+      role == PlaceRole::force || role == PlaceRole::output || role == PlaceRole::static_force;
+  return acts && !is_surface(mesh, name);
 }
 
 ScenePlace place_of(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
@@ -111,6 +113,10 @@ const char* name(PlaceRole role) {
       return "contact";
     case PlaceRole::force:
       return "force";
+    case PlaceRole::static_force:
+      return "static force";
+    case PlaceRole::pressure:
+      return "pressure";
     case PlaceRole::output:
       break;
   }
@@ -129,6 +135,16 @@ std::vector<ScenePlace> scene_places(const mesh::Mesh& mesh, const SceneDescript
   if (scene.response) {
     places.push_back(place_of(mesh, PlaceRole::output, scene.response->output.at));
     places.back().direction = scene.response->output.direction;
+  }
+  for (const ForceDescription& force : scene.static_loads.forces) {
+    places.push_back(place_of(mesh, PlaceRole::static_force, force.at));
+    places.back().direction = force.direction;
+  }
+  for (const PressureDescription& entry : scene.static_loads.pressures) {
+    places.push_back(place_of(mesh, PlaceRole::pressure, entry.surface));
+    const double sign = entry.pressure < 0.0 ? 1.0 : -1.0;  // suction pulls outward
+    places.back().direction =
+        sign * mesh::fit_plane(mesh.nodes(), mesh.surface(entry.surface)).normal;
   }
   for (const ContactDescription& contact : scene.contacts) {
     places.push_back(place_of(mesh, PlaceRole::contact, contact.surface));

@@ -1,5 +1,5 @@
 /// @file
-/// What of its mesh a scene uses, and where that is: supports, contacts, forces, output.
+/// What of its mesh a scene uses, and where that is: supports, contacts, forces, output, static loads.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace microslip::pipelines {
 
-enum class PlaceRole : std::uint8_t { clamped, contact, force, output };
+enum class PlaceRole : std::uint8_t { clamped, contact, force, output, static_force, pressure };
 
 [[nodiscard]] const char* name(PlaceRole role);
 
@@ -24,7 +24,8 @@ struct ScenePlace {
   double area = 0.0;                ///< of its faces [m²]; 0: it has none
   Eigen::Vector3d
       centre;  ///< [m]; of faces the centroid, of nodes and of what acts at a set their mean
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of a force, of the output, of slip
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::Zero();  ///< of a force, of the output, of slip; of pressure the mean one
 };
 
 /// @throws mesh::MeshError  a name that is not there (check_names() tells it better).

@@ -114,6 +114,19 @@ TEST(ScenePlaces, ForcesTakeTheSurfaceAndSupportsTheSetOfOneName) {
   EXPECT_EQ(lines[1], "force z0: along (1, 0, 0), 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
 }
 
+TEST(ScenePlaces, StaticLoadsAreAmongThem) {
+  const SceneDescription scene =
+      parse_scene(text, "box.toml", "/",
+                  {"static.forces=[{at=\"corner\", direction=[0, 0, 1], amplitude=1}]",
+                   "static.pressure=[{surface=\"x0\", value=10}, {surface=\"y0\", value=-10}]",
+                   "contact[0].preload=static", "contact[1].preload=static"});
+  const std::vector<std::string> lines = describe_places(box(scene), scene);
+  EXPECT_EQ(lines[3], "static force corner: along (0, 0, 1), 1 node at (0.1, 0.2, 0.4) m");
+  EXPECT_EQ(lines[4], "pressure x0: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0, 0.1, 0.2) m");
+  EXPECT_EQ(lines[5], "pressure y0: along (0, -1, 0), 10 nodes, 0.04 m^2 at (0.05, 0, 0.2) m")
+      << "suction pulls";
+}
+
 TEST(OuterFaces, AreTheSkinOfTheMesh) {
   const SceneDescription scene = parse_scene(text, "box.toml", "/", {});
   EXPECT_EQ(mesh::outer_faces(box(scene)).size(), 2U * (2 + 4 + 8)) << "cells on the six sides";

@@ -14,7 +14,7 @@ from microslip.plots.style import ACCENT, figure_title, legend_below, subplots
 
 FACE_COLOURS = {"clamped": "#3a6ea5", "contact": "#f4a259"}
 TEXT_COLOURS = {"clamped": "#12355b", "contact": "#8a4b08"}
-MARKS = {"force": (ACCENT, "^"), "output": ("#2a7f3f", "o")}
+MARKS = {"force": (ACCENT, "^"), "output": ("#2a7f3f", "o"), "static force": ("#6a3d9a", "v"), "pressure": ("#6a3d9a", "s")}
 BODY = "#d9dde2"
 CREASE = np.cos(np.radians(30.0))  # neighbours that turn by more share an edge that is drawn
 HALO = [withStroke(linewidth=2.5, foreground="white")]
@@ -121,11 +121,11 @@ def draw_marks(axes, places, view, length, extent):
             arrow(axes, at, length * view[:2] @ place["direction"], colour)
         side = 1.0 if at[0] >= extent[0].mean() else -1.0
         row = at[1]
-        while any(s == side and abs(row - y) < 0.045 * extent[1].ptp() for s, y in taken):
+        while any(s == side and abs(row - y) < 0.085 * extent[1].ptp() for s, y in taken):
             row -= 0.02 * extent[1].ptp()
         taken.append((side, row))
         edge = extent[0, 1 if side > 0 else 0] + side * 0.12 * extent[0].ptp()
-        name = place["role"] if place["name"] == place["role"] else f"{place['role']} {place['name']}"
+        name = place["role"] if place["name"] == place["role"] else f"{place['role']}\n{place['name']}"
         axes.annotate(name, xy=at, xytext=(edge, row), color=colour,
                       ha="left" if side > 0 else "right", va="center", zorder=9, path_effects=HALO,
                       arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkB": 4})
@@ -165,5 +165,5 @@ def plot_scene(data, picture):
     figure_title(figure, f"{scene['title'] or 'scene'}: {size} mm")
     legend_below(figure, [Patch(facecolor=colour, label=name) for name, colour in FACE_COLOURS.items()]
                  + [Line2D([], [], color=colour, marker=marker, linestyle="", label=name)
-                    for name, (colour, marker) in MARKS.items()])
+                    for name, (colour, marker) in MARKS.items() if any(place["role"] == name for place in places)])
     save_as(figure, picture)
