@@ -58,7 +58,7 @@ def _lines(path, folder, above):
             if not text or text.startswith("**"):
                 continue
             is_deck = is_deck or text[0] == "*"
-            require(is_ended or text[0] == "*" or not is_deck,
+            require(is_ended or text.upper().startswith("*END") or not is_deck,
                     f"{path}:{number}: the file ends within this line: it seems to be cut off. Copy it once more; "
                     "if it is whole, end the line")
             if text[0] == "*" and re.match(r"\*\s*INCLUDE\b", text, re.I):
