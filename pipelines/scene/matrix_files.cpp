@@ -39,14 +39,6 @@ class Lines {
         fmt::format("{}: the file ends at line {}; expected {}", name_, number_, expected));
   }
 
-  /// That the line read last has an end, as all have in a whole file: a number may lack digits.
-  void require_line_end() const {
-    if (!text_.eof()) return;
-    fail(
-        "the file ends within this line: it seems to be cut off. Copy it once more; if it is "
-        "whole, end the line");
-  }
-
   /// That nothing but empty lines follows. @throws SceneError  there is more.
   void require_end(const std::string& expected) {
     for (std::string line; std::getline(text_, line);) {
@@ -109,7 +101,6 @@ Eigen::Triplet<double> read_entry(Lines& lines, Eigen::Index n) {
   if (i < 1 || j < 1 || i > n || j > n) {
     lines.fail(fmt::format("entry ({}, {}) lies outside of {} rows and columns", i, j, n));
   }
-  lines.require_line_end();
   return {static_cast<int>(i - 1), static_cast<int>(j - 1), value};
 }
 

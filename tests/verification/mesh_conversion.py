@@ -248,8 +248,7 @@ class AbaqusDecks(Conversion):
         self.refused(BAR + "*SURFACE, NAME=s\nleft, S1\n77, S1\n", "deck.inp:22", 'surface "s": element 77 is not there')
         self.refused(BAR.replace("C3D8, ELSET=left", "C3D8") + "*ELEMENT, TYPE=C3D4\n9, 1, 2, 4, 11\n*SURFACE, NAME=s\n9, S5\n",
                      "deck.inp:23", "element 9, a tetra, has no face S5")
-        self.refused(BAR + "*NSET, NSET=a\n11, 1", "deck.inp:21: the file ends within this line: it seems to be cut off")
-        self.assertEqual(self.deck(BAR + "*NSET, NSET=a\n11, 12\n*END STEP").code, 0)
+        self.assertEqual(self.deck(BAR + "*NSET, NSET=a\n11, 12").code, 0)  # the last line needs no end
         self.refused(BAR + "*NGEN\n1, 3, 1\n", "deck.inp:20", "node by node")
         self.refused(BAR + "*NSET, NSET=Foot\n1\n*SURFACE, NAME=foot\nleft, S1\n", "deck.inp:22", '"foot"', '"Foot"', "case")
         self.refused(BAR.replace("*NODE\n1,", "*NODE, SYSTEM=C\n1,"), "deck.inp:1", "rectangular")
@@ -374,7 +373,7 @@ class OtherFiles(Conversion):
                 self.refused("", "deck" + ending + ": no ", name="deck" + ending)
 
     def test_truncated_files(self):
-        """A message of the file: never a traceback, nor a mesh of what is left."""
+        """A message of the file: never a traceback, nor a mesh of what is left, but of a deck of Abaqus, which has no last line."""
         for ending, (write, _) in FORMATS.items():
             if ending in NEEDS and importlib.util.find_spec(NEEDS[ending]) is None:
                 continue
@@ -386,9 +385,12 @@ class OtherFiles(Conversion):
                     file.write(content[:int(share * len(content))])
                 result = Converted(self.path("part" + ending))
                 with self.subTest(ending=ending, share=share):
+                    if ending == ".inp" and result.code == 0:
+                        continue
                     self.assertEqual(result.code, 1, "read without complaint")
                     self.assertTrue(result.message.startswith(self.path("part" + ending)), result.message)
-                    self.assertIn("cut off", result.message)
+                    if ending != ".inp":
+                        self.assertIn("cut off", result.message)
 
     def test_vtk_arrays_of_one_name(self):
         mesh = mesh_files.curved_element("tetra10")

@@ -51,16 +51,11 @@ def _lines(path, folder, above):
         file = open(path, encoding="latin-1")
     except OSError as error:
         raise Refused(f"{above[-1] if above else path}: {path} cannot be read: {error.strerror}") from None
-    is_deck = bool(above)
     with file:
         for number, text in enumerate(file, 1):
-            is_ended, text = text.endswith("\n"), text.strip()
+            text = text.strip()
             if not text or text.startswith("**"):
                 continue
-            is_deck = is_deck or text[0] == "*"
-            require(is_ended or text.upper().startswith("*END") or not is_deck,
-                    f"{path}:{number}: the file ends within this line: it seems to be cut off. Copy it once more; "
-                    "if it is whole, end the line")
             if text[0] == "*" and re.match(r"\*\s*INCLUDE\b", text, re.I):
                 place = f"{path}:{number}"
                 name = re.search(r"INPUT\s*=\s*(.+)", text, re.I)

@@ -12,7 +12,6 @@ _COLUMNS = ("mode", "frequency_Hz", "x", "y", "z", "ux", "uy", "uz")
 
 
 def read(path):
-    _require_line_end(path)
     with open(path, encoding="utf-8-sig", newline="") as file:
         rows = csv.reader(file)
         header = [name.strip() for name in next(rows, [])]
@@ -31,14 +30,6 @@ def read(path):
                 f"{path}: mode {mode:g} has other nodes than mode {modes[0]:g}, or in another order")
         require(np.ptp(block[:, 1]) == 0.0, f"{path}: mode {mode:g} has several frequencies")
     return Modes(blocks[0][:, 2:5], table[starts, 1], np.array([block[:, 5:8] for block in blocks]))
-
-
-def _require_line_end(path):
-    """Without it the last number may lack digits."""
-    with open(path, "rb") as file:
-        lines = file.read().splitlines(keepends=True)
-    require(not lines or lines[-1].endswith((b"\n", b"\r")), f"{path}:{len(lines)}: the file ends within this line: it seems to be cut off. "
-                                                             "Copy it once more; if it is whole, end the line")
 
 
 def _numbers(path, line, row, header, places):
