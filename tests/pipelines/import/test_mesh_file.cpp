@@ -117,7 +117,7 @@ TEST_F(MeshFile, ATieIsAnErrorOfAMeshAndARemarkWhereTheModesAreGiven) {
 TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
   EXPECT_EQ(refusal("no/such.inp"), "no/such.inp: no such file");
   expect_words(refusal(write("cut.inp", std::string(deck).substr(0, 30))),
-               {"cut.inp:4", "cut off"});
+               {"cut.inp:4", "three coordinates"});
   expect_words(
       refusal(write("short.inp", "*NODE\n1, 0, 0\n2\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n")),
       {"short.inp:3", "three coordinates"});
