@@ -6,7 +6,6 @@
 #include <sstream>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -104,18 +103,31 @@ Eigen::Triplet<double> read_entry(Lines& lines, Eigen::Index n) {
   return {static_cast<int>(i - 1), static_cast<int>(j - 1), value};
 }
 
-/// Each place once: of a symmetric matrix one half is given.
-void require_once(Triplets& entries, bool symmetric, const std::filesystem::path& file) {
-  const auto place = [](const auto& entry) { return std::pair(entry.row(), entry.col()); };
-  std::ranges::sort(entries, {}, place);
-  const auto twice = std::ranges::adjacent_find(entries, {}, place);
-  if (twice == entries.end()) return;
+/// Of a symmetric matrix one half is given: both would count each entry twice. Entries that stand twice in one half are
+/// parts of a sum, as an assembly writes them.
+void require_one_half(const Triplets& given, const std::filesystem::path& file) {
+  std::vector<std::array<int, 3>> places;  // the larger number, the smaller, in which half
+  places.reserve(given.size());
+  for (const auto& entry : given) {
+    const auto [smaller, larger] = std::minmax({entry.row(), entry.col()});
+    if (smaller != larger) places.push_back({larger, smaller, entry.row() == larger ? 1 : 0});
+  }
+  std::ranges::sort(places);
+  const auto both = std::ranges::adjacent_find(places, [](const auto& one, const auto& next) {
+    return one[0] == next[0] && one[1] == next[1] && one[2] != next[2];
+  });
+  if (both == places.end()) return;
   throw SceneError(fmt::format(
-      "{}: entry ({}, {}) stands twice{}; write each once", file.string(), twice->row() + 1,
-      twice->col() + 1,
-      symmetric && twice->row() != twice->col()
-          ? fmt::format(", or is there as ({}, {}) too", twice->col() + 1, twice->row() + 1)
-          : ""));
+      "{}: the matrix is symmetric, and entries ({}, {}) and ({}, {}) are both there; write one",
+      file.string(), (*both)[1] + 1, (*both)[0] + 1, (*both)[0] + 1, (*both)[1] + 1));
+}
+
+void add_other_half(Triplets& entries) {
+  const std::size_t n = entries.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto entry = entries[k];
+    if (entry.row() != entry.col()) entries.emplace_back(entry.col(), entry.row(), entry.value());
+  }
 }
 
 void require_symmetric(const Sparse& matrix, const std::filesystem::path& file) {
@@ -160,13 +172,12 @@ Sparse read_matrix_market(const std::filesystem::path& file) {
   Triplets entries;
   for (Eigen::Index k = 0; k < n_entries; ++k) {
     entries.push_back(read_entry(lines, n));
-    const auto& entry = entries.back();
-    if (symmetric && entry.row() != entry.col()) {
-      entries.emplace_back(entry.col(), entry.row(), entry.value());
-    }
   }
   lines.require_end(fmt::format("no more than {} entries, as the size says", n_entries));
-  require_once(entries, symmetric, file);
+  if (symmetric) {
+    require_one_half(entries, file);
+    add_other_half(entries);
+  }
   Sparse matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   if (!symmetric) require_symmetric(matrix, file);
