@@ -504,14 +504,23 @@ OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
 
 constexpr int few = 3;  // harmonics
 
+/// What a search before has cost.
+void add_work(Optimum& sum, const Optimum& before) {
+  sum.iterations += before.iterations;
+  sum.contact_evaluations += before.contact_evaluations;
+  sum.n_curves += before.n_curves;
+}
+
 /// Searches again as long as the peak at the best value asks for harmonics that those of other values have not.
 /// @param chosen  by other peaks; takes those in.
 Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationOptions& range,
                                   const OptimumOptions& options, ContinuationOptions& chosen,
                                   PeakWork& work) {
   constexpr int most_searches = 3;
+  Optimum before;
   for (int searches = 1;; ++searches) {
     Optimum result = Search(family, chosen, options).run();
+    add_work(result, before);
     if (!result.found) return result;
     std::optional<LackedHarmonics> lacked =
         lacked_harmonics(family, result.best, chosen, range, work);
@@ -523,6 +532,7 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
       return result;
     }
     chosen = std::move(lacked->range);
+    before = std::move(result);
   }
 }
 
@@ -549,10 +559,14 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
   const bool left = (best <= near.lower + rounding && near.lower > options.lower) ||
                     (best >= near.upper - rounding && near.upper < options.upper);
   const bool again = left && !is_stopped(result);
-  if (again) result = Search(family, chosen, options).run();
-  result.iterations += first.iterations + work.iterations;
-  result.contact_evaluations += first.contact_evaluations + work.contact_evaluations;
-  result.n_curves += first.n_curves;
+  if (again) {
+    const Optimum nearby = std::move(result);
+    result = search_with_own_harmonics(family, range, options, chosen, work);
+    add_work(result, nearby);
+  }
+  add_work(result, first);
+  result.iterations += work.iterations;
+  result.contact_evaluations += work.contact_evaluations;
   if (!again) {
     result.notes.push_back(sentence("with few harmonics the best value is ", first.best.parameter) +
                            sentence("; searched with those that it needs from ", near.lower) +
