@@ -405,6 +405,20 @@ class OtherFiles(Conversion):
             with self.subTest(ending=ending):
                 self.assertIn('two arrays are named "first"; rename one', Converted(self.path("two" + ending)).message)
 
+    def test_vtu_of_two_pieces(self):
+        """A list of arrays that is empty has no end tag; those of its neighbours are no part of it."""
+        def piece(lists, x):
+            return ('<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">'
+                    f'{x} 0 0 {x + 1} 0 0 {x} 1 0 {x} 0 1</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" '
+                    'format="ascii">0 1 2 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>'
+                    f'<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells>{lists}</Piece>')
+        cells = '<CellData><DataArray type="Int32" Name="A" format="ascii">1</DataArray></CellData>'
+        for points in ("<PointData/>", "<PointData></PointData>"):
+            text = ('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>'
+                    f'{piece(points + cells, 0)}{piece(cells + "<PointData></PointData>", 5)}</UnstructuredGrid></VTKFile>')
+            result = self.deck(text, "deck.vtu")
+            self.assertEqual(result.code, 0, result.message)
+
     def test_med_elements_of_an_unknown_type(self):
         if importlib.util.find_spec("h5py") is None:
             self.skipTest("h5py is not installed: .med cannot be read")

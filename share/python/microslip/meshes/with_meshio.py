@@ -75,7 +75,7 @@ def _refuse_arrays_of_one_name(path):
     with open(path, "rb") as file:
         text = file.read()
     if path.lower().endswith(".vtu"):
-        parts = [found[2] for found in re.finditer(rb"<(PointData|CellData)\b(.*?)</\1>", text, re.S)]
+        parts = [found[2] for found in re.finditer(rb"<(PointData|CellData)\b[^>]*(?<!/)>(.*?)</\1>", text, re.S)]
         array = re.compile(rb"""<DataArray\b[^>]*?\bName\s*=\s*(?:"([^"]*)"|'([^']*)')""")
     else:
         parts = re.split(rb"^(?:POINT|CELL)_DATA\b", text, flags=re.M)[1:]
