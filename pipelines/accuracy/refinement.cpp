@@ -61,6 +61,10 @@ double largest_of(const std::vector<Errors>& all, const std::string& source) {
   return largest;
 }
 
+/// The time of curves when their harmonics are chosen closer. Measured: from 5 to 0.2 % the curves of the default blade
+/// take 5.7 times as long.
+double dearer(double tolerance, double closer) { return std::pow(tolerance / closer, 0.54); }
+
 /// Chosen harmonics answer for a share of the tolerance. With a budget of time, which may run out, a step on the way is
 /// worth its price.
 Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double error) {
@@ -76,9 +80,8 @@ Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double
     if (!(choice < before)) break;
     // A curve with one harmonic is a hundredth of one with those that matter.
     const double first = std::max(3.0, 40.0 / given.highest);
-    const double price = given.chosen()
-                             ? std::pow(before / choice, 0.6)
-                             : first * std::pow(share_of_harmonics * tolerance / choice, 0.3);
+    const double price = given.chosen() ? dearer(before, choice)
+                                        : first * dearer(share_of_harmonics * tolerance, choice);
     moves.push_back({.most = choice,
                      .curves = price,
                      .text = fmt::format("harmonics chosen to {:.2g} %", 100.0 * choice),
