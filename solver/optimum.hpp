@@ -37,6 +37,8 @@ struct OptimumOptions {
   double upper = 0.0;
   /// Of the parameter; on the linear scale of upper − lower.
   double relative_tolerance = 1e-4;
+  /// Relative: amplitudes that close are the same (PeakTraceOptions). ≥ 1e-7
+  double amplitude_tolerance = 1e-7;
   int n_scan = 12;  ///< values of the first scan, ≥ 3
   ParameterScale scale = ParameterScale::logarithmic;
   /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best value and at

@@ -49,7 +49,10 @@ solver::OptimumOptions optimum_options(const SceneDescription& scene) {
         "response.optimum: needs response.optimum_range = [low, high], or two positive preloads");
   }
   if (!(options.lower > 0.0)) options.scale = solver::ParameterScale::linear;
-  if (ends_sooner(scene)) options.relative_tolerance = 5e-3;
+  if (ends_sooner(scene)) {
+    options.relative_tolerance = 5e-3;
+    options.amplitude_tolerance = 3e-3;
+  }
   return options;
 }
 

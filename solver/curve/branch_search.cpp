@@ -22,7 +22,8 @@ constexpr int n_inside = 7;  // frequencies, evenly
 // Of the range. At a fold two known solutions meet and the equations are singular; this far beside
 // it they are apart, or not there.
 constexpr double beside_fold = 1e-3;
-constexpr double same_frequency = 1e-6;
+constexpr double same_frequency = 1e-4;  // closer to another by this share of it, and of the range:
+                                         // what there is beside it shows from there
 constexpr int most_iterations = 60;
 constexpr int most_halvings = 6;
 constexpr double longest_step = 3.0;  // of the amplitude: deflation scales steps without bound
@@ -57,7 +58,9 @@ std::vector<double> search_frequencies(const Scene& scene, const ContinuationOpt
   for (const double frequency : scene.natural_frequency) add(frequency);
   for (const double frequency : resonances(scene, scene.contact->stuck_stiffness())) add(frequency);
   std::sort(all.begin(), all.end());
-  const auto same = [&](double a, double b) { return b - a < same_frequency * range; };
+  const auto same = [&](double a, double b) {
+    return b - a < std::min(same_frequency * b, beside_fold * range);
+  };
   all.erase(std::unique(all.begin(), all.end(), same), all.end());
   return all;
 }

@@ -81,7 +81,7 @@ std::string sentence(const char* text, double value) {
 
 constexpr double as_good = 1.01;  // times the minimum
 // Two solutions of one amplitude differ by less: what is closer does not depend on the parameter.
-constexpr double the_same = 1.0 + 1e-7;
+constexpr double flat_within = 1.0 + 1e-7;
 // A smooth minimum is as level as that over some 1e-3 of its parameter; of the scale.
 constexpr double flat_width = 0.02;
 constexpr double rough = 1e-2;  // of the scale: tolerance for a valley that may not be the lowest
@@ -192,8 +192,12 @@ class Search {
             .n_values = options.n_scan,
             .n_checks = 3,
             .scale = options.scale,
+            .amplitude_tolerance = options.amplitude_tolerance,
             .together = options.together};
   }
+
+  /// Times an amplitude: what does not differ from it.
+  [[nodiscard]] double the_same() const { return 1.0 + options_.amplitude_tolerance; }
 
   [[nodiscard]] double parameter(double position) const {
     return options_.scale == ParameterScale::logarithmic ? std::exp(position) : position;
@@ -238,8 +242,8 @@ class Search {
       const double beside = std::min(std::prev(one)->amplitude, std::next(one)->amplitude);
       const double width =
           position(std::next(one)->parameter) - position(std::prev(one)->parameter);
-      // Less deep than the_same is the rounding of a flat stretch.
-      const bool valley = one->amplitude * the_same < beside && one->amplitude < limit;
+      // Less deep is the rounding of a flat stretch.
+      const bool valley = one->amplitude * the_same() < beside && one->amplitude < limit;
       const bool wide = width > bracket_left * on_scale(options_, rough);
       if (valley && wide && searched_.count(neighbourhood(one)) == 0) valleys.push_back(one);
     }
@@ -297,14 +301,21 @@ class Search {
     if (peaks.empty()) return true;
     result_.best = *lowest(peaks);
     search_edges();
-    trace_proofs();
-    if (!peaks_.confirm(result_.best.parameter, options_.search_starts)) return false;
+    // What lies beside curves is searched where the curves themselves have nothing against it.
+    return is_proved(0) && (options_.search_starts == 0 || is_proved(options_.search_starts));
+  }
+
+  /// @param search_starts  of the curves that it is proved by.
+  bool is_proved(int search_starts) {
+    if (options_.search_starts > 0) trace_proofs(search_starts);
+    if (!peaks_.confirm(result_.best.parameter, search_starts)) return false;
     // Following it once more may have found a peak that was missed before.
     const double confirmed = peaks_.highest(result_.best.parameter).amplitude;
-    if (confirmed > the_same * result_.best.amplitude) return false;
+    if (confirmed > the_same() * result_.best.amplitude) return false;
     search_edges();
     const std::vector<PeakOfParameter> all = peaks_.result().peaks;
-    return lowest(all)->amplitude * the_same >= result_.best.amplitude && edges_hold();
+    return lowest(all)->amplitude * the_same() >= result_.best.amplitude &&
+           edges_hold(search_starts);
   }
 
   /// Ends of the interval called as good.
@@ -315,20 +326,19 @@ class Search {
   }
 
   /// The curves of the best value and of the edges, which are confirmed one after the other, side by side.
-  void trace_proofs() {
-    if (options_.search_starts == 0) return;
+  void trace_proofs(int search_starts) {
     std::vector<double> values = edges();
     values.push_back(result_.best.parameter);
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    peaks_.prepare(values, options_.search_starts);
+    peaks_.prepare(values, search_starts);
   }
 
   /// No higher peak, of the curves or beside them, at the edges.
-  bool edges_hold() {
+  bool edges_hold(int search_starts) {
     if (options_.search_starts == 0) return true;
-    return std::ranges::all_of(
-        edges(), [&](double end) { return peaks_.confirm(end, options_.search_starts); });
+    return std::ranges::all_of(edges(),
+                               [&](double end) { return peaks_.confirm(end, search_starts); });
   }
 
   /// What stands against the ends of the interval called as good.
@@ -348,7 +358,7 @@ class Search {
   void search_edges() {
     const bool flat = flat_interval(peaks_.result().peaks).has_value();
     for (const double direction : {-1.0, 1.0}) {
-      if (flat) search_edge(direction, the_same * result_.best.amplitude);
+      if (flat) search_edge(direction, flat_within * result_.best.amplitude);
       search_edge(direction, as_good * result_.best.amplitude);
     }
   }
@@ -371,7 +381,8 @@ class Search {
       const double at = position(peak.parameter);
       if ((at - inside) * direction > 0.0 && (outside - at) * direction > 0.0) inside = at;
     }
-    const double tolerance = on_scale(options_, std::max(enough, options_.relative_tolerance));
+    const double tolerance =
+        on_scale(options_, std::max(enough, 2.0 * options_.relative_tolerance));
     while (std::abs(outside - inside) > tolerance) {
       const double middle = 0.5 * (inside + outside);
       (peaks_.highest(parameter(middle)).amplitude <= limit ? inside : outside) = middle;
@@ -380,7 +391,7 @@ class Search {
 
   [[nodiscard]] std::optional<std::array<double, 2>> flat_interval(
       const std::vector<PeakOfParameter>& trace) const {
-    const auto [first, end] = below(trace, result_.best, the_same * result_.best.amplitude);
+    const auto [first, end] = below(trace, result_.best, flat_within * result_.best.amplitude);
     const std::array<double, 2> flat{first->parameter, std::prev(end)->parameter};
     const bool wide = position(flat[1]) - position(flat[0]) > on_scale(options_, flat_width);
     return wide ? std::optional(flat) : std::nullopt;

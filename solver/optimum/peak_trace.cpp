@@ -9,6 +9,7 @@
 
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/continuation.hpp"
+#include "solver/curve/branch_search.hpp"
 #include "solver/enrichment/curve_harmonics.hpp"
 #include "solver/optimum/common_harmonics.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 
 // The same peak, solved for twice: amplitudes agree to rounding, frequencies of a flat top to its
 // root.
-constexpr double same_amplitude = 1e-7;  // relative
-constexpr double same_frequency = 1e-4;  // of the resonance width
+constexpr double rounded_amplitude = 1e-7;  // relative
+constexpr double same_frequency = 1e-4;     // of the resonance width
 // Between two values the step is halved down to this share of their distance.
 constexpr double finest = 1.0 / 64.0;
 constexpr double rounding = 1e-6;  // of a step: what is left of the way is none of its own
@@ -26,6 +27,7 @@ constexpr double rounding = 1e-6;  // of a step: what is left of the way is none
 constexpr double shortest_base = 0.05;
 constexpr std::size_t most_seeds =
     4;  // peaks and ends of one curve that are followed, from the highest down
+constexpr std::size_t most_followed = 4;  // to one value; those that are highest beside it
 // A peak lost below this share of the highest cannot become the highest within one step.
 constexpr double of_interest = 0.5;
 // Peaks of a curve lower than that are not followed: should one become the highest, the curve at
@@ -33,12 +35,12 @@ constexpr double of_interest = 0.5;
 constexpr double worth_following = 0.5;
 
 bool same(const LocalPeak& a, const ResponsePoint& b) {
-  return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
+  return std::abs(a.amplitude - b.amplitude) <= rounded_amplitude * b.amplitude &&
          std::abs(a.point.parameter - b.frequency) <= same_frequency * a.scaling.parameter;
 }
 
 bool same(const LocalPeak& a, const LocalPeak& b) {
-  return std::abs(a.amplitude - b.amplitude) <= same_amplitude * b.amplitude &&
+  return std::abs(a.amplitude - b.amplitude) <= rounded_amplitude * b.amplitude &&
          std::abs(a.point.parameter - b.point.parameter) <= same_frequency * a.scaling.parameter;
 }
 
@@ -116,9 +118,9 @@ void PeakFamilies::warn(const std::string& text, double position) {
 
 const LocalPeak* PeakFamilies::highest_followed(double position) const {
   const LocalPeak* best = nullptr;
-  for (const Peaks& peaks : families_) {
-    const auto peak = peaks.find(position);
-    if (peak == peaks.end()) continue;
+  for (const Followed& family : families_) {
+    const auto peak = family.peaks.find(position);
+    if (peak == family.peaks.end()) continue;
     if (best == nullptr || peak->second.amplitude > best->amplitude) best = &peak->second;
   }
   return best;
@@ -134,10 +136,10 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
   }
   const auto curve = curves_.find(position);
   if (curve == curves_.end()) return best;
-  best.whole_curve = curve->second.complete;
+  best.whole_curve = curve->second.traced.complete;
   if (curve->second.high.empty()) return best;
   const HighPoint& solved = curve->second.high.front();
-  if (followed == nullptr || solved.point.amplitude > (1.0 + same_amplitude) * best.amplitude) {
+  if (followed == nullptr || solved.point.amplitude > (1.0 + rounded_amplitude) * best.amplitude) {
     best.amplitude = solved.point.amplitude;
     best.frequency = solved.point.frequency;
     best.place = solved.place;
@@ -150,7 +152,8 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
 bool PeakFamilies::is_detached(const Curve& curve, double amplitude) {
   const HighPoint& highest = curve.high.front();
   const double above = amplitude / highest.point.amplitude - 1.0;
-  return highest.detached ? above >= -same_amplitude : curve.complete && above > same_amplitude;
+  return highest.detached ? above >= -rounded_amplitude
+                          : curve.traced.complete && above > rounded_amplitude;
 }
 
 /// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
@@ -166,8 +169,19 @@ ContinuationOptions PeakFamilies::range_with(int search_starts) const {
   return range;
 }
 
-void PeakFamilies::count(const ResponseCurve& curve) {
-  ++result_.n_curves;
+/// The curve, or the one that is known there with what a search finds beside it; its work is what was done now.
+ResponseCurve PeakFamilies::traced(double position, const ContinuationOptions& range) const {
+  const auto known = curves_.find(position);
+  const Scene scene = family_(parameter(position));
+  if (known == curves_.end()) return trace_response(scene, range, until_stopped(range));
+  ResponseCurve curve = known->second.traced;
+  curve.iterations = curve.contact_evaluations = 0;
+  search_branches(scene, range, curve);
+  return curve;
+}
+
+void PeakFamilies::count(const ResponseCurve& curve, double position) {
+  if (!curves_.contains(position)) ++result_.n_curves;
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
 }
@@ -183,11 +197,9 @@ void PeakFamilies::trace_ahead(const std::vector<double>& positions, int search_
     if (!traced && !ahead_.contains(key)) keys.push_back(key);
   }
   std::vector<ResponseCurve> curves(keys.size());
-  options_.together(keys.size(), [&](std::size_t i) {
-    curves[i] = trace_response(family_(parameter(keys[i].first)), range, until_stopped(range));
-  });
+  options_.together(keys.size(), [&](std::size_t i) { curves[i] = traced(keys[i].first, range); });
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    count(curves[i]);
+    count(curves[i], keys[i].first);
     ahead_.insert_or_assign(keys[i], std::move(curves[i]));
   }
 }
@@ -195,17 +207,17 @@ void PeakFamilies::trace_ahead(const std::vector<double>& positions, int search_
 const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_starts) {
   const auto known = curves_.find(position);
   if (known != curves_.end() && known->second.search_starts >= search_starts) return known->second;
-  const Scene scene = family_(parameter(position));
   const ContinuationOptions range = range_with(search_starts);
-  const auto ahead = ahead_.extract({position, range.search_starts});
+  auto ahead = ahead_.extract({position, range.search_starts});
   if (ahead.empty() && range_.stop && range_.stop()) throw SearchStopped{};
-  const ResponseCurve curve = ahead.empty() ? trace_response(scene, range, until_stopped(range))
-                                            : std::move(ahead.mapped());
-  if (ahead.empty()) count(curve);
+  ResponseCurve curve = ahead.empty() ? traced(position, range) : std::move(ahead.mapped());
+  if (ahead.empty()) count(curve, position);
   if (curve.diagnosis == Diagnosis::interrupted) throw SearchStopped{};
   if (!curve.complete)
     note(std::string("curve incomplete (") + to_string(curve.diagnosis) + ")", position);
-  Curve kept{high_points(scene, curve, range_), curve.complete, range.search_starts};
+  const Scene scene = family_(parameter(position));
+  std::vector<HighPoint> high = high_points(scene, curve, range_);
+  Curve kept{std::move(curve), std::move(high), range.search_starts};
   if (std::any_of(kept.high.begin(), kept.high.end(),
                   [](const auto& one) { return one.climbed; })) {
     note("a peak that the curve passes was solved for from the points beside it", position);
@@ -241,32 +253,42 @@ bool PeakFamilies::agrees(const Peaks& peaks, double position) const {
 }
 
 bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
-  const LocalPeak& here = families_[family].at(position);
+  const LocalPeak& here = families_[family].peaks.at(position);
   for (std::size_t i = 0; i < families_.size(); ++i) {
-    const auto other = families_[i].find(position);
-    if (i != family && other != families_[i].end() && same(here, other->second)) return true;
+    const Peaks& peaks = families_[i].peaks;
+    const auto other = peaks.find(position);
+    if (i != family && other != peaks.end() && same(here, other->second)) return true;
   }
   return false;
 }
 
 /// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
-/// that had it. What is higher than all of the curve is a solution that counts, and stays.
+/// that had it. What is higher than all of the curve is a solution that counts, and stays; what is no higher, within a
+/// tolerance above rounding, goes from here alone.
 /// @return  whether it goes, back to the last curve that had it.
 bool PeakFamilies::cut(Peaks& peaks, double position) {
   const std::vector<HighPoint>& solved = curves_.at(position).high;
-  if (solved.empty() || peaks.at(position).amplitude > solved.front().point.amplitude) {
+  const double amplitude = peaks.at(position).amplitude;
+  const bool coarse = options_.amplitude_tolerance > rounded_amplitude;
+  const double least = coarse ? 1.0 + options_.amplitude_tolerance : 1.0;
+  if (solved.empty() || amplitude > least * solved.front().point.amplitude) {
     constexpr const char* text =
         "a followed peak, higher than all of the curve, stands on a branch detached from it";
     told_detached_ ? note(text, position) : warn(text, position);
     told_detached_ = true;
     return false;
   }
+  if (coarse) {
+    peaks.erase(position);
+    return true;
+  }
   note(
       "a followed peak is not on the curve (its branch is detached, or another peak), curves "
       "traced whole",
       position);
   const auto agreed = [&](const auto& curve) {
-    return curve.second.complete && peaks.contains(curve.first) && agrees(peaks, curve.first);
+    return curve.second.traced.complete && peaks.contains(curve.first) &&
+           agrees(peaks, curve.first);
   };
   const auto here = curves_.find(position);
   const auto above = std::find_if(here, curves_.end(), agreed);
@@ -282,7 +304,7 @@ bool PeakFamilies::cut(Peaks& peaks, double position) {
 }
 
 std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const_iterator nearest,
-                                                double target) {
+                                                double target, PeakWork& work) const {
   if (range_.stop && range_.stop()) throw SearchStopped{};
   const LocalPeak& a = nearest->second;
   BranchVector guess = a.point;
@@ -302,17 +324,21 @@ std::optional<LocalPeak> PeakFamilies::followed(const Peaks& peaks, Peaks::const
   }
   const Scene scene = family_(parameter(target));
   HarmonicBalance balance(scene, first_harmonics(scene, range_));
-  PeakWork work;
   std::optional<LocalPeak> peak = follow_peak(balance, a, guess, range_, work);
   if (!peak && predicted) peak = follow_peak(balance, a, a.point, range_, work);
-  result_.iterations += work.iterations;
-  result_.contact_evaluations += work.contact_evaluations;
   return peak;
 }
 
+/// Mean evaluations of a curve traced whole.
+long PeakFamilies::curve_cost() const {
+  long sum = 0;
+  for (const auto& [position, curve] : curves_) sum += curve.traced.contact_evaluations;
+  return sum / std::max<long>(1, static_cast<long>(curves_.size()));
+}
+
 /// From the nearest known position; where that fails, from the nearest on the other side.
-bool PeakFamilies::follow_to(std::size_t family, double target) {
-  Peaks& peaks = families_[family];
+bool PeakFamilies::follow_to(Followed& family, double target) const {
+  Peaks& peaks = family.peaks;
   const auto above = peaks.lower_bound(target);
   if (above == peaks.end()) return follow_from(family, std::prev(above), target);
   if (above == peaks.begin()) return follow_from(family, above, target);
@@ -322,17 +348,20 @@ bool PeakFamilies::follow_to(std::size_t family, double target) {
          follow_from(family, down ? above : below, target);
 }
 
-bool PeakFamilies::follow_from(std::size_t family, Peaks::const_iterator nearest, double target) {
-  Peaks& peaks = families_[family];
+bool PeakFamilies::follow_from(Followed& family, Peaks::const_iterator nearest,
+                               double target) const {
+  Peaks& peaks = family.peaks;
+  const long most_evaluations = family.work.contact_evaluations + curve_cost();
   double step = target - nearest->first;
   bool failed = false;
   while (nearest->first != target) {
     const double rest = target - nearest->first;
     const double next =
         std::abs(rest) <= (1.0 + rounding) * std::abs(step) ? target : nearest->first + step;
-    Reach& reach = reach_[{family, nearest->first}];
+    Reach& reach = family.reach[nearest->first];
     std::optional<LocalPeak> peak;
-    if (next > reach.below && next < reach.above) peak = followed(peaks, nearest, next);
+    if (next > reach.below && next < reach.above)
+      peak = followed(peaks, nearest, next, family.work);
     if (peak) {
       nearest = peaks.emplace(next, std::move(*peak)).first;
       // What failed a step ago would fail again.
@@ -342,6 +371,8 @@ bool PeakFamilies::follow_from(std::size_t family, Peaks::const_iterator nearest
                                     : Reach{std::max(reach.below, next), reach.above};
       step = 0.5 * (next - nearest->first);
       if (std::abs(step) < finest * spacing_) return false;
+      // Tracing the curve whole tells more for as much.
+      if (family.work.contact_evaluations > most_evaluations) return false;
     }
     failed = !peak;
   }
@@ -353,8 +384,8 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
   for (int i = 0; i < options_.n_values; ++i) {
     const double target = value_position(direction > 0.0 ? i : options_.n_values - 1 - i);
     if ((target - from) * direction <= 0.0) continue;
-    Peaks& peaks = families_[family];
-    if (!follow_to(family, target)) {
+    Peaks& peaks = families_[family].peaks;
+    if (!follow_to(families_[family], target)) {
       const auto last = direction > 0.0 ? std::prev(peaks.end()) : peaks.begin();
       const double before = target - direction * spacing_;
       if (last->second.amplitude < of_interest * highest_at(before).amplitude) return;
@@ -370,7 +401,7 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
     }
     const auto curve = curves_.find(target);
     const bool contradicted =
-        curve != curves_.end() && curve->second.complete && !agrees(peaks, target);
+        curve != curves_.end() && curve->second.traced.complete && !agrees(peaks, target);
     if (contradicted && cut(peaks, target)) return;
   }
 }
@@ -378,8 +409,9 @@ void PeakFamilies::follow_values(std::size_t family, double from, double directi
 void PeakFamilies::seed(double position, int search_starts) {
   asked_.insert(position);
   const Curve& curve = curve_at(position, search_starts);
-  if (curve.complete) {
-    for (Peaks& peaks : families_) {
+  if (curve.traced.complete) {
+    for (Followed& family : families_) {
+      Peaks& peaks = family.peaks;
       const bool contradicted = peaks.contains(position) && !agrees(peaks, position);
       if (contradicted) static_cast<void>(cut(peaks, position));
     }
@@ -388,9 +420,9 @@ void PeakFamilies::seed(double position, int search_starts) {
   HarmonicBalance balance(scene, first_harmonics(scene, range_));
   for (std::size_t i = 0; i < std::min(most_seeds, curve.high.size()); ++i) {
     const HighPoint& high = curve.high[i];
-    const bool known = std::any_of(families_.begin(), families_.end(), [&](const Peaks& peaks) {
-      const auto here = peaks.find(position);
-      return here != peaks.end() && same(here->second, high.point);
+    const bool known = std::any_of(families_.begin(), families_.end(), [&](const Followed& family) {
+      const auto here = family.peaks.find(position);
+      return here != family.peaks.end() && same(here->second, high.point);
     });
     if (known || high.place == PeakPlace::unsolved) continue;
     const bool low = high.point.amplitude < worth_following * curve.high.front().point.amplitude;
@@ -399,10 +431,13 @@ void PeakFamilies::seed(double position, int search_starts) {
                                         ? local_peak(balance, high.point)
                                         : local_end(balance, high.point, range_);
     if (!peak) continue;
-    families_.push_back({{position, std::move(*peak)}});
+    Followed family;
+    family.peaks.emplace(position, std::move(*peak));
+    families_.push_back(std::move(family));
     follow_values(families_.size() - 1, position, 1.0);
     // What was cut or met by another family need not reach back.
-    if (families_.back().contains(position)) follow_values(families_.size() - 1, position, -1.0);
+    if (families_.back().peaks.contains(position))
+      follow_values(families_.size() - 1, position, -1.0);
   }
 }
 
@@ -432,14 +467,36 @@ void PeakFamilies::trace() {
   }
 }
 
+/// Those with a peak within a spacing, by the amplitude of the nearest.
+std::vector<std::size_t> PeakFamilies::highest_near(double position) const {
+  std::vector<std::pair<double, std::size_t>> by_amplitude;
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const Peaks& peaks = families_[i].peaks;
+    auto nearest = peaks.lower_bound(position);
+    const bool below = nearest != peaks.begin() &&
+                       (nearest == peaks.end() ||
+                        position - std::prev(nearest)->first < nearest->first - position);
+    if (below) --nearest;
+    if (nearest == peaks.end() || std::abs(nearest->first - position) > spacing_) continue;
+    by_amplitude.emplace_back(-nearest->second.amplitude, i);
+  }
+  std::ranges::sort(by_amplitude);
+  std::vector<std::size_t> families;
+  for (const auto& [amplitude, family] : by_amplitude) families.push_back(family);
+  if (families.size() > most_followed) families.resize(most_followed);
+  return families;
+}
+
 PeakOfParameter PeakFamilies::highest(double parameter) {
   const double here = known_position(parameter);
   asked_.insert(here);
-  for (std::size_t i = 0; i < families_.size(); ++i) {
-    Peaks& peaks = families_[i];
-    const auto above = peaks.lower_bound(here - spacing_);
-    const bool near = above != peaks.end() && above->first <= here + spacing_;
-    if (near && follow_to(i, here) && known_elsewhere(i, here)) peaks.erase(here);
+  const std::vector<std::size_t> near = highest_near(here);
+  std::vector<char> is_there(near.size());  // not of bits: written side by side
+  options_.together(near.size(), [&](std::size_t i) {
+    is_there[i] = follow_to(families_[near[i]], here) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (is_there[i] != 0 && known_elsewhere(near[i], here)) families_[near[i]].peaks.erase(here);
   }
   PeakOfParameter best = highest_at(here);
   best.parameter = parameter;
@@ -452,17 +509,17 @@ bool PeakFamilies::confirm(double parameter, int search_starts) {
   seed(here, search_starts);
   settle();
   const Curve& curve = curve_at(here, search_starts);
-  if (!curve.complete || curve.high.empty())
+  if (!curve.traced.complete || curve.high.empty())
     return true;  // named in the notes; nothing better is known
   const double solved = curve.high.front().point.amplitude;
-  const bool confirmed = followed >= (1.0 - same_amplitude) * solved;
+  const bool confirmed = followed >= (1.0 - options_.amplitude_tolerance) * solved;
   if (!confirmed) note("the curve has another highest peak than those followed", here);
   return confirmed;
 }
 
 bool PeakFamilies::is_cut_short(double parameter) const {
   const auto curve = curves_.find(known_position(parameter));
-  return curve != curves_.end() && !curve->second.complete;
+  return curve != curves_.end() && !curve->second.traced.complete;
 }
 
 void PeakFamilies::prepare(const std::vector<double>& parameters, int search_starts) {
@@ -474,6 +531,10 @@ void PeakFamilies::prepare(const std::vector<double>& parameters, int search_sta
 
 PeakTrace PeakFamilies::result() const {
   PeakTrace result = result_;
+  for (const Followed& family : families_) {
+    result.iterations += family.work.iterations;
+    result.contact_evaluations += family.work.contact_evaluations;
+  }
   for (const double position : asked_) {
     const PeakOfParameter peak = highest_at(position);
     if (std::isfinite(peak.amplitude)) result.peaks.push_back(peak);

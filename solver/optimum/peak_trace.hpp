@@ -60,7 +60,10 @@ struct PeakTraceOptions {
   int n_values = 30;   ///< spread evenly on the scale, both bounds included, ≥ 2
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
   ParameterScale scale = ParameterScale::logarithmic;
-  Together together = one_by_one;  ///< curves that do not wait for one another
+  /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the highest of a curve
+  /// need not be that peak, and what is lower than it is dropped without a word.
+  double amplitude_tolerance = 1e-7;
+  Together together = one_by_one;  ///< curves, or peaks, that do not wait for one another
 };
 
 struct PeakTrace {
@@ -101,15 +104,21 @@ class PeakFamilies {
   [[nodiscard]] PeakTrace result() const;
 
  private:
-  using Peaks = std::map<double, LocalPeak>;  // what one peak or end is, by position
+  using Peaks = std::map<double, LocalPeak>;  // by position
   /// The nearest positions to which a peak could not be followed.
   struct Reach {
     double below = -std::numeric_limits<double>::infinity();
     double above = std::numeric_limits<double>::infinity();
   };
+  /// What one peak or end is.
+  struct Followed {
+    Peaks peaks;
+    std::map<double, Reach> reach;  // by position
+    PeakWork work;
+  };
   struct Curve {
+    ResponseCurve traced;
     std::vector<HighPoint> high;  // from the highest down
-    bool complete = false;
     int search_starts = 0;
   };
 
@@ -123,18 +132,21 @@ class PeakFamilies {
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
   [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
+  [[nodiscard]] ResponseCurve traced(double position, const ContinuationOptions& range) const;
   /// What it has cost to trace, once.
-  void count(const ResponseCurve& curve);
+  void count(const ResponseCurve& curve, double position);
   void trace_ahead(const std::vector<double>& positions, int search_starts);
   [[nodiscard]] ContinuationOptions range_with(int search_starts) const;
   const Curve& curve_at(double position, int search_starts);
   void seed(double position, int search_starts = 0);
   void settle();
   void follow_values(std::size_t family, double from, double direction);
-  bool follow_to(std::size_t family, double target);
-  bool follow_from(std::size_t family, Peaks::const_iterator nearest, double target);
+  [[nodiscard]] long curve_cost() const;
+  bool follow_to(Followed& family, double target) const;
+  bool follow_from(Followed& family, Peaks::const_iterator nearest, double target) const;
   [[nodiscard]] std::optional<LocalPeak> followed(const Peaks& peaks, Peaks::const_iterator nearest,
-                                                  double target);
+                                                  double target, PeakWork& work) const;
+  [[nodiscard]] std::vector<std::size_t> highest_near(double position) const;
   [[nodiscard]] bool known_elsewhere(std::size_t family, double position) const;
   void search_everywhere(int search_starts);
   [[nodiscard]] bool agrees(const Peaks& peaks, double position) const;
@@ -147,8 +159,7 @@ class PeakFamilies {
   ContinuationOptions range_;     ///< with the harmonics that all peaks have
   PeakTraceOptions options_;
   double spacing_;
-  std::vector<Peaks> families_;
-  std::map<std::pair<std::size_t, double>, Reach> reach_;  // by family and position
+  std::vector<Followed> families_;
   std::map<double, Curve> curves_;
   /// Traced ahead of what asks for them: by position and number of starts of their search.
   std::map<std::pair<double, int>, ResponseCurve> ahead_;
