@@ -197,11 +197,22 @@ double bar_of(const Errors& errors) {
   return bar;
 }
 
+/// Where harmonics change a peak by more than some per cent, the error of the mesh was told at a peak that moves. Measured
+/// on the default blade: 2.3 and 1.0 % with nine harmonics are 6.3 and 5.5 % with those that are needed.
+double growth(const std::string& source, const Errors& errors, const Plan& plan) {
+  constexpr double moves_away = 0.02;
+  constexpr double factor = 3.0;
+  const auto harmonics = errors.find("harmonics");
+  if (source != "mesh" || harmonics == errors.end()) return 1.0;
+  const bool moves = harmonics->second > moves_away && !plan.moves.at("harmonics")->text.empty();
+  return moves ? factor : 1.0;
+}
+
 double bar_after(const Errors& errors, const Plan& plan) {
   double bar = 0.0;
   for (const auto& [source, error] : errors) {
     const Move& move = *plan.moves.at(source);
-    bar += std::min(error * move.factor, move.most);
+    bar += std::min(growth(source, errors, plan) * error * move.factor, move.most);
   }
   return bar;
 }

@@ -220,15 +220,21 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
 }
 
 /// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is not told by its size.
+/// By bisection, where the most that would be a gain do.
 void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich,
                                          const HarmonicSet& least) {
-  for (int highest = fewest_first_ones; highest < rich.set.highest(); ++highest) {
-    const HarmonicSet first = HarmonicSet(highest).united(least.orders()).united(least_.orders());
-    if (first.count() >= result.set.count() || (range_.stop && range_.stop())) return;
-    if (auto fewer = without(rich, first)) {
-      result = std::move(*fewer);
-      return;
-    }
+  const auto first = [&](int highest) {
+    return HarmonicSet(highest).united(least.orders()).united(least_.orders());
+  };
+  int too_few = fewest_first_ones - 1;
+  int enough = rich.set.highest();
+  while (enough > too_few && first(enough).count() >= result.set.count()) --enough;
+  for (int highest = enough; highest > too_few; highest = (too_few + enough) / 2) {
+    if (range_.stop && range_.stop()) return;
+    auto fewer = without(rich, first(highest));
+    if (!fewer && highest == enough) return;
+    if (fewer) result = std::move(*fewer);
+    (fewer ? enough : too_few) = highest;
   }
 }
 

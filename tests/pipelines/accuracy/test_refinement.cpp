@@ -115,6 +115,19 @@ TEST(Refinement, RefinesAtSharpEdgesBeforeEverywhere) {
   EXPECT_LT(*element_size_of(both->scene), 0.004) << "and then everywhere";
 }
 
+TEST(Refinement, TheErrorOfTheMeshIsDoubtedWhereHarmonicsMoveThePeak) {
+  std::string left;
+  const auto step_with = [&](double mesh, double harmonics) {
+    return refinement(blade(), {budget({{"mesh", mesh}, {"harmonics", harmonics}})}, tolerance,
+                      spent, left);
+  };
+  const auto near = step_with(0.004, 0.0195);
+  const auto far = step_with(0.004, 0.1);
+  ASSERT_TRUE(near && far);
+  EXPECT_FALSE(near->new_mesh) << near->text;
+  EXPECT_TRUE(far->new_mesh) << far->text;
+}
+
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
   std::string left;
   const std::vector<CurveBudget> told{
