@@ -199,7 +199,8 @@ std::string best_text(const solver::Optimum& optimum, const std::string& unit,
     return fmt::format("not found: {}{}", optimum.message, lowest_text(optimum));
   }
   if (!budget.has_bar() || optimum.best.place != solver::PeakPlace::peak) {
-    return fmt::format("{:.6g}{}, {}", optimum.best.parameter, unit, amplitude_text(optimum.best));
+    return fmt::format("{:.3g}{}, {}; how wrong that is is not known", optimum.best.parameter, unit,
+                       amplitude_text(optimum.best));
   }
   const auto rounded = [&](double value, const char* goal) {
     return with_half_width(value, bar_of(budget.rows, optimum_name, goal));
@@ -220,7 +221,7 @@ std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget
   }
   const solver::PeakOfParameter& best = optimum.best;
   if (!budget.has_bar() || best.place != solver::PeakPlace::peak) {
-    return fmt::format("best {:.6g}, {}", best.parameter, amplitude_text(best));
+    return fmt::format("best {:.3g}, {}", best.parameter, amplitude_text(best));
   }
   const auto rounded = [&](double value, const char* goal) {
     return with_digits_of(value, bar_of(budget.rows, optimum_name, goal));
@@ -234,14 +235,14 @@ std::string amplitude_text(const solver::PeakOfParameter& best) {
   const double frequency_hz = to_hz * best.frequency;
   switch (best.place) {
     case solver::PeakPlace::peak:
-      return fmt::format("peak {:.6g} m at {:.6g} Hz", best.amplitude, frequency_hz);
+      return fmt::format("peak {:.3g} m at {:.4g} Hz", best.amplitude, frequency_hz);
     case solver::PeakPlace::range_end:
-      return fmt::format("largest amplitude {:.6g} m at {:.6g} Hz, the end of the frequency range",
+      return fmt::format("largest amplitude {:.3g} m at {:.4g} Hz, the end of the frequency range",
                          best.amplitude, frequency_hz);
     case solver::PeakPlace::unsolved:
       break;
   }
-  return fmt::format("amplitude at least {:.6g} m, at {:.6g} Hz", best.amplitude, frequency_hz);
+  return fmt::format("amplitude at least {:.3g} m, at {:.4g} Hz", best.amplitude, frequency_hz);
 }
 
 std::string lowest_text(const solver::Optimum& optimum) {

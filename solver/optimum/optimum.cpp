@@ -522,15 +522,32 @@ void add_work(Optimum& sum, const Optimum& before) {
   sum.n_curves += before.n_curves;
 }
 
-/// Searches again as long as the peak at the best value asks for harmonics that those of other values have not.
+void add_work(Optimum& sum, const PeakWork& work) {
+  sum.iterations += work.iterations;
+  sum.contact_evaluations += work.contact_evaluations;
+}
+
+bool is_stopped(const Optimum& one) { return one.objection == out_of_time; }
+
+/// Searches again as long as the peak at the best value asks for harmonics that those of other values have not. Stopped
+/// in the middle it is what the search before has found.
 /// @param chosen  by other peaks; takes those in.
 Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationOptions& range,
                                   const OptimumOptions& options, ContinuationOptions& chosen,
                                   PeakWork& work) {
   constexpr int most_searches = 3;
   Optimum before;
+  double amplitude = 0.0;  // what was lacked there
   for (int searches = 1;; ++searches) {
     Optimum result = Search(family, chosen, options).run();
+    if (is_stopped(result) && before.found) {
+      add_work(before, result);
+      before.warnings.push_back(
+          sentence("out of time: with harmonics of its own the peak at the best value is ",
+                   amplitude) +
+          " m, and the search was not repeated with them");
+      return before;
+    }
     add_work(result, before);
     if (!result.found) return result;
     std::optional<LackedHarmonics> lacked =
@@ -543,6 +560,7 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
       return result;
     }
     chosen = std::move(lacked->range);
+    amplitude = lacked->amplitude;
     before = std::move(result);
   }
 }
@@ -558,10 +576,19 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
   ContinuationOptions lean = with_harmonics(range, least.united(HarmonicSet(few).orders()));
   lean.search_starts = 0;
   Optimum first = Search(family, lean, first_options).run();
-  const auto is_stopped = [](const Optimum& one) { return one.objection == out_of_time; };
   if (is_stopped(first)) return first;
-  if (!first.found) return Search(family, range, options).run();
   PeakWork work;
+  if (!first.found) {
+    const double middle = options.scale == ParameterScale::logarithmic
+                              ? std::sqrt(options.lower * options.upper)
+                              : 0.5 * (options.lower + options.upper);
+    ContinuationOptions everywhere =
+        with_common_harmonics(family, {options.lower, middle, options.upper}, range, work);
+    Optimum result = search_with_own_harmonics(family, range, options, everywhere, work);
+    add_work(result, first);
+    add_work(result, work);
+    return result;
+  }
   ContinuationOptions chosen = with_common_harmonics(family, {first.best.parameter}, range, work);
   const OptimumOptions near = about(options, first);
   Optimum result = search_with_own_harmonics(family, range, near, chosen, work);
@@ -576,8 +603,7 @@ Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions
     add_work(result, nearby);
   }
   add_work(result, first);
-  result.iterations += work.iterations;
-  result.contact_evaluations += work.contact_evaluations;
+  add_work(result, work);
   if (!again) {
     result.notes.push_back(sentence("with few harmonics the best value is ", first.best.parameter) +
                            sentence("; searched with those that it needs from ", near.lower) +

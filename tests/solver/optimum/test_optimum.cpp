@@ -375,6 +375,32 @@ TEST(MinimisePeak, StopsWithWhatThereIs) {
   EXPECT_FALSE(optimum.trace.empty());
 }
 
+// Where few harmonics find the best value at a bound, it is searched everywhere with those that are
+// chosen, once more with those that its own peak needs.
+TEST(MinimisePeak, WithChosenHarmonicsIsThatOfManyAtABoundToo) {
+  const SceneFamily family = [](double preload) {
+    Scene scene = tests::three_dof_scene(preload);
+    tests::use_event_cycles(scene);
+    return scene;
+  };
+  ContinuationOptions many =
+      frequency_range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 30.0);
+  many.n_harmonics = 9;
+  OptimumOptions options = preloads(120.0, 400.0);  // the best value lies below
+  options.relative_tolerance = 1e-2;
+  options.search_starts = 0;
+  const Optimum reference = minimise_peak(family, many, options);
+  ContinuationOptions chosen = many;
+  chosen.n_harmonics = 30;
+  chosen.harmonic_tolerance = 0.05;
+  const Optimum optimum = minimise_peak(family, chosen, options);
+  EXPECT_FALSE(optimum.found);
+  EXPECT_NE(optimum.message.find("bound"), std::string::npos) << optimum.message;
+  EXPECT_NEAR(optimum.best.parameter, 120.0, 1e-9);
+  EXPECT_NEAR(optimum.best.amplitude, reference.best.amplitude,
+              chosen.harmonic_tolerance * reference.best.amplitude);
+}
+
 TEST(MinimisePeak, SaysWhenNothingIsSolved) {
   // Rigid-body motion under a static load: no motion balances it, whatever the preload.
   const auto drifting = [](double preload) {
