@@ -29,6 +29,7 @@
 #include "contact/line/surface_line_events.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/sampled/patch_force.hpp"
+#include "tests/benchmarks/plain_return.hpp"
 #include "tests/support/asked_force.hpp"
 
 namespace {
@@ -161,11 +162,20 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
       if (n >= 8 * (kind.n_harmonics + 1)) add("lanes", n, in_lanes(samples, kind, n));
     }
   };
+  const auto add_plain_return = [&] {
+    for (const int n : {128, 512}) {
+      if (!plain) return;
+      add("plain return", n,
+          std::make_shared<microslip::benchmarks::PlainReturn>(samples.weights, samples.points,
+                                                               samples.shapes, n));
+    }
+  };
   if (kind.second_direction) {
     for (const double tolerance : {1e-13, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2}) {
       add("planar events", tolerance, by_methods(samples, kind, planar(tolerance)));
     }
     add_lanes();
+    add_plain_return();
     return methods;
   }
   if (plain) add("located events", 0.0, by_methods(samples, kind, located()));
@@ -178,6 +188,7 @@ std::vector<Method> methods_of(const Kind& kind, const Samples& samples) {
                                      samples.shapes));
   }
   add_lanes();
+  add_plain_return();
   return methods;
 }
 
@@ -327,6 +338,10 @@ void compare_cells(const Effort& effort, std::vector<Row>& rows) {
 
 std::vector<Kind> kinds() {
   const auto smooth = [](const PointParameters& point) { return SurfaceLaw(point, 0.8); };
+  // Of the plain return, which knows one stiffness.
+  const auto equal = [](const PointParameters& point) {
+    return SurfaceLaw(point, point.tangential_stiffness);
+  };
   const auto rough = [](const PointParameters& point) {
     return SurfaceLaw(point, 0.8, FrictionLaw::constant(0.4), RoughSurface::matching_gaussian(1.0));
   };
@@ -338,8 +353,8 @@ std::vector<Kind> kinds() {
           {"9 harmonics", 9, false, smooth},
           {"rough surfaces, 3 harmonics", 3, false, rough},
           {"friction by speed, 3 harmonics", 3, false, falling},
-          {"two directions, 1 harmonic", 1, true, smooth},
-          {"two directions, 3 harmonics", 3, true, smooth},
+          {"two directions, 1 harmonic", 1, true, equal},
+          {"two directions, 3 harmonics", 3, true, equal},
           {"two directions, rough, 3 harmonics", 3, true, rough},
           {"two directions, friction by speed, 3 harmonics", 3, true, falling}};
 }
