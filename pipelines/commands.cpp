@@ -176,7 +176,9 @@ int check(Arguments& arguments) {
   const SceneDescription scene = scene_of(arguments);
   if (arguments.picture) require_picture_name(*arguments.picture);
   std::unique_ptr<fem::SlepcSession> session;
-  if (has_static_preload(scene)) session = std::make_unique<fem::SlepcSession>();
+  if (!std::holds_alternative<ModalModel>(scene.model) && !fem::SlepcSession::is_open()) {
+    session = std::make_unique<fem::SlepcSession>();
+  }
   const InterruptWatch watch;
   const ResultCache cache(cache_of(arguments), [](const auto& line) { std::cout << line << '\n'; });
   const CheckResult result = check_study(scene, arguments.picture.value_or(""), std::cout);

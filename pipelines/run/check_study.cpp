@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -37,6 +38,7 @@ namespace {
 
 constexpr double memory_without_a_mesh = 0.06;  // [GB], measured
 constexpr double memory_before_modes = 0.15;    // with the libraries of finite elements
+constexpr double longest_solution = 2.0;        // [s] forecast, of modes that `check` solves for
 
 /// @param model  where effects are decided, else nullptr.
 void add_curves(const SceneDescription& scene, const ReducedModel* model, Forecast& forecast) {
@@ -172,14 +174,68 @@ void ask(CheckResult& result, const What&... what) {
   for (std::string& question : questions(what...)) result.warnings.push_back(std::move(question));
 }
 
-/// Modes of a file are read, not solved for: what `run` asks of modes can be asked here.
-ReducedModel check_given_modes(const mesh::Mesh& mesh, const SceneDescription& scene,
-                               CheckResult& result, std::ostream& out) {
-  const SolvedStructure structure{mesh, solve_structure(mesh, scene)};
+/// Modes are solved for where that is short: `run` takes them from there, and their questions need no run.
+bool is_short(const mesh::Mesh& mesh, const SceneDescription& scene) {
+  const double degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
+  if (modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes) > longest_solution) {
+    return false;
+  }
+  const SolverMemory memory = solver_memory(mesh, scene.settings.basis.solver);
+  return memory.needed_mb() <= memory.available.megabytes;
+}
+
+/// Of a file, kept by an earlier run, or quickly solved for; empty: known to `run` alone.
+std::optional<StructureModes> modes_to_ask(const mesh::Mesh& mesh, const SceneDescription& scene,
+                                           std::ostream& out) {
+  if (given_modes(scene) != nullptr) return solve_structure(mesh, scene);
+  if (!scene.response) return std::nullopt;
+  if (auto kept = kept_structure(mesh, scene)) return kept;
+  if (!is_short(mesh, scene)) return std::nullopt;
+  out << "modes: solved for, as that takes seconds\n";
+  return solve_structure(mesh, scene);
+}
+
+/// The two linear limits in a line.
+std::string describe_frequencies(const ReducedModel& model) {
+  const Eigen::VectorXd free =
+      model.frequency.head(model.frequency.size() - model.n_attachment) / (2.0 * std::numbers::pi);
+  std::string text = fmt::format("natural frequencies: {} from {:.6g} to {:.6g} Hz", free.size(),
+                                 free.minCoeff(), free.maxCoeff());
+  if (model.patches.empty()) return text;
+  return text + fmt::format("; with every contact point stuck from {:.6g} Hz",
+                            stuck_frequencies(model).minCoeff());
+}
+
+/// What `run` asks of modes.
+ReducedModel check_modes(const SolvedStructure& structure, const SceneDescription& scene,
+                         CheckResult& result, std::ostream& out) {
   for (const std::string& line : structure.modes.notes) out << line << '\n';
   result.warnings.insert(result.warnings.end(), structure.modes.warnings.begin(),
                          structure.modes.warnings.end());
-  return model_of(scene, &structure, result.warnings);
+  ReducedModel model = model_of(scene, &structure, result.warnings);
+  if (scene.response) {
+    require_held(model, scene);
+    require_curves(model, scene);
+  }
+  out << describe_frequencies(model) << '\n';
+  return model;
+}
+
+/// What the matrices say by themselves.
+void check_matrices(const mesh::Mesh& mesh, const SceneDescription& scene, bool modes_tell,
+                    CheckResult& result, std::ostream& out) {
+  const fem::GivenMatrices matrices = matrices_of(mesh, scene);  // they are read and checked
+  fmt::print(out, "mass of what is free to move, by the matrix: {:.6g} kg\n", free_mass(matrices));
+  if (modes_tell) return;
+  if (std::string question = mass_question(mesh, matrices); !question.empty()) {
+    result.warnings.push_back(std::move(question));
+  }
+}
+
+std::string static_preload_in(const mesh::Mesh& mesh, const SceneDescription& scene,
+                              const std::optional<StructureModes>& modes) {
+  return modes && modes->static_face ? describe_static_preload(mesh, scene, *modes->static_face)
+                                     : describe_static_preload(mesh, scene);
 }
 
 /// @return the model, where the scene brings its modes.
@@ -194,25 +250,22 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
   for (const std::string& line : describe_places(mesh, scene)) out << line << '\n';
   for (std::string& warning : mesh::shape_warnings(mesh))
     result.warnings.push_back(std::move(warning));
-  std::optional<ReducedModel> model;
-  if (given_modes(scene) != nullptr) {
-    model = check_given_modes(mesh, scene, result, out);
-  } else if (given_matrices(scene) != nullptr) {
-    const fem::GivenMatrices matrices = matrices_of(mesh, scene);  // they are read and checked
-    fmt::print(out, "mass of what is free to move, by the matrix: {:.6g} kg\n",
-               free_mass(matrices));
-    if (std::string question = mass_question(mesh, matrices); !question.empty()) {
-      result.warnings.push_back(std::move(question));
-    }
-  } else if (scene.clamped.empty() && scene.response) {
+  std::optional<StructureModes> modes = modes_to_ask(mesh, scene, out);
+  if (given_matrices(scene) != nullptr) {
+    check_matrices(mesh, scene, modes.has_value(), result, out);
+  } else if (given_modes(scene) == nullptr && scene.clamped.empty() && scene.response) {
     result.warnings.emplace_back(
         "nothing is clamped: the structure has rigid-body modes, which only a contact that "
         "sticks holds");
   }
   ask(result, scene, mesh);
-  if (model) ask(result, scene, *model);
+  std::optional<ReducedModel> model;
+  if (modes) {
+    model = check_modes({mesh, *modes}, scene, result, out);
+    ask(result, scene, *model);
+  }
   if (const std::string text = describe_preload(mesh, scene); !text.empty()) out << text << '\n';
-  if (has_static_preload(scene)) out << describe_static_preload(mesh, scene) << '\n';
+  if (has_static_preload(scene)) out << static_preload_in(mesh, scene, modes) << '\n';
   if (!picture.empty()) {
     const std::string failure = draw_scene(mesh, scene, picture);
     if (!failure.empty()) result.warnings.push_back("--plot: " + failure);
@@ -231,8 +284,10 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
 const char* left_to_run(bool modes_are_known) {
   return modes_are_known
              ? "asked by `run` alone, which knows the curves: how large the amplitude is\n"
-             : "asked by `run` alone, which knows the modes and the curves: whether modes lie in "
-               "the frequency range, whether the face slides along r, how large the amplitude is\n";
+             : "asked by `run`, which knows the modes and the curves: whether modes lie in the "
+               "frequency range, whether the face slides along r, how large the amplitude is; the "
+               "first two by `check` as well once `modes` or a run has kept the modes, which take "
+               "too long to be solved for here\n";
 }
 
 }  // namespace

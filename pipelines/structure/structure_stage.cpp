@@ -126,18 +126,20 @@ StructureModes solve_on_all_ranks(const StructureTask& task) {
   return modes;
 }
 
+StructureModes modes_in(const std::string& kept) {
+  StructureModes modes;
+  ByteReader reader(kept);
+  reader(modes);
+  modes.timings = {};
+  return modes;
+}
+
 StructureModes solved(const StructureTask& task) {
   ResultCache* cache = ResultCache::in_use();
   if (cache == nullptr) return solve_on_all_ranks(task);
   const ResultCache::Entry entry = cache->entry("modes", bytes_of(task) + arithmetic());
-  StructureModes modes;
-  if (const auto made = entry.find()) {
-    ByteReader reader(*made);
-    reader(modes);
-    modes.timings = {};
-    return modes;
-  }
-  modes = solve_on_all_ranks(task);
+  if (const auto made = entry.find()) return modes_in(*made);
+  StructureModes modes = solve_on_all_ranks(task);
   ByteWriter bytes;
   bytes(modes);
   entry.keep(bytes.bytes());
@@ -226,6 +228,17 @@ StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& s
   if (given_modes(scene) != nullptr) return given_structure(mesh, scene);
   StructureModes modes = given_matrices(scene) != nullptr ? solved_from_matrices(mesh, scene)
                                                           : solved(task_of(mesh, scene));
+  if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
+  return modes;
+}
+
+std::optional<StructureModes> kept_structure(const mesh::Mesh& mesh,
+                                             const SceneDescription& scene) {
+  const ResultCache* cache = ResultCache::in_use();
+  if (cache == nullptr || given_modes(scene) != nullptr) return std::nullopt;
+  const auto kept = cache->kept("modes", bytes_of(task_of(mesh, scene)) + arithmetic());
+  if (!kept) return std::nullopt;
+  StructureModes modes = modes_in(*kept);
   if (has_static_preload(scene)) modes.static_face = static_face(mesh, scene);
   return modes;
 }

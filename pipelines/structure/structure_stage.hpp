@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "mesh/mesh.hpp"
@@ -33,5 +34,9 @@ void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 /// instead (given_modes.hpp). What an earlier run has solved is taken from there (system/result_cache.hpp). The
 /// residual flexibility of a structure that floats is that of inertia relief.
 [[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
+
+/// The same where an earlier run has kept it: nothing is solved but the statics of a static preload. Empty: it has not.
+[[nodiscard]] std::optional<StructureModes> kept_structure(const mesh::Mesh& mesh,
+                                                           const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -106,6 +106,31 @@ ResultCache::Entry ResultCache::entry(std::string kind, std::string_view inputs)
   return {*this, std::move(kind), inputs};
 }
 
+fs::path ResultCache::file_of(std::string_view kind, std::string_view inputs) const {
+  const std::uint64_t number = fingerprint(inputs);
+  const std::uint64_t again = fingerprint(inputs, ~number);  // 64 bits alone may meet by chance
+  return folder_ / fmt::format("{}-{:016x}{:016x}.cached", kind, number, again);
+}
+
+std::optional<std::string> ResultCache::found_in(const fs::path& file,
+                                                 std::string_view kind) const {
+  const std::string content = bytes_of(file);
+  if (content.empty()) return std::nullopt;
+  const Unsealed kept = unsealed(header(), content);
+  if (!kept.fault.empty()) {
+    tell_(fmt::format("{}: {}: {}; it is made again", kind, file.string(), kept.fault));
+    return std::nullopt;
+  }
+  std::error_code ignored;  // a folder that can only be read
+  fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // what is used stays
+  tell_(fmt::format("{}: taken from an earlier run, {}", kind, file.string()));
+  return std::string(kept.bytes);
+}
+
+std::optional<std::string> ResultCache::kept(std::string_view kind, std::string_view inputs) const {
+  return found_in(file_of(kind, inputs), kind);
+}
+
 void ResultCache::make_room(std::uintmax_t bytes) const {
   std::vector<File> files = files_in(folder_);
   for (const File& file : files) bytes += file.size;
@@ -122,11 +147,9 @@ void ResultCache::make_room(std::uintmax_t bytes) const {
 
 ResultCache::Entry::Entry(ResultCache& cache, std::string kind, std::string_view inputs)
     : cache_(cache), kind_(std::move(kind)) {
-  const std::uint64_t number = fingerprint(inputs);
-  const std::uint64_t again = fingerprint(inputs, ~number);  // 64 bits alone may meet by chance
-  file_ = cache.folder_ / fmt::format("{}-{:016x}{:016x}.cached", kind_, number, again);
+  file_ = cache.file_of(kind_, inputs);
   lock_ = ::open((cache.folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ >= 0) wait_for_turn(number);
+  if (lock_ >= 0) wait_for_turn(fingerprint(inputs));
 }
 
 ResultCache::Entry::~Entry() {
@@ -148,17 +171,7 @@ void ResultCache::Entry::wait_for_turn(std::uint64_t number) {
 }
 
 std::optional<std::string> ResultCache::Entry::find() const {
-  const std::string content = bytes_of(file_);
-  if (content.empty()) return std::nullopt;
-  const Unsealed kept = unsealed(header(), content);
-  if (!kept.fault.empty()) {
-    cache_.tell_(fmt::format("{}: {}: {}; it is made again", kind_, file_.string(), kept.fault));
-    return std::nullopt;
-  }
-  std::error_code ignored;  // a folder that can only be read
-  fs::last_write_time(file_, fs::file_time_type::clock::now(), ignored);  // what is used stays
-  cache_.tell_(fmt::format("{}: taken from an earlier run, {}", kind_, file_.string()));
-  return std::string(kept.bytes);
+  return cache_.found_in(file_, kind_);
 }
 
 void ResultCache::Entry::keep(std::string_view bytes) const {

@@ -61,12 +61,19 @@ class ResultCache {
     int lock_ = -1;
   };
 
+  /// What was kept, as an entry finds it, for who can do without: another run that is making it is not waited for.
+  [[nodiscard]] std::optional<std::string> kept(std::string_view kind,
+                                                std::string_view inputs) const;
+
   /// @param kind    what it is, for names and messages: "mesh", "modes".
   /// @param inputs  all that it follows from.
   /// @throws InterruptedError  while another run was waited for.
   [[nodiscard]] Entry entry(std::string kind, std::string_view inputs);
 
  private:
+  [[nodiscard]] std::filesystem::path file_of(std::string_view kind, std::string_view inputs) const;
+  [[nodiscard]] std::optional<std::string> found_in(const std::filesystem::path& file,
+                                                    std::string_view kind) const;
   void make_room(std::uintmax_t bytes) const;
 
   std::filesystem::path folder_;
