@@ -76,6 +76,7 @@ struct MeshFileModel {
   std::filesystem::path file;           ///< absolute
   std::optional<double> length_unit;    ///< metres per unit of the file; none: as the file says
   std::string place;                    ///< "file:line: key" of `file`, for messages
+  std::optional<int> order;             ///< of its elements as the scene says; the file counts
   std::optional<ModesFile> modes;       ///< none: the modes are solved for
   std::optional<MatrixFiles> matrices;  ///< none: K and M are those of the finite elements
 };

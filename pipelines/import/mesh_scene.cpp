@@ -282,6 +282,7 @@ std::string scene_of_mesh(const std::filesystem::path& file, const std::filesyst
   require_whole(read);
   SceneMaker maker(read, file);
   maker.set_file("model.file", file, folder);
+  maker.set("model.order", mesh::is_quadratic(read.mesh.elements().front().type) ? "2" : "1");
   return maker.make("mesh");
 }
 

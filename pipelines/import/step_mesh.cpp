@@ -1,10 +1,9 @@
 #include "pipelines/import/step_mesh.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "mesh/mesh_error.hpp"
+#include "pipelines/description/element_count.hpp"
 #include "pipelines/import/face_choice.hpp"
 #include "pipelines/import/mesher_limits.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -43,23 +42,22 @@ void require_unit(const StepModel& model, const std::vector<mesh::StepUnit>& uni
 }
 
 /// The mesher would work long for nothing.
-void require_sensible_elements(const StepModel& model, const mesh::StepGeometry& geometry) {
-  const double side = longest_side(geometry);
-  if (model.element_size > side) {
-    throw SceneError(
-        fmt::format("{}: {:g} m is more than the body is long, {:.3g} m; is it in "
-                    "millimetres? give the unit",
-                    model.size_place, model.element_size, side));
-  }
-  constexpr double per_cube = 8.5;  // regular tetrahedra
-  constexpr double most = 5e6;
-  const double n = per_cube * geometry.volume / std::pow(model.element_size, 3);
-  if (n > most) {
-    throw SceneError(
-        fmt::format("{}: {:g} m would make some {:.1g} elements of a body of {:.3g} "
-                    "m^3; at most {:.0g} are meshed: a larger size",
-                    model.size_place, model.element_size, n, geometry.volume, most));
-  }
+void require_few_elements(const StepModel& model, const StepBody& body) {
+  const std::string fault =
+      too_many_elements(model.element_size, body.geometry.volume, longest_side(body.geometry));
+  if (!fault.empty()) throw SceneError(fmt::format("{}: {}", model.size_place, fault));
+}
+
+/// What the mesher says does not know the scene.
+[[noreturn]] void blame_unusual_size(const StepModel& model, const StepBody& body,
+                                     const mesh::MeshError& error) {
+  const double height = longest_side(body.geometry);
+  if (model.element_size <= largest_usual_element * height) throw error;
+  throw SceneError(fmt::format(
+      "{}: with elements of {:g} m no mesh is made of a body that is {:.3g} m long; usual is {}: "
+      "is "
+      "it in millimetres? give the unit ({})",
+      model.size_place, model.element_size, height, usual_element_sizes(height), error.what()));
 }
 
 mesh::StepMeshing meshing_of(const StepModel& model, const mesh::StepGeometry& geometry) {
@@ -117,11 +115,15 @@ void mesh_step_model(const StepModel& model, const fs::path& file) {
   if (const std::string doubt = size_doubt(body); !doubt.empty()) {
     throw SceneError(fmt::format("{}: {}: {}", model.place, model.file.filename().string(), doubt));
   }
-  require_sensible_elements(model, body.geometry);
+  require_few_elements(model, body);
   const mesh::StepMeshing meshing = meshing_of(model, body.geometry);
-  with_mesher([&](const mesh::MesherLimits& limits) {
-    mesh::mesh_step(body.source, meshing, file, limits);
-  });
+  try {
+    with_mesher([&](const mesh::MesherLimits& limits) {
+      mesh::mesh_step(body.source, meshing, file, limits);
+    });
+  } catch (const mesh::MeshError& error) {
+    blame_unusual_size(model, body, error);
+  }
 }
 
 }  // namespace microslip::pipelines

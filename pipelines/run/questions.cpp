@@ -19,6 +19,7 @@
 
 #include "mesh/surface.hpp"
 #include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/element_count.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/scene_places.hpp"
@@ -391,7 +392,8 @@ constexpr std::array table{
     Question{Stage::scene, "the density", "kg/m^3", 300.0, 25000.0,
              "composites 1600, titanium 4400, steel 7800",
              "is it in g/cm^3 or t/mm^3? give the unit", density},
-    Question{Stage::scene, "the element size", "% of the blade's height", 0.1, 25.0, "",
+    Question{Stage::scene, "the element size", "% of the blade's height",
+             percent* smallest_usual_element, percent* largest_usual_element, "",
              "is it in millimetres? give the unit", element_size},
     Question{Stage::scene, "the friction coefficient", "", 0.0, 2.0, "metals 0.1 to 1",
              "is it in percent? give it so, \"40 %\"", friction_coefficient},
@@ -403,7 +405,8 @@ constexpr std::array table{
              rayleigh_damping},
     Question{Stage::scene, "a load is given", "×", 1.0, 1.0, "", "each makes the same curve",
              repeated_preload},
-    Question{Stage::mesh, "the element size", "% of the blade's height", 0.1, 25.0, "",
+    Question{Stage::mesh, "the element size", "% of the blade's height",
+             percent* smallest_usual_element, percent* largest_usual_element, "",
              "is it in millimetres? give the unit", element_size_of_step},
     Question{Stage::mesh, "the longest side of the mesh", "m", 2e-3, 3.0, "blades 0.02 to 3",
              "is the file in another unit than length_unit says?", size},
@@ -482,6 +485,19 @@ std::vector<std::string> asked(Stage stage, const Facts& facts) {
   return sentences;
 }
 
+/// The file counts. @return "": the scene says the same, or nothing
+std::string order_question(const SceneDescription& scene, const mesh::Mesh& mesh) {
+  const auto* file = std::get_if<MeshFileModel>(&scene.model);
+  if (file == nullptr || !file->order) return {};
+  const mesh::ElementType type = mesh.elements().front().type;
+  const int order = mesh::is_quadratic(type) ? 2 : 1;
+  if (order == *file->order) return {};
+  return fmt::format(
+      "model.order: {} is written, the elements of {} are of order {} ({}), and are taken as they "
+      "are: is it the file that is meant?",
+      *file->order, file->file.filename().string(), order, name(type));
+}
+
 }  // namespace
 
 std::vector<std::string> questions(const SceneDescription& scene) {
@@ -490,6 +506,9 @@ std::vector<std::string> questions(const SceneDescription& scene) {
 
 std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh) {
   std::vector<std::string> sentences = mesh.remarks();
+  if (std::string question = order_question(scene, mesh); !question.empty()) {
+    sentences.push_back(std::move(question));
+  }
   for (std::string& sentence : asked(Stage::mesh, {.scene = scene, .mesh = &mesh})) {
     sentences.push_back(std::move(sentence));
   }

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "pipelines/description/element_count.hpp"
 #include "pipelines/sections/modes_section.hpp"
 #include "pipelines/sections/points_section.hpp"
 #include "pipelines/system/mesh_format.hpp"
@@ -42,6 +43,9 @@ BladeModel read_blade(const SectionReader& s) {
   g.tip_stagger = s.number("tip_stagger");
   g.camber = s.number("camber");
   g.lean = s.number("lean");
+  const double height = g.root_height + g.platform_height + g.span;
+  const std::string fault = too_many_elements(model.sizes.element_size, blade_volume(g), height);
+  if (!fault.empty()) s.fail("element_size", fault);
   return model;
 }
 
@@ -161,8 +165,8 @@ StepModel read_step_file(SectionReader s, const std::filesystem::path& folder) {
 }
 
 MeshFileModel read_mesh_file(SectionReader s, const std::filesystem::path& folder) {
-  static_cast<void>(s.integer("order"));
   MeshFileModel model;
+  if (s.given("order")) model.order = s.integer("order");
   require_mesh_format(s, "file", s.text("file"));
   model.file = absolute_file(s, "file", folder);
   model.place = s.place("file");

@@ -29,6 +29,10 @@ constexpr KeySpec kind_key{
     "kind", text, "", "", 0, 0, false, "blade | step | mesh | modes | modal | bar | chain | block"};
 constexpr KeySpec order_key{"order", integer, "", "2", 2, 2, false, "order of the elements"};
 
+/// A mesh file has its own.
+constexpr KeySpec file_order_key{
+    "order", integer, "", "", 1, 2, false, "order of the elements, as the file has it", true};
+
 constexpr std::array blade_keys{
     kind_key,
     length_key("element_size", "\"4 mm\"", "target edge length of the mesh"),
@@ -92,7 +96,7 @@ constexpr std::array mesh_keys{
             "(then "
             "m) and for files that tell it",
             true},
-    order_key,
+    file_order_key,
 };
 
 constexpr std::array modes_model_keys{

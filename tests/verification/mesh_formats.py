@@ -16,6 +16,8 @@ import subprocess
 import sys
 import unittest
 
+import numpy as np
+
 from program_run import run_scene, without_plots
 
 PROGRAM, SOURCE, WORK = sys.argv[1:4]
@@ -140,6 +142,24 @@ class Formats(unittest.TestCase):
             self.assertIn("\n" + line, scene)
         mesh_files.write_unv(in_millimetres, self.path("begin.unv"), millimetres=True)
         self.assertNotIn("\nlength_unit", self.scene_of("begin.unv"))
+
+    def test_init_writes_the_order_of_the_file(self):
+        """Written otherwise it is questioned: the file counts."""
+        mesh_files.write_inp(self.mesh, self.path("curved.inp"))
+        self.assertIn("\norder = 2", self.scene_of("curved.inp"))
+        corners = {"tetra": connectivity[:, :4] for connectivity in self.mesh.blocks.values()}
+        used = np.unique(corners["tetra"])
+        number = np.full(len(self.mesh.nodes), -1)
+        number[used] = np.arange(len(used))
+        surfaces = {name: number[np.array(self.mesh.surfaces[name])] for name in ("root", "contact")}
+        mesh_files.write_inp(mesh_files.Mesh(self.mesh.nodes[used], {"tetra": number[corners["tetra"]]}, surfaces, {}),
+                             self.path("straight.inp"))
+        self.assertIn("\norder = 1", self.scene_of("straight.inp"))
+        told = subprocess.run([PROGRAM, "check", self.path("straight.inp.toml"), "--set", "model.order=2"],
+                              capture_output=True, text=True).stdout
+        self.assertIn("model.order: 2 is written, the elements of straight.inp are of order 1 (tet4)", told)
+        self.assertNotIn("model.order", subprocess.run([PROGRAM, "check", self.path("straight.inp.toml")],
+                                                       capture_output=True, text=True).stdout)
 
     def test_init_prints_a_scene_for_the_working_folder(self):
         mesh_files.write_inp(self.mesh, self.path("printed.inp"))

@@ -144,13 +144,22 @@ class StepFiles(unittest.TestCase):
                 ("faces.contact={ near = [0, 0, 0], number = 6 }", ["goes with normal"]),
                 ("faces.contact={ pont = [0, 0, 0] }", ["did you mean \"point\""]),
                 ("faces.contact=[{ number = 6 }, { number = 6 }]", ["face 6 is meant twice"]),
-                ("model.element_size=4", ["model.element_size", "more than the body is long"]),
-                ("model.element_size=4e-6", ["model.element_size", "elements", "larger size"]),
+                ("model.element_size=4e-6", ["model.element_size", "elements", "usual is 0.00015 to 0.037 m", "larger size"]),
                 ("model.length_unit=m", ["model.file", "blade.step", "149 m long", "length_unit"])):
             with self.subTest(value):
                 message = self.refusal(value)
                 for word in words:
                     self.assertIn(word, message)
+
+    def test_the_element_size_is_treated_as_that_of_a_blade(self):
+        """Questioned where a mesh is possible, refused where it would have too many elements."""
+        blade = os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml")
+        for scene in (SCENE, blade):
+            with self.subTest(scene):
+                told = program("check", scene, "--set", "model.element_size=4 m")
+                self.assertIn("warning: model.element_size: the element size is 2683 % of the blade's height (4 m); usual is 0.1 to 25 %", told)
+                told = program("check", scene, "--set", "model.element_size=4 um", code=1)
+                self.assertRegex(told, "model.element_size: 4e-06 m would make some .* elements .* usual is 0.00015 to 0.037 m")
 
     def test_bad_files(self):
         self.changed_file("cut.step", lambda text: text[:len(text) // 2])
