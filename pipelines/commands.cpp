@@ -26,6 +26,7 @@
 #include "pipelines/import/mesher_limits.hpp"
 #include "pipelines/import/step_mesh.hpp"
 #include "pipelines/import/step_scene.hpp"
+#include "pipelines/record/failed_start.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/sections/static_section.hpp"
@@ -204,9 +205,9 @@ int check(Arguments& arguments) {
 
 int run_scene(Arguments& arguments, const Study& study) {
   if (arguments.dry_run) return check(arguments);
-  const SceneDescription scene = scene_of(arguments);
   choose_run_folder(arguments);
   require_folder_name(arguments.output, "-o");
+  const SceneDescription scene = begin_in(arguments.output, [&] { return scene_of(arguments); });
   if (arguments.resume) {
     if (const auto code = ended_run(arguments.output, scene.complete_toml)) {
       std::cerr << fmt::format("{}: the run has come to its end: nothing to resume\n",

@@ -2,6 +2,7 @@
 
 #include "contact/spare_cores.hpp"
 #include "fem/slepc_session.hpp"
+#include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_record.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/accurate_curves.hpp"
@@ -18,7 +19,7 @@
 namespace microslip::pipelines {
 
 int run_study(const SceneDescription& scene, const RunOptions& options) {
-  require_response(scene);
+  begin_in(options.output, [&] { require_response(scene); });
   begin_deadline(scene.accuracy.budget);
   RunRecord record(scene, options);
   const ResultCache cache(options.cache, [&](const auto& line) { record.progress().info(line); });

@@ -240,7 +240,8 @@ std::optional<int> ended_run(const fs::path& folder, const std::string& scene_to
   }
   require_same_scene(ended, bytes_of(ended), scene_toml);
   const auto document = parse_json(bytes_of(summary), summary.string());
-  return static_cast<int>(JsonEntry(document, summary.string()).integer("exit_code"));
+  const JsonEntry told(document, summary.string());  // of one that failed since, or its own
+  return static_cast<int>((told.has("earlier") ? told.at("earlier") : told).integer("exit_code"));
 }
 
 }  // namespace pipelines

@@ -134,6 +134,14 @@ RunFolder::~RunFolder() {
 
 bool RunFolder::has_list(const fs::path& folder) { return fs::exists(folder / list_name); }
 
+bool RunFolder::is_held(const fs::path& folder) {
+  const int descriptor = ::open((folder / ".lock").c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);
+  return !is_free;
+}
+
 void RunFolder::unlock() {
   if (lock_ < 0) return;
   ::unlink((folder_ / ".lock").c_str());

@@ -30,6 +30,8 @@ class RunFolder {
 
   /// Whether a folder tells what runs have written in it: those of older versions do not.
   [[nodiscard]] static bool has_list(const std::filesystem::path& folder);
+  /// Whether a run is writing there.
+  [[nodiscard]] static bool is_held(const std::filesystem::path& folder);
   [[nodiscard]] std::filesystem::path staged() const { return folder_ / "checkpoint" / "staged"; }
   /// Something that this run has not written stands in the place of what is staged.
   [[nodiscard]] bool would_replace() const;

@@ -25,6 +25,7 @@
 #include "pipelines/files/write_report.hpp"
 #include "pipelines/files/write_summary.hpp"
 #include "pipelines/files/write_vtk.hpp"
+#include "pipelines/record/failed_start.hpp"
 #include "pipelines/record/run_folder.hpp"
 #include "pipelines/record/run_messages.hpp"
 #include "pipelines/response/effects_of_curves.hpp"
@@ -94,8 +95,17 @@ void RunRecord::put_summary_aside() {
   if (no_links) std::filesystem::rename(folder_ / "summary.json", aside);
 }
 
-void RunRecord::restore_summary() {
-  std::filesystem::rename(earlier_summary(folder_), folder_ / "summary.json");
+void RunRecord::restore_summary(ExitCode code, const std::string& message) {
+  const std::filesystem::path aside = earlier_summary(folder_);
+  std::string text;
+  try {
+    text = summary_of_failed_start(aside, code, message);
+  } catch (const SceneError&) {  // it was no summary before: it stays what it was
+    std::filesystem::rename(aside, folder_ / "summary.json");
+    throw;
+  }
+  write_whole(folder_ / "summary.json", text);
+  std::filesystem::remove(aside);
 }
 
 std::filesystem::path RunRecord::mesh_file() const { return staged_ / "mesh.msh"; }
@@ -510,7 +520,7 @@ void RunRecord::fail(ExitCode code, const std::string& message) {
     if (begun_) {
       tell_failure(code, message);
     } else {
-      restore_summary();
+      restore_summary(code, message);
     }
   } catch (const std::exception& error) {
     progress_.error(error.what());  // the first error is the one to report

@@ -130,9 +130,9 @@ class RunRecord {
 
   /// Takes the folder over from an earlier run.
   void begin();
-  /// Until then its summary.json is kept aside, and put back if this one comes to nothing.
+  /// Until then its summary.json is kept aside, and put back if this one comes to nothing, which it then tells.
   void put_summary_aside();
-  void restore_summary();
+  void restore_summary(ExitCode code, const std::string& message);
 
   std::filesystem::path folder_;
   RunStart start_;

@@ -521,17 +521,24 @@ TEST_F(Program, ARunReplacesAnEarlierOneWholeAndNothingElse) {
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
 }
 
-/// A run that is refused after the folder was looked at leaves the one before as it was.
+/// A run that is refused after the folder was looked at leaves the results before as they were, and tells its own end.
 TEST_F(Program, ABadRunCostsNothingOfTheOneBefore) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -q -o out", 0, {});
-  const std::string before = content_of(path("out/summary.json"));
+  const Json before = Json::parse(content_of(path("out/summary.json")));
   write(path("mesh.toml"),
         "[model]\nkind = \"mesh\"\nfile = \"none.msh\"\n[material]\nyoungs_modulus = 2e11\n"
         "poissons_ratio = 0.3\ndensity = 7800\n");
   write(path("none.msh"), "no mesh");
   expect("modes mesh.toml -q -o out", 1, {"none.msh"});
-  EXPECT_EQ(content_of(path("out/summary.json")), before);
+  Json after = Json::parse(content_of(path("out/summary.json")));
+  EXPECT_EQ(after["exit_code"], 1);
+  EXPECT_NE(after["message"].get<std::string>().find("none.msh"), std::string::npos);
+  EXPECT_EQ(after["earlier"]["exit_code"], 0);
+  after.erase("earlier");
+  after["exit_code"] = before["exit_code"];
+  after["message"] = before["message"];
+  EXPECT_EQ(after, before);
   EXPECT_TRUE(exists("out/curves/scale_1.csv"));
 }
 
