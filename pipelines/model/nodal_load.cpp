@@ -10,9 +10,15 @@
 namespace microslip::pipelines {
 namespace {
 
+/// A surface, or a set of nodes that are those of whole faces.
+bool is_face(const mesh::Mesh& mesh, const std::string& at) {
+  if (std::ranges::count(mesh.surface_names(), at) > 0) return true;
+  return mesh.has_faces(at) && mesh.surface(at).nodes.size() == mesh.node_set(at).size();
+}
+
 /// Share of each mesh node, n_nodes, sum 1.
 Eigen::VectorXd shares_of(const mesh::Mesh& mesh, const std::string& at) {
-  if (std::ranges::count(mesh.surface_names(), at) > 0) {
+  if (is_face(mesh, at)) {
     const Eigen::VectorXd areas = fem::nodal_areas(mesh.nodes(), mesh.surface(at));
     return areas / areas.sum();
   }

@@ -208,6 +208,18 @@ class Formats(unittest.TestCase):
         self.check("blade.bdf", {"root": "SPC 1", "contact": "PLOAD4 1", "A": f"SET {points.index('A') + 1}",
                                  "B": f"SET {points.index('B') + 1}"})
 
+    def test_a_force_on_a_face_is_the_same_by_its_faces_and_by_its_nodes(self):
+        """A set of nodes that are those of whole faces is the face."""
+        at = {**PLAIN, "B": "tip"}
+        expected = result_of("blade.msh", at, unit=None)
+        for name, write in (("tip.med", mesh_files.write_med), ("tip.vtu", mesh_files.write_vtk),
+                            ("tip.inp", lambda mesh, path: mesh_files.write_inp(mesh, path, node_surfaces=("tip",)))):
+            with self.subTest(name):
+                write(self.mesh, self.path(name))
+                worst = max(abs(a / b - 1.0) for a, b in zip(result_of(name, at), expected, strict=True))
+                print(f"{name}: frequencies and peak differ by {worst:.1e}")
+                self.assertLess(worst, TOLERANCE)
+
     def test_universal_with_units(self):
         in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks, self.mesh.surfaces, self.mesh.points)
         mesh_files.write_unv(in_millimetres, self.path("blade.unv"), millimetres=True)
