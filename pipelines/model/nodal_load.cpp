@@ -10,15 +10,9 @@
 namespace microslip::pipelines {
 namespace {
 
-/// A surface, or a set of nodes that are those of whole faces.
-bool is_face(const mesh::Mesh& mesh, const std::string& at) {
-  if (std::ranges::count(mesh.surface_names(), at) > 0) return true;
-  return mesh.has_faces(at) && mesh.surface(at).nodes.size() == mesh.node_set(at).size();
-}
-
 /// Share of each mesh node, n_nodes, sum 1.
 Eigen::VectorXd shares_of(const mesh::Mesh& mesh, const std::string& at) {
-  if (is_face(mesh, at)) {
+  if (is_spread(mesh, at)) {
     const Eigen::VectorXd areas = fem::nodal_areas(mesh.nodes(), mesh.surface(at));
     return areas / areas.sum();
   }
@@ -29,6 +23,11 @@ Eigen::VectorXd shares_of(const mesh::Mesh& mesh, const std::string& at) {
 }
 
 }  // namespace
+
+bool is_spread(const mesh::Mesh& mesh, const std::string& at) {
+  if (std::ranges::count(mesh.surface_names(), at) > 0) return true;
+  return mesh.has_faces(at) && mesh.surface(at).nodes.size() == mesh.node_set(at).size();
+}
 
 Eigen::VectorXd unit_load(const mesh::Mesh& mesh, const std::string& at,
                           const Eigen::Vector3d& direction) {

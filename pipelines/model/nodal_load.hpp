@@ -14,6 +14,9 @@
 
 namespace microslip::pipelines {
 
+/// Whether a force at what `at` names is spread over an area.
+[[nodiscard]] bool is_spread(const mesh::Mesh& mesh, const std::string& at);
+
 /// Unit force along a direction on what `at` names, which is also the mean motion it works on:
 /// 3 n_nodes [-], the shares sum to 1.
 /// @throws mesh::MeshError  no such surface, point or set.

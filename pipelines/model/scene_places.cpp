@@ -14,6 +14,7 @@
 #include "pipelines/import/step_mesh.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
+#include "pipelines/model/nodal_load.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -30,12 +31,12 @@ std::vector<Eigen::Index> nodes_of(const mesh::Mesh& mesh, PlaceRole role,
   return takes_surface ? mesh.surface(name).nodes : mesh.node_set(name);
 }
 
-/// A force at a set is the same at each of its nodes, an output their mean: no faces weigh there.
+/// A force that is the same at each node of a set, an output that is their mean: no faces weigh there.
 bool lies_by_its_nodes(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
   if (!mesh.has_faces(name)) return true;
   const bool acts =
       role == PlaceRole::force || role == PlaceRole::output || role == PlaceRole::static_force;
-  return acts && !is_surface(mesh, name);
+  return acts && !is_spread(mesh, name);
 }
 
 ScenePlace place_of(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {

@@ -96,8 +96,8 @@ TEST(ScenePlaces, ASetOfNodesThatHoldsFacesHasTheirAreaAndCentroid) {
   const mesh::Mesh mesh(nodes, with_surfaces.elements(), {}, sets);
   const std::vector<std::string> lines = describe_places(mesh, scene);
   EXPECT_EQ(lines[0], "clamped z0: 6 nodes, 0.02 m^2 at (0.05, 0.1, 0) m");
-  EXPECT_EQ(lines[1], "force x1: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.15) m")
-      << "each node takes as much: the force acts at their mean";
+  EXPECT_EQ(lines[1], "force x1: along (1, 0, 0), 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m")
+      << "the nodes of whole faces are loaded as these: the force acts at their centroid";
   EXPECT_EQ(lines[3], "contact x1: 15 nodes, 0.08 m^2 at (0.1, 0.1, 0.2) m, flat to 0 m");
 }
 
