@@ -227,8 +227,24 @@ class AbaqusDecks(Conversion):
                     "*END INSTANCE\n*NSET, NSET=tip, INSTANCE=Blade-1\n3, 6\n*ELSET, ELSET=_f, INTERNAL, INSTANCE=Blade-1\n 8,\n"
                     "*SURFACE, NAME=end\n_f, S4\n*NSET, NSET=same\nBlade-1.13\n*SURFACE, NAME=free\nBlade-1.left\n*END ASSEMBLY\n")
         self.assert_names(self.deck(assembly.format("")), {"end": 1, "free": 5}, {"tip": 2, "same": 1, "left": 8, "right": 8})
-        self.refused(assembly.format("0., 0., 5.\n"), "deck.inp:24", "moved or turned")
+        self.refused(assembly.format("0., 0., z\n"), "deck.inp:24", "expected a translation of 3 numbers, found 0., 0., z")
+        self.refused(assembly.format("0., 0., 5.\n0., 0., 0., 0., 0., 0., 90.\n"), "deck.inp:25", "the two points of the axis are one")
+        self.refused(assembly.format("0., 0., 5.\n0., 0., 0., 0., 0., 1., 90.\n1., 2., 3.\n"), "deck.inp:26", "no third line")
         self.refused(assembly.format("*END INSTANCE\n*INSTANCE, NAME=Blade-2, PART=Blade\n"), "deck.inp:25", "one instance")
+
+    def test_an_instance_that_is_moved_and_turned(self):
+        """First moved, then turned, as the manual has it."""
+        assembly = ("*PART, NAME=Blade\n" + BAR + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Blade-1, PART=Blade\n{}"
+                    "*END INSTANCE\n*END ASSEMBLY\n")
+
+        def corners(lines):
+            return np.concatenate([row for _, row in self.deck(assembly.format(lines)).elements])
+
+        here = corners("")
+        np.testing.assert_allclose(corners("0., 0., 5.\n"), here + [0, 0, 5])
+        turned = corners("1., 0., 0.\n2., 0., 0., 2., 0., 1., 90.\n")
+        x, y, z = (here + [1, 0, 0]).T  # about the line x = 2, y = 0
+        np.testing.assert_allclose(turned, np.column_stack([2 - y, x - 2, z]), atol=1e-14)
 
     def test_what_is_wrong_is_told_by_its_line(self):
         self.refused("solid cube", "deck.inp: no *NODE")

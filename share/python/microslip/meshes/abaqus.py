@@ -3,6 +3,7 @@
 meshio 5.0 is not used here: it forgets all but the last *NODE block, the numbers of elements, sets made of sets, what
 *NODE and *ELEMENT say of sets, and *SURFACE.
 """
+import math
 import os
 import re
 
@@ -184,6 +185,7 @@ class _Deck:
         self.surfaces = {}   # upper-case name → card
         self.instances = []
         self.instanced = None  # part of the instance
+        self.move = None       # of the part to where its instance lies: coordinates → coordinates
         self.inside = None     # the part or instance a card stands in
         self.parts = {}        # part → cards, until it is known which of them is used
         self.left_out = []
@@ -210,15 +212,13 @@ class _Deck:
             self._place_instance(card)
 
     def _place_instance(self, card):
-        """Only one, where its part is."""
+        """Only one."""
         self.instances.append(card)
         first = self.instances[0]
         require(len(self.instances) == 1,
                 f"{card.place}: instance \"{card.get('NAME')}\" beside \"{first.get('NAME')}\": a body of one instance is "
                 "read; merge them, or write the part out alone")
-        for place, words in card.rows():
-            require(not any(float(word or 0) for word in words[:3]),
-                    f"{place}: instance \"{card.get('NAME')}\" is moved or turned; write the part out alone, or where it lies")
+        self.move = _move_of(card)
         for part in (f"INSTANCE {card.name('NAME').upper()}", f"PART {card.get('PART', '').upper()}"):
             self.instanced = (self.instanced or []) + [part]
 
@@ -394,7 +394,11 @@ class _Deck:
         used = self.instanced or [name for name in self.parts if name.startswith("PART ")]
         require(self.instanced or len(used) <= 1,
                 f"{self.path}: {len(used)} parts and no *INSTANCE that tells which of them is meant")
-        for card in [*(card for part in used for card in self.parts.get(part, [])), *self.later]:
+        for card in (card for part in used for card in self.parts.get(part, [])):
+            self._take(card)
+        if self.move:
+            self.coordinates = [self.move(places) for places in self.coordinates]
+        for card in self.later:  # nodes of the assembly lie where they lie
             self._take(card)
 
     def _add_node_surface(self, card):
@@ -432,6 +436,36 @@ class _Deck:
         for block in content.blocks:
             without = np.intersect1d(elements, block.numbers) if face >= len(TYPES[block.type].faces) else ()
             require(not len(without), f"{surface}: element {next(iter(without), None)}, a {block.type}, has no face S{face + 1}")
+
+
+def _move_of(card):
+    """What *INSTANCE does to its part: a line moves it, a second one turns it about an axis through two points by degrees."""
+    steps = []
+    for place, words in card.rows():
+        what = "a translation of 3 numbers" if not steps else "a rotation: two points and an angle, 7 numbers"
+        count = 3 if not steps else 7
+        try:
+            numbers = [float(word or 0) for word in words]
+        except ValueError:
+            numbers = []
+        require(len(steps) < 2 and 0 < len(numbers) <= count and all(map(math.isfinite, numbers)),
+                f"{place}: *INSTANCE: expected {'no third line' if len(steps) == 2 else what}, found {', '.join(words)}")
+        steps.append(np.array(numbers + [0.0] * (count - len(numbers))))
+        if len(steps) == 2:
+            require(np.linalg.norm(steps[1][3:6] - steps[1][:3]) > 0.0, f"{place}: *INSTANCE: the two points of the axis are one")
+    if not any(step.any() for step in steps):
+        return None
+    return lambda places: _moved(places, steps)
+
+
+def _moved(places, steps):
+    moved = places + steps[0]
+    if len(steps) == 1:
+        return moved
+    origin, end, angle = steps[1][:3], steps[1][3:6], np.radians(steps[1][6])
+    axis = (end - origin) / np.linalg.norm(end - origin)
+    arm = moved - origin
+    return origin + np.cos(angle) * arm + np.sin(angle) * np.cross(axis, arm) + (1 - np.cos(angle)) * np.outer(arm @ axis, axis)
 
 
 def _generated(place, words):
