@@ -210,8 +210,8 @@ class SceneMaker {
     const std::string otherwise = possible.empty() || possible.front().name == contact_
                                       ? farthest_node()
                                       : in_quotes(possible.front().name);
-    const auto place = [&](const Words& words) {
-      const auto told = first_with(possible, words);
+    const auto place = [&](const Words& words) {  // "PLOAD4 1" is a contact by its "load"
+      const auto told = first_with(possible, words, contact_);
       return told ? in_quotes(*told) : otherwise;
     };
     const std::string force = place({"force", "load", "excit"});
@@ -244,9 +244,11 @@ class SceneMaker {
     return fmt::format("[{}, {}, {}]", one(0), one(1), one(2));
   }
 
-  static std::optional<std::string> first_with(const Names& names, const Words& words) {
-    const auto found = std::ranges::find_if(
-        names, [&](const MeshName& name) { return speaks_of(name.name, words); });
+  static std::optional<std::string> first_with(const Names& names, const Words& words,
+                                               const std::string& but) {
+    const auto found = std::ranges::find_if(names, [&](const MeshName& name) {
+      return name.name != but && speaks_of(name.name, words);
+    });
     return found == names.end() ? std::nullopt : std::optional<std::string>(found->name);
   }
 

@@ -190,6 +190,12 @@ class Formats(unittest.TestCase):
         mesh_files.write_inp(mesh_files.Mesh(bent, self.mesh.blocks, self.mesh.surfaces, self.mesh.points), self.path("bent.inp"))
         self.assertIn('\nsurface = "contact"', self.scene_of("bent.inp"))
 
+    def test_init_puts_no_force_on_the_contact_for_the_load_in_its_name(self):
+        mesh_files.write_bdf(self.mesh, self.path("loads.bdf"), held=("root",), pressed=("contact",))
+        scene = self.scene_of("loads.bdf")
+        self.assertIn('\nsurface = "PLOAD4 1"', scene)
+        self.assertNotIn('  { at = "PLOAD4 1"', scene)
+
     def test_init_takes_coordinates_where_no_place_is_left_for_the_force(self):
         in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks,
                                          {name: self.mesh.surfaces[name] for name in ("root", "contact")}, {})
