@@ -12,4 +12,10 @@ class MeshError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No fault of the geometry or the file: disk or memory gave out.
+class MeshRoomError : public MeshError {
+ public:
+  using MeshError::MeshError;
+};
+
 }  // namespace microslip::mesh

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -116,6 +119,23 @@ void add_group(int dimension, const std::vector<int>& tags, const std::string& n
   gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, tags), name);
 }
 
+namespace {
+
+/// gmsh does not say that it could not write.
+void require_whole(const std::string& file) {
+  constexpr std::streamoff longest_line = 64;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+  in.seekg(std::max<std::streamoff>(size - longest_line, 0));
+  const std::string end{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t last = end.rfind("$End");
+  if (last == std::string::npos || end.find('\n', last) + 1 != end.size()) {
+    throw MeshRoomError("the mesh is not written whole");
+  }
+}
+
+}  // namespace
+
 void write_volume_mesh(double element_size, double least_size, const std::string& file) {
   gmsh::option::setNumber("Mesh.MeshSizeMax", element_size);
   gmsh::option::setNumber("Mesh.MeshSizeMin", 0.5 * least_size);
@@ -126,6 +146,7 @@ void write_volume_mesh(double element_size, double least_size, const std::string
   gmsh::model::mesh::setOrder(2);
   untangle();
   gmsh::write(file);
+  require_whole(file);
 }
 
 }  // namespace microslip::mesh

@@ -18,6 +18,7 @@
 
 #include "mesh/gmsh/gmsh_mesher.hpp"
 #include "mesh/gmsh/step_mesher.hpp"
+#include "mesh/mesh_error.hpp"
 
 namespace {
 
@@ -114,6 +115,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::cerr << "out of memory\n";
     return 4;
+  } catch (const microslip::mesh::MeshRoomError& error) {
+    std::cerr << error.what() << '\n';
+    return 5;
   } catch (const std::exception& error) {
     const std::string text = error.what();
     std::cerr << text << '\n';

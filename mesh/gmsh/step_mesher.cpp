@@ -179,7 +179,7 @@ void list_step_faces(std::istream& in, const std::string& file) {
   occ::getMass(3, solid, volume);
   out << "volume " << std::pow(job.scale, 3) * volume << '\n';
   for (const int face : faces_of(solid)) write_face(face, job.scale, out);
-  if (!out.flush()) throw MeshError("the list of faces cannot be written");
+  if (!out.flush()) throw MeshRoomError("the list of faces is not written whole");
 }
 
 void mesh_step_with_gmsh(std::istream& in, const std::string& file) {

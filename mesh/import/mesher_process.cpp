@@ -142,7 +142,8 @@ int wait_for(pid_t child, const MesherLimits& limits) {
   return status;
 }
 
-void judge(int status, const MesherLimits& limits, const std::string& said) {
+void judge(int status, const MesherLimits& limits, const fs::path& output,
+           const std::string& said) {
   const std::string quoted = said.empty() ? std::string() : ": " + said;
   std::ostringstream text;
   if (status == stopped) throw MeshError("the mesher was stopped");
@@ -164,7 +165,12 @@ void judge(int status, const MesherLimits& limits, const std::string& said) {
   if (WEXITSTATUS(status) == 4) {
     text << "the mesher ran out of memory (limit " << limits.memory_mb << " MB)" << quoted
          << "; try a larger element_size";
-    throw MeshError(text.str());
+    throw MeshRoomError(text.str());
+  }
+  if (WEXITSTATUS(status) == 5) {
+    text << output.string() << ": cannot be written" << quoted
+         << "; check free space and limits of file size (ulimit -f)";
+    throw MeshRoomError(text.str());
   }
   if (WEXITSTATUS(status) != 0) {
     throw MeshError(said.empty() ? "the mesher failed" : "the mesher failed: " + said);
@@ -203,7 +209,7 @@ void run_mesher(const std::string& job, const fs::path& file, const MesherLimits
   const pid_t child =
       start(program, input.descriptor(), scratch.path(), messages.descriptor(), limits.memory_mb);
   const int status = wait_for(child, limits);  // before its messages are read
-  judge(status, limits, messages.tail());
+  judge(status, limits, file, messages.tail());
   std::error_code error;
   fs::rename(scratch.path(), file, error);
   if (error)

@@ -30,6 +30,8 @@ template <typename Work>
 auto of_file(const StepSource& source, const Work& work) {
   try {
     return work();
+  } catch (const MeshRoomError&) {
+    throw;  // not of this file
   } catch (const MeshError& error) {
     throw MeshError(source.file.string() + ": " + error.what());
   }

@@ -83,6 +83,9 @@ nlohmann::json convert_file(const std::string& script, const fs::path& file, con
   if (result.succeeded && fs::exists(output) && fs::exists(facts)) {
     return nlohmann::json::parse(std::ifstream(facts));
   }
+  if (result.exit_code == static_cast<int>(ExitCode::exhausted)) {
+    throw ExhaustedError(result.message);
+  }
   for (const fs::path& named : {file, deck}) {
     if (!named.empty() && result.message.starts_with(named.string()))
       throw SceneError(result.message);

@@ -52,7 +52,7 @@ void require_few_elements(const StepModel& model, const StepBody& body) {
 [[noreturn]] void blame_unusual_size(const StepModel& model, const StepBody& body,
                                      const mesh::MeshError& error) {
   const double height = longest_side(body.geometry);
-  if (model.element_size <= largest_usual_element * height) throw error;
+  if (model.element_size <= largest_usual_element * height) throw;  // as it is
   throw SceneError(fmt::format(
       "{}: with elements of {:g} m no mesh is made of a body that is {:.3g} m long; usual is {}: "
       "is "
@@ -121,6 +121,8 @@ void mesh_step_model(const StepModel& model, const fs::path& file) {
     with_mesher([&](const mesh::MesherLimits& limits) {
       mesh::mesh_step(body.source, meshing, file, limits);
     });
+  } catch (const mesh::MeshRoomError&) {
+    throw;
   } catch (const mesh::MeshError& error) {
     blame_unusual_size(model, body, error);
   }

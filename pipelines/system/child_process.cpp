@@ -127,8 +127,8 @@ ChildResult run_child(const std::vector<std::string>& command, std::chrono::mill
   if (WIFSIGNALED(status)) {
     return {false, fmt::format("{} was ended by signal {}", command.front(), WTERMSIG(status))};
   }
-  if (WEXITSTATUS(status) != 0) return {false, last_line(output)};
-  return {true, ""};
+  if (WEXITSTATUS(status) != 0) return {false, last_line(output), WEXITSTATUS(status)};
+  return {true};
 }
 
 }  // namespace microslip::pipelines

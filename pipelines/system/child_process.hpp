@@ -10,7 +10,9 @@ namespace microslip::pipelines {
 
 struct ChildResult {
   bool succeeded = false;
-  std::string message;  ///< why not: the last line of its standard error, its signal, or the limit
+  std::string
+      message{};      ///< why not: the last line of its standard error, its signal, or the limit
+  int exit_code = 0;  ///< where it ended by itself
 };
 
 /// Runs `command` (program, arguments) with nothing on standard input and waits for its end; ends it

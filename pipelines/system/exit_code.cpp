@@ -36,6 +36,7 @@ bool is_bad_name(const std::exception& error) {
 
 ExitCode exit_code_of(const std::exception& error) {
   if (is<InterruptedError>(error)) return ExitCode::incomplete;
+  if (is<mesh::MeshRoomError>(error)) return ExitCode::exhausted;
   if (is_bad_name(error) || is<SceneError>(error) || is<mesh::MeshError>(error) ||
       is<std::invalid_argument>(error)) {
     return ExitCode::bad_input;

@@ -11,6 +11,7 @@ usage: mesh_formats.py MICROSLIP SOURCE WORK_FOLDER
 import importlib.util
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -189,6 +190,21 @@ class Formats(unittest.TestCase):
         bent[:, 0] += 5.0 * bent[:, 2] ** 2
         mesh_files.write_inp(mesh_files.Mesh(bent, self.mesh.blocks, self.mesh.surfaces, self.mesh.points), self.path("bent.inp"))
         self.assertIn('\nsurface = "contact"', self.scene_of("bent.inp"))
+
+    def test_a_disk_without_room_is_no_fault_of_the_file(self):
+        """Exit 4, and nothing left behind: files may grow to a kilobyte."""
+        mesh_files.write_inp(self.mesh, self.path("room.inp"))
+        blade = os.path.join(SOURCE, "share", "scenes")
+        for command in (["surfaces", "room.inp"], ["init", "mesh", "room.inp", "-o", "room.toml"],
+                        ["faces", os.path.join(blade, "blade.step")], ["init", "step", os.path.join(blade, "blade.step"), "-o", "room.toml"],
+                        ["mesh", os.path.join(blade, "blade_to_ground.toml"), "--set", 'model.element_size="20 mm"', "--no-cache", "-o", "room.msh"]):
+            with self.subTest(command=command):
+                # Standard error is a pipe: a file would be as short.
+                finished = subprocess.run([PROGRAM, *command], cwd=WORK, capture_output=True, text=True,
+                                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024)))
+                self.assertEqual(finished.returncode, 4, finished.stderr)
+                self.assertIn("cannot be written", finished.stderr)
+                self.assertFalse([name for name in os.listdir(WORK) if name.startswith("room") and name != "room.inp"])
 
     def test_init_puts_no_force_on_the_contact_for_the_load_in_its_name(self):
         mesh_files.write_bdf(self.mesh, self.path("loads.bdf"), held=("root",), pressed=("contact",))

@@ -1,4 +1,5 @@
 """What the converters of share/scripts have in common: limits, and a sentence for whatever a damaged file does."""
+import errno
 import resource
 import sys
 
@@ -12,9 +13,17 @@ def problem_of(source, error):
     if isinstance(error, ModuleNotFoundError) and error.name in PACKAGES:
         package = PACKAGES[error.name]
         return f"{source}: this format needs the Debian package {package}: apt-get install {package}"
+    if is_of_the_disk(error):
+        return (f"{source}: what it is converted to cannot be written in the temporary folder (TMPDIR): {error.strerror}; check free "
+                "space and limits of file size (ulimit -f)")
     if type(error).__name__ == "Refused":
         return str(error)
     return f"{source}: reading it failed: {type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def is_of_the_disk(error):
+    """No fault of the file that is read: what it becomes has no room."""
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def limit(what, value):
@@ -25,13 +34,13 @@ def limit(what, value):
 
 
 def run(convert, source, output, facts, seconds, megabytes):
-    """convert(source, output, facts) within limits of processor time and address space. Returns 0, or 1 after the last
-    line of standard error told what is wrong."""
+    """convert(source, output, facts) within limits of processor time and address space. Returns 0, or after the last line
+    of standard error told what is wrong 1, and 4 where that is the disk."""
     limit(resource.RLIMIT_CPU, int(float(seconds)) + 1)
     limit(resource.RLIMIT_AS, int(float(megabytes) * 1e6))
     try:
         convert(source, output, facts)
     except Exception as error:  # whatever a library throws at a damaged file
         print(problem_of(source, error), file=sys.stderr)
-        return 1
+        return 4 if is_of_the_disk(error) else 1
     return 0
