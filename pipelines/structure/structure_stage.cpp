@@ -1,6 +1,8 @@
 #include "pipelines/structure/structure_stage.hpp"
 
+#include <set>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,6 +108,27 @@ StructureTask task_of(const mesh::Mesh& mesh, const SceneDescription& scene) {
   return task;
 }
 
+/// What is not held moves along three axes; of matrices what has an entry on the diagonal.
+Eigen::Index n_free(const StructureTask& task) {
+  if (task.matrices) return (task.matrices->stiffness.diagonal().array() != 0.0).count();
+  std::set<Eigen::Index> held;
+  for (const std::string& name : task.clamped) {
+    const std::vector<Eigen::Index> nodes = task.mesh.node_set(name);
+    held.insert(nodes.begin(), nodes.end());
+  }
+  return 3 * (task.mesh.n_nodes() - static_cast<Eigen::Index>(held.size()));
+}
+
+void require_count(const StructureTask& task) {
+  const Eigen::Index most = n_free(task);
+  if (task.basis.n_modes <= most) return;
+  throw SceneError(
+      fmt::format("modes.count: {} modes are asked for, and what is not held has {} degrees of "
+                  "freedom; ask for "
+                  "fewer",
+                  task.basis.n_modes, most));
+}
+
 /// The same solution bit for bit needs the same arithmetic: BLAS and its threads, ranks, libraries.
 std::string arithmetic() {
   const Machine machine = describe_machine();
@@ -118,6 +141,7 @@ std::string arithmetic() {
 }
 
 StructureModes solve_on_all_ranks(const StructureTask& task) {
+  require_count(task);
   require_memory(task.mesh, task.basis.solver);
   require_time(task.mesh, task.basis.n_modes);
   StructureModes modes;
