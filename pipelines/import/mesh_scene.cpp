@@ -95,6 +95,7 @@ class SceneMaker {
   }
 
   void set(const char* key, std::string value) { values_[key] = std::move(value); }
+  void remark(const char* key, std::string text) { remarks_[key] = std::move(text); }
 
   /// @throws SceneError  the mesh names nothing.
   std::string make(std::string_view kind) {
@@ -360,6 +361,7 @@ std::string scene_of_modes(const std::filesystem::path& file, const std::filesys
   SceneMaker maker(read, mesh);
   maker.set_file("model.file", file, folder);
   maker.set_file("model.mesh", mesh, folder);
+  maker.remark("material.density", "CHECK: that of the body; by it the modal masses are checked");
   return maker.make("modes");
 }
 

@@ -137,6 +137,18 @@ void check_stiffness(const mesh::Mesh& mesh, const SceneDescription& scene,
       "material, rotation and supports that give move it as well");
 }
 
+/// All modal masses are one number that another density makes 1 kg: "", unless a body may have that.
+std::string other_density(const Eigen::VectorXd& mass, double density) {
+  constexpr double one_number = 1.01;
+  constexpr double least = 100.0;  // kg/m³
+  constexpr double most = 25000.0;
+  const double fitting = density / mass.mean();
+  if (mass.maxCoeff() > one_number * mass.minCoeff() || fitting < least || fitting > most)
+    return {};
+  return fmt::format(
+      " With {:.4g} kg/m^3 they would have it: is material.density that of the body?", fitting);
+}
+
 /// What ΦᵀMΦ says of the shapes; rescales them where the scene asks for it.
 void check_mass(const mesh::Mesh& mesh, const SceneDescription& scene, StructureModes& modes) {
   const ModesFile& file = *given_modes(scene);
@@ -174,11 +186,12 @@ void check_mass(const mesh::Mesh& mesh, const SceneDescription& scene, Structure
   const double off = (mass.array() - 1.0).abs().maxCoeff();
   if (off > mass_refused) {
     throw SceneError(fmt::format(
-        "{}: {}; mass-normalised modes have 1 kg. Is model.mass_unit {:g} kg, or are they scaled "
+        "{}: {}; mass-normalised modes have 1 kg.{} Is model.mass_unit {:g} kg, or are they scaled "
         "otherwise (then model.normalisation = \"other\")?",
-        file.place, found, file.mass_unit));
+        file.place, found, other_density(mass, density), file.mass_unit));
   }
-  (off > mass_told ? modes.warnings : modes.notes).push_back(found + "; 1 kg is expected");
+  (off > mass_told ? modes.warnings : modes.notes)
+      .push_back(found + "; 1 kg is expected." + other_density(mass, density));
 }
 
 void tell_residual(const SceneDescription& scene, StructureModes& modes) {

@@ -505,6 +505,8 @@ class GivenModes(unittest.TestCase):
         self.assertIn("modes.count: 9 modes are asked for", refusal(given(path("modes.npz"), 'mass_unit = "kg"'), "count = 9"))
         self.assertIn("has no attachment shapes", refusal(given(path("modes.npz"), 'mass_unit = "kg"'), 'residual = "attachment"'))
         self.assertIn("modal masses", refusal(given(os.path.join(PLATE, "plate.frd"), 'mass_unit = "kg"')))
+        self.assertIn("With 7800 kg/m^3 they would have it: is material.density that of the body?",
+                      refusal(given(os.path.join(PLATE, "plate.frd"), density="density = 3000")))
 
     def test_shapes_that_do_not_belong_to_their_frequencies(self):
         """Exchanged nodes or directions, radians per second: the strain energy tells."""
