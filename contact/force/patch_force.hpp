@@ -18,15 +18,12 @@
 
 namespace microslip::contact {
 
-class PatchForce final : public PointwiseForce {
+class PatchForce : public PointwiseForce {
  public:
   /// @param patch   points, n_points.
   /// @param shapes  relative mode shapes at the points, n_points × n_modes; w is not used.
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
   PatchForce(ContactPatch patch, ModalShapes shapes);
-
-  [[nodiscard]] const ContactPatch& patch() const { return patch_; }
-  using PointwiseForce::shapes;
 
  private:
   /// The force does not depend on the frequency.

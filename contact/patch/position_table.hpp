@@ -25,10 +25,8 @@ class PositionTable {
   /// n values at any positions.
   [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& p, const Eigen::VectorXd& r) const;
 
-  enum class Kind { grid, line, scattered };
-  [[nodiscard]] Kind kind() const { return kind_; }
-
  private:
+  enum class Kind { grid, line, scattered };
   [[nodiscard]] bool set_grid();
   [[nodiscard]] double on_grid(double p, double r) const;
   [[nodiscard]] double on_edges(double p, double r) const;

@@ -68,9 +68,7 @@ std::string described(const PreloadRequest& request) {
 }
 
 [[noreturn]] void refuse_pull(const PreloadRequest& request) {
-  const std::string message = described(request) + ": a contact cannot pull";
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  throw PreloadError(message, {request, none, none, none, none});
+  throw PreloadError(described(request) + ": a contact cannot pull");
 }
 
 // The resultant has to act inside the hull of the centres, not on its edge.
@@ -90,18 +88,15 @@ void require_inside(const PlaneHull& hull, const PreloadRequest& request) {
           << std::max(distance, 0.0)
           << " m outside the hull of the contact points: no pressure balances it";
   if (std::isfinite(smallest)) message << "; these moments need more than " << smallest << " N";
-  throw PreloadError(message.str(), {request, at.x(), at.y(), std::max(distance, 0.0), smallest});
+  throw PreloadError(message.str());
 }
 
 [[noreturn]] void refuse_unbalanced(const PreloadRequest& request, double imbalance) {
   std::ostringstream message;
   message << "preload of " << request.force << " N: an imbalance of " << imbalance
           << " of it is left; the load of a cell must rise continuously and without bound, and the "
-             "points "
-             "that carry must not be lighter than the others by many orders";
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  throw PreloadError(message.str(), {request, -request.moment_z / request.force,
-                                     request.moment_y / request.force, none, none});
+             "points that carry must not be lighter than the others by many orders";
+  throw PreloadError(message.str());
 }
 
 // R of A = QR by Householder's reflections; Eigen's own class brings the code for blocks of large

@@ -55,25 +55,11 @@ struct PreloadEquilibrium {
   double imbalance = 0.0;
 };
 
-/// Why a request cannot be met; NaN where it makes no sense.
-struct ImpossiblePreload {
-  PreloadRequest request;
-  double y = 0.0;        ///< where the resultant acts, along r [m]
-  double z = 0.0;        ///< along p [m]
-  double outside = 0.0;  ///< distance from there to the hull of the cells [m], ≥ 0; 0 on its edge
-  /// The force that these moments must exceed [N]; NaN also if the origin lies outside the hull.
-  double smallest_force = 0.0;
-};
-
-/// The two bodies cannot be in equilibrium; the message has the numbers.
+/// The two bodies cannot be in equilibrium. The message has the request; of a resultant outside the hull of the
+/// cells also where it acts, how far outside, and the force that its moments need.
 class PreloadError : public std::runtime_error {
  public:
-  PreloadError(const std::string& message, const ImpossiblePreload& why)
-      : std::runtime_error(message), why_(why) {}
-  [[nodiscard]] const ImpossiblePreload& why() const { return why_; }
-
- private:
-  ImpossiblePreload why_;
+  using std::runtime_error::runtime_error;
 };
 
 /// Solves (2). No force and no moment leave every cell without load at approach 0.

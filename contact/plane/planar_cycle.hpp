@@ -44,8 +44,6 @@ class PlaneEvents final : public PointMethod {
     return law_.linear_range();
   }
 
-  [[nodiscard]] const SurfaceLaw& surface() const { return law_; }
-
  private:
   SurfaceLaw law_;
   double tolerance_;

@@ -224,14 +224,6 @@ RoughSurface RoughSurface::cubic(double height) {
   return {HeightLaw::cubic, height, 0.5 * height, height / std::sqrt(20.0)};
 }
 
-RoughSurface RoughSurface::gaussian(double mean, double deviation) {
-  if (!std::isfinite(mean)) refuse("mean of heights", mean, "finite");
-  if (!(std::isfinite(deviation) && deviation > 0.0)) {
-    refuse("deviation of heights", deviation, "finite and above 0");
-  }
-  return {HeightLaw::gaussian, std::sqrt(20.0) * deviation, mean, deviation};
-}
-
 RoughSurface RoughSurface::matching_gaussian(double height) {
   const RoughSurface same = cubic(height);
   return {HeightLaw::gaussian, height, same.mean(), same.deviation()};

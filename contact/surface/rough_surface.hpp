@@ -37,11 +37,9 @@ class RoughSurface {
  public:
   /// (2). R = 0 is the one-sided spring δ = max(0, u).
   /// @param height  R ≥ 0 [m].
-  /// @throws std::invalid_argument  not finite or negative; names it. So the others.
+  /// @throws std::invalid_argument  not finite or negative; names it.
   [[nodiscard]] static RoughSurface cubic(double height);
-  /// (3) with any heights.   @param mean  ū [m].   @param deviation  s > 0 [m].
-  [[nodiscard]] static RoughSurface gaussian(double mean, double deviation);
-  /// (3) matching the cubic law of the same R.   @param height  R ≥ 0 [m]; 0 as for cubic().
+  /// (3) matching the cubic law of the same R.   @param height, @throws  as for cubic().
   [[nodiscard]] static RoughSurface matching_gaussian(double height);
 
   /// Relative accuracy of (3) at its ζ: 4e-15. ζ itself is rounded, which costs ζ² units of the last

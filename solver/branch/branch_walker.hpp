@@ -71,7 +71,6 @@ class BranchWalker {
 
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long iterations() const { return iterations_; }
-  [[nodiscard]] double step() const { return step_; }
   [[nodiscard]] const std::vector<StepRemedy>& remedies() const { return remedies_; }
   /// What the step control has seen of the contact.
   [[nodiscard]] const StepStates& states() const { return states_; }

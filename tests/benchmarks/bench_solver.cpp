@@ -9,11 +9,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/continuation.hpp"
 #include "solver/optimum/peak_trace.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 #include "tests/support/traced_peaks.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ solver::Scene strip(Eigen::Index n_points, double preload = 0.2) {
       shapes.v(i, k) = 0.7 * std::sin(static_cast<double>(k) * 1.7 * x + 0.4);
     }
   }
-  s.contact = std::make_unique<contact::PatchForce>(
+  s.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(std::move(weights), std::move(points)), std::move(shapes));
   return s;
 }

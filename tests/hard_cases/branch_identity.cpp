@@ -18,12 +18,12 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "pipelines/record/run_messages.hpp"
 #include "solver/optimum.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 #include "tests/support/steady_states.hpp"
 #include "tests/support/traced_peaks.hpp"
 
@@ -53,7 +53,7 @@ solver::Scene veering_scene(double tuned) {
   scene.excitation.rows().row(1) = ordered(0.01, 0.008).transpose();
   const contact::ContactPatch patch(Eigen::VectorXd::Ones(1), {{0.02, 0.0, 0.5, 0.06}});
   const contact::ModalShapes shapes{ordered(0.8, -0.6).transpose(), Eigen::RowVector2d::Zero(), {}};
-  scene.contact = std::make_unique<contact::PatchForce>(patch, shapes);
+  scene.contact = std::make_unique<tests::ReadablePatch>(patch, shapes);
   return scene;
 }
 

@@ -20,9 +20,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "contact/force/patch_force.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::metamorphic {
 namespace {
@@ -49,7 +49,7 @@ struct Numbers {
 };
 
 Numbers numbers_of(std::string name, const solver::Scene& scene, double begin, double end) {
-  const auto& force = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& force = dynamic_cast<const tests::ReadablePatch&>(*scene.contact);
   return {std::move(name),
           scene.natural_frequency,
           scene.damping_ratio,
@@ -71,8 +71,8 @@ solver::Scene scene_of(const Numbers& numbers) {
   scene.excitation = contact::Harmonics(1, numbers.n_modes());
   scene.excitation.rows() = numbers.excitation;
   scene.contact =
-      std::make_unique<contact::PatchForce>(contact::ContactPatch(numbers.weights, numbers.points),
-                                            contact::ModalShapes{numbers.u, numbers.v, {}});
+      std::make_unique<tests::ReadablePatch>(contact::ContactPatch(numbers.weights, numbers.points),
+                                             contact::ModalShapes{numbers.u, numbers.v, {}});
   return scene;
 }
 

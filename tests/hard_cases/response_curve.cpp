@@ -13,6 +13,7 @@
 
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::response_curve {
 namespace {
@@ -80,7 +81,7 @@ TEST(ResponseCurveHard, AModeThatNothingMovesChangesNothing) {
   // Row 35. The same scene with a third mode that has neither force nor patch motion nor output.
   const solver::Scene two = tests::chain_scene(30.0);
   solver::Scene three = tests::chain_scene(30.0);
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*two.contact);
+  const auto& patch = dynamic_cast<const tests::ReadablePatch&>(*two.contact);
   three.natural_frequency =
       Eigen::Vector3d(two.natural_frequency[0], two.natural_frequency[1], 200.0);
   three.damping_ratio = Eigen::Vector3d::Constant(0.02);
@@ -89,7 +90,7 @@ TEST(ResponseCurveHard, AModeThatNothingMovesChangesNothing) {
   three.excitation.rows().leftCols(2) = two.excitation.rows();
   contact::ModalShapes shapes{Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Zero(1, 3), {}};
   shapes.u.leftCols(2) = patch.shapes().u;
-  three.contact = std::make_unique<contact::PatchForce>(patch.patch(), shapes);
+  three.contact = std::make_unique<tests::ReadablePatch>(patch.patch(), shapes);
   for (const double hertz : {18.0, 22.0, 24.0, 28.0}) {
     const double omega = 2.0 * M_PI * hertz;
     const auto without = solver::solve_at_frequency(two, omega, {});
@@ -109,7 +110,7 @@ solver::Scene loose_body(double preload) {
   scene.output = Eigen::Vector2d::Ones();
   scene.excitation = contact::Harmonics(1, 2);
   scene.excitation.rows().row(1) = Eigen::RowVector2d::Ones();
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Ones(1), {{2e4, 0.0, 0.3, preload}}),
       contact::ModalShapes{Eigen::RowVector2d(1.0, -1.0), Eigen::MatrixXd::Zero(1, 2), {}});
   return scene;
@@ -299,7 +300,7 @@ TEST(ResponseCurveHard, NearlyRigidContactTakesNoMoreStepsThanStiffContact) {
     const contact::ContactPatch patch(Eigen::VectorXd::Ones(1), {{ratio, 0.6 * ratio, 0.5, 6.0}});
     const contact::ModalShapes shapes{
         Eigen::RowVector3d(0.31, 0.40, -0.05), Eigen::RowVector3d(-0.59, -1.16, 0.48), {}};
-    scene.contact = std::make_unique<contact::PatchForce>(patch, shapes);
+    scene.contact = std::make_unique<tests::ReadablePatch>(patch, shapes);
     return solver::trace_response(scene, frequency_range(0.4, 3.0));
   };
   const ResponseCurve stiff = trace(1e4);

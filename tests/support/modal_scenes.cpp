@@ -5,11 +5,11 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
 #include "contact/line/line_events.hpp"
 #include "contact/sampled/patch_force.hpp"
 #include "contact/transient/patch_transient.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::tests {
 namespace {
@@ -80,8 +80,7 @@ solver::Scene random_structure(Draw& draw, int n_modes, double force) {
   return scene;
 }
 
-std::unique_ptr<contact::PatchForce> random_patch(Draw& draw, int n_modes, double first,
-                                                  double force) {
+std::unique_ptr<ReadablePatch> random_patch(Draw& draw, int n_modes, double first, double force) {
   const int n_points = draw.whole(1, 24);
   const double stiffness = first * first * draw.log_uniform(1e-3, 1e3) / n_points;
   const bool moves_normally = draw.chance(0.7);
@@ -102,7 +101,7 @@ std::unique_ptr<contact::PatchForce> random_patch(Draw& draw, int n_modes, doubl
       shapes.v(i, k) = normal_share * draw.uniform(-1.0, 1.0);
     }
   }
-  return std::make_unique<contact::PatchForce>(
+  return std::make_unique<ReadablePatch>(
       contact::ContactPatch(std::move(weights), std::move(points)), std::move(shapes));
 }
 
@@ -115,12 +114,12 @@ solver::Scene copied_structure(const solver::Scene& scene) {
   return copy;
 }
 
-/// @throws std::bad_cast  the contact is not a PatchForce.
-std::unique_ptr<contact::PatchForce> copied_patch(const solver::Scene& scene, double load_factor) {
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+/// @throws std::bad_cast  the contact is not a ReadablePatch.
+std::unique_ptr<ReadablePatch> copied_patch(const solver::Scene& scene, double load_factor) {
+  const auto& patch = dynamic_cast<const ReadablePatch&>(*scene.contact);
   std::vector<contact::PointParameters> points = patch.patch().points();
   for (contact::PointParameters& point : points) point.rest_load *= load_factor;
-  return std::make_unique<contact::PatchForce>(
+  return std::make_unique<ReadablePatch>(
       contact::ContactPatch(patch.patch().weights(), std::move(points)), patch.shapes());
 }
 
@@ -136,7 +135,7 @@ solver::Scene chain_scene(double preload) {
   }
   const Eigen::VectorXd output = modes.row(1).transpose();
   solver::Scene scene = linear_scene(frequency, 0.02, output, 10.0 * output);
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Ones(1), {{40000.0, 0.0, 0.5, preload}}),
       contact::ModalShapes{modes.row(0), Eigen::MatrixXd::Zero(1, 2), {}});
   return scene;
@@ -162,7 +161,7 @@ solver::Scene patch_scene(const PatchScene& size, double preload, double force) 
   const double share = 1.0 / static_cast<double>(n);
   std::vector<contact::PointParameters> points(static_cast<std::size_t>(n),
                                                {stiffness, stiffness, 0.4, preload});
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Constant(n, share), std::move(points)),
       std::move(shapes));
   return scene;
@@ -203,12 +202,12 @@ solver::Scene turned_scene(const solver::Scene& scene, double phase) {
 }
 
 void add_transient(solver::Scene& scene) {
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& patch = dynamic_cast<const ReadablePatch&>(*scene.contact);
   scene.transient = std::make_unique<contact::PatchTransient>(patch.patch(), patch.shapes());
 }
 
 void use_event_cycles(solver::Scene& scene) {
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& patch = dynamic_cast<const ReadablePatch&>(*scene.contact);
   std::vector<std::shared_ptr<const contact::PointMethod>> laws;
   for (const contact::PointParameters& point : patch.patch().points()) {
     laws.push_back(std::make_shared<contact::LineEvents>(point));
@@ -218,7 +217,7 @@ void use_event_cycles(solver::Scene& scene) {
 }
 
 void use_lanes(solver::Scene& scene, int instants) {
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& patch = dynamic_cast<const ReadablePatch&>(*scene.contact);
   std::vector<contact::SurfaceLaw> surfaces;
   for (const contact::PointParameters& point : patch.patch().points()) {
     surfaces.emplace_back(point, 0.0);

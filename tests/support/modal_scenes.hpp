@@ -31,14 +31,14 @@ struct PatchScene {
 [[nodiscard]] solver::Scene turned_scene(const solver::Scene& scene, double phase);
 
 /// Gives a scene of these builders the same contact for time integration.
-/// @throws std::bad_cast  the contact is not a PatchForce.
+/// @throws std::bad_cast  the contact is not a ReadablePatch.
 void add_transient(solver::Scene& scene);
 /// Replaces the contact of a scene of these builders by the same points cycled event by event: any
 /// number of harmonics.
-/// @throws std::bad_cast  the contact is not a PatchForce.
+/// @throws std::bad_cast  the contact is not a ReadablePatch.
 void use_event_cycles(solver::Scene& scene);
 /// Replaces it by the same points sampled in lanes.
-/// @throws std::bad_cast  the contact is not a PatchForce.
+/// @throws std::bad_cast  the contact is not a ReadablePatch.
 void use_lanes(solver::Scene& scene, int instants);
 
 }  // namespace microslip::tests

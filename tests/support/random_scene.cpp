@@ -71,7 +71,7 @@ RandomScene random_scene(std::uint64_t seed) {
       shapes.v(i, k) = normal_share * draw.uniform(-1.0, 1.0);
     }
   }
-  s.contact = std::make_unique<contact::PatchForce>(
+  s.contact = std::make_unique<ReadablePatch>(
       contact::ContactPatch(std::move(weights), std::move(points)), std::move(shapes));
   result.options.frequency_begin = first * draw.uniform(0.5, 0.9);
   result.options.frequency_end = s.natural_frequency[n_modes - 1] * draw.uniform(1.1, 2.5);
@@ -88,7 +88,7 @@ solver::Scene single_point_scene(const SinglePoint& single) {
   contact::ModalShapes shapes{Eigen::MatrixXd::Constant(1, 1, single.phi_u),
                               Eigen::MatrixXd::Constant(1, 1, single.phi_v),
                               {}};
-  s.contact = std::make_unique<contact::PatchForce>(
+  s.contact = std::make_unique<ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Ones(1), {single.point}), std::move(shapes));
   return s;
 }
@@ -106,7 +106,7 @@ solver::Scene three_dof_scene(double preload, double force_factor) {
   contact::ModalShapes shapes{Eigen::MatrixXd(1, 2), Eigen::MatrixXd(1, 2), {}};
   shapes.u << first[1], second[1];
   shapes.v << first[0], second[0];
-  s.contact = std::make_unique<contact::PatchForce>(
+  s.contact = std::make_unique<ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Ones(1), {{40000.0, 40000.0, 0.5, preload}}),
       std::move(shapes));
   return s;

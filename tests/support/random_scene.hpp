@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/scene.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::tests {
 

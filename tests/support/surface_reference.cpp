@@ -287,7 +287,7 @@ contact::SurfaceLaw ReferenceLaw::law() const {
   }
   std::optional<RoughSurface> rough;
   if (heights == ReferenceHeights::cubic) rough = RoughSurface::cubic(height);
-  if (heights == ReferenceHeights::gaussian) rough = RoughSurface::gaussian(mean, deviation);
+  if (heights == ReferenceHeights::gaussian) rough = RoughSurface::matching_gaussian(height);
   return {point, point.tangential_stiffness, friction, rough, series};
 }
 

@@ -28,9 +28,9 @@ struct ReferenceLaw {
   double at_speed = 0.0;  ///< μ∞
   double decay = 0.0;     ///< λ or p [s/m]
   ReferenceHeights heights = ReferenceHeights::none;
-  double mean = 0.0;       ///< of the heights [m]; cubic: R/2
-  double deviation = 0.0;  ///< [m]; cubic: R/√20
-  double height = 0.0;     ///< cubic: R [m]
+  double mean = 0.0;       ///< of the heights [m], R/2
+  double deviation = 0.0;  ///< [m], R/√20
+  double height = 0.0;     ///< R [m]
   contact::SeriesCompliance series;
 
   [[nodiscard]] contact::SurfaceLaw law() const;

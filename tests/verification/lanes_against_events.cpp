@@ -20,10 +20,10 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "tests/support/campaign.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::lanes_against_events {
 namespace {
@@ -35,7 +35,7 @@ constexpr int instants = 128;
 /// A contact of as many points as the program samples: each in parts that carry four fifths to six fifths of its load.
 void divide_points(solver::Scene& scene) {
   constexpr Eigen::Index least = 48;
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& patch = dynamic_cast<const tests::ReadablePatch&>(*scene.contact);
   const Eigen::Index n_points = patch.patch().weights().size();
   const Eigen::Index parts = (least + n_points - 1) / n_points;
   const auto repeated = [&](const auto& rows) { return rows.replicate(parts, 1).eval(); };
@@ -48,7 +48,7 @@ void divide_points(solver::Scene& scene) {
       points.push_back(point);
     }
   }
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(repeated(patch.patch().weights()) / static_cast<double>(parts), points),
       contact::ModalShapes{repeated(patch.shapes().u), repeated(patch.shapes().v), {}});
 }

@@ -32,7 +32,6 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "contact/force/point_method_force.hpp"
 #include "contact/plane/planar_cycle.hpp"
 #include "contact/transient/planar_transient.hpp"
@@ -40,6 +39,7 @@
 #include "solver/time_integration.hpp"
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
+#include "tests/support/readable_patch.hpp"
 #include "tests/support/steady_states.hpp"
 
 namespace microslip::planar_time {
@@ -107,7 +107,7 @@ Eigen::VectorXd end_state(const solver::Scene& scene, double frequency,
 
 /// The planar patch in place of that of one direction.
 void use_planar(solver::Scene& scene) {
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& patch = dynamic_cast<const tests::ReadablePatch&>(*scene.contact);
   std::vector<SurfaceLaw> laws;
   for (const auto& point : patch.patch().points()) {
     laws.emplace_back(point, point.tangential_stiffness);

@@ -20,6 +20,7 @@
 #include "tests/support/campaign.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/readable_patch.hpp"
 #include "tests/support/traced_peaks.hpp"
 
 namespace microslip::random_scenes {
@@ -116,10 +117,10 @@ TEST(WildScenes, EndInACompleteCurveOrANamedDiagnosis) {
 /// A random scene with all preloads and gaps times a factor.
 solver::Scene with_preload(std::uint64_t seed, double factor) {
   tests::RandomScene random = tests::random_scene(seed);
-  const auto& patch = dynamic_cast<const contact::PatchForce&>(*random.scene.contact);
+  const auto& patch = dynamic_cast<const tests::ReadablePatch&>(*random.scene.contact);
   std::vector<contact::PointParameters> points = patch.patch().points();
   for (contact::PointParameters& point : points) point.rest_load *= factor;
-  random.scene.contact = std::make_unique<contact::PatchForce>(
+  random.scene.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(patch.patch().weights(), std::move(points)), patch.shapes());
   return std::move(random.scene);
 }

@@ -18,10 +18,10 @@
 #include <sundials/sundials_context.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/time/time_stepper.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::time_integration {
 namespace {
@@ -34,7 +34,7 @@ enum class State { stick, positive, negative, open };
 /// A scene read as numbers, with the law of theory sections 2, 3 on its own.
 struct Referee {
   const solver::Scene& scene;
-  const contact::PatchForce& patch;
+  const tests::ReadablePatch& patch;
   double omega;
   std::vector<State> state;
   std::vector<double> slider;
@@ -42,7 +42,7 @@ struct Referee {
 
   Referee(const solver::Scene& a_scene, double frequency)
       : scene(a_scene),
-        patch(dynamic_cast<const contact::PatchForce&>(*a_scene.contact)),
+        patch(dynamic_cast<const tests::ReadablePatch&>(*a_scene.contact)),
         omega(frequency),
         state(patch.patch().points().size(), State::stick),
         slider(state.size(), 0.0) {

@@ -12,6 +12,7 @@
 #include "contact/closed_form/friction_cycle.hpp"
 #include "contact/patch/point_motions.hpp"
 #include "tests/support/asked_force.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::contact::test_patch_force {
 namespace {
@@ -46,7 +47,7 @@ Harmonics random_motion(unsigned seed) {
 }
 
 // The sum of the theory, point by point with dense matrices.
-ForceAndJacobian by_definition(PatchForce& patch, const Harmonics& q) {
+ForceAndJacobian by_definition(const tests::ReadablePatch& patch, const Harmonics& q) {
   const Eigen::Index N = patch.n_modes();
   ForceAndJacobian sum{Harmonics(1, N), Eigen::MatrixXd::Zero(3 * N, 3 * N), {}};
   const std::vector<PointMotion> motions = point_motions(patch.shapes(), q);
@@ -74,7 +75,7 @@ class PatchForceSizes : public testing::TestWithParam<int> {};
 TEST_P(PatchForceSizes, IsTheWeightedSumOverThePoints) {
   const Eigen::Index n = GetParam();
   for (const double preload : {-2.0, 0.0, 0.5, 3.0}) {
-    PatchForce patch(random_patch(n, preload, 1), random_shapes(n, 2));
+    const tests::ReadablePatch patch(random_patch(n, preload, 1), random_shapes(n, 2));
     const Harmonics q = random_motion(3);
     const ForceAndJacobian ours = tests::evaluate(patch, q, 1.0);
     const ForceAndJacobian expected = by_definition(patch, q);

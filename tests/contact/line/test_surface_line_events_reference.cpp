@@ -76,9 +76,6 @@ void draw_heights(Random& random, ReferenceHeights heights, const MotionCase& c,
   law.height = share * (approach > 0.0 ? approach : 1.0);
   law.mean = 0.5 * law.height;
   law.deviation = law.height / std::sqrt(20.0);
-  if (heights == ReferenceHeights::gaussian && integer(random, 0, 1) == 1) {
-    law.mean *= uniform(random, -3.0, 3.0);
-  }
 }
 
 void draw_series(Random& random, ReferenceLaw& law) {

@@ -12,13 +12,13 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/branch/start_point.hpp"
 #include "solver/continuation.hpp"
 #include "tests/solver/duffing.hpp"
 #include "tests/support/curves.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::solver::test_special_points {
 namespace {
@@ -116,8 +116,8 @@ Scene scene_with_four_folds() {
       -0.06422010751301721, -0.07652887415836973, 0.2020688272883008, 0.01692283492877222,
       -0.08979265392629115, -0.09539822990406178, 0.18378244304667402, -0.05783508965433001,
       0.11887040918656822;
-  scene.contact = std::make_unique<contact::PatchForce>(contact::ContactPatch(weights, points),
-                                                        std::move(shapes));
+  scene.contact = std::make_unique<tests::ReadablePatch>(contact::ContactPatch(weights, points),
+                                                         std::move(shapes));
   return scene;
 }
 

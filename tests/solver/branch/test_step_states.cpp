@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/balance/linear_force.hpp"
 #include "solver/continuation.hpp"
 #include "tests/support/asked_force.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/readable_patch.hpp"
 
 namespace microslip::solver::test_step_states {
 namespace {
@@ -34,7 +34,7 @@ Scene soft_patch() {
     const double onset = 9.99 + 0.02 * (static_cast<double>(i) + 0.5) / n;
     points.push_back({0.002, 0.0, 0.5, 0.002 * onset / 0.5});
   }
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(Eigen::VectorXd::Constant(n, 1.0 / n), std::move(points)),
       contact::ModalShapes{Eigen::MatrixXd::Ones(n, 1), Eigen::MatrixXd::Zero(n, 1), {}});
   return scene;

@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/force/patch_force.hpp"
 #include "solver/continuation.hpp"
 #include "solver/time_integration.hpp"
 #include "tests/support/modal_scenes.hpp"
 #include "tests/support/random_scene.hpp"
+#include "tests/support/readable_patch.hpp"
 #include "tests/support/steady_states.hpp"
 
 namespace microslip::solver::test_floquet {
@@ -224,12 +224,12 @@ TEST(Floquet, MotionThatLeavesItsSolutionHasAPairOutsideTheUnitCircle) {
 TEST(Floquet, JudgesSingleSolutionsOfManyPointsToo) {
   // The same chain on 40 points that are one: more states than every point of a curve is worth.
   Scene scene = tests::three_dof_scene(15.0);
-  const auto& one = dynamic_cast<const contact::PatchForce&>(*scene.contact);
+  const auto& one = dynamic_cast<const tests::ReadablePatch&>(*scene.contact);
   constexpr Eigen::Index n = 40;
   std::vector<contact::PointParameters> points(n, one.patch().points()[0]);
   const Eigen::VectorXd weights = Eigen::VectorXd::Constant(n, one.patch().weights()[0] / n);
   contact::ModalShapes shapes{one.shapes().u.replicate(n, 1), one.shapes().v.replicate(n, 1), {}};
-  scene.contact = std::make_unique<contact::PatchForce>(
+  scene.contact = std::make_unique<tests::ReadablePatch>(
       contact::ContactPatch(weights, std::move(points)), std::move(shapes));
   tests::add_transient(scene);
   tests::use_event_cycles(scene);
