@@ -31,6 +31,27 @@ void check(const Scene& scene) {
           "damping ratios, output and excitation must be finite");
 }
 
+/// L of one harmonic, [dynamic, −viscous; viscous, dynamic] over its sine and cosine: an entry per mode.
+struct HarmonicBlock {
+  Eigen::ArrayXd dynamic;
+  Eigen::ArrayXd viscous;
+
+  /// @param s  where the sine begins, of x and of the result; the cosine follows.
+  void add_product(const Eigen::VectorXd& x, Eigen::Index s, Eigen::VectorXd& result) const {
+    const Eigen::Index n = dynamic.size();
+    const auto sine = x.segment(s, n).array();
+    const auto cosine = x.segment(s + n, n).array();
+    result.segment(s, n).array() += dynamic * sine - viscous * cosine;
+    result.segment(s + n, n).array() += dynamic * cosine + viscous * sine;
+  }
+};
+
+/// @param frequency  kω.
+HarmonicBlock harmonic_block(const Eigen::VectorXd& stiffness, const Eigen::VectorXd& damping,
+                             double frequency) {
+  return {stiffness.array() - frequency * frequency, frequency * damping.array()};
+}
+
 std::vector<Eigen::Index> rows_of(const HarmonicSet& set) {
   std::vector<Eigen::Index> rows{0};
   for (const int k : set.orders()) {
@@ -95,13 +116,7 @@ void HarmonicBalance::add_linear_residual(const Eigen::VectorXd& x, double frequ
   residual.head(n) += stiffness_.cwiseProduct(x.head(n));
   Eigen::Index s = n;
   for (const int k : set_.orders()) {
-    const Eigen::Index c = s + n;
-    const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
-    const Eigen::ArrayXd viscous = k * frequency * damping_.array();
-    const auto sine = x.segment(s, n).array();
-    const auto cosine = x.segment(c, n).array();
-    residual.segment(s, n).array() += dynamic * sine - viscous * cosine;
-    residual.segment(c, n).array() += dynamic * cosine + viscous * sine;
+    harmonic_block(stiffness_, damping_, k * frequency).add_product(x, s, residual);
     s += 2 * n;
   }
 }
@@ -115,17 +130,13 @@ void HarmonicBalance::add_linear_part(const Eigen::VectorXd& x, double frequency
   Eigen::Index s = n;
   for (const int k : set_.orders()) {
     const Eigen::Index c = s + n;
-    const Eigen::ArrayXd dynamic = stiffness_.array() - (k * frequency) * (k * frequency);
-    const Eigen::ArrayXd viscous = k * frequency * damping_.array();
-    const auto sine = x.segment(s, n).array();
-    const auto cosine = x.segment(c, n).array();
-    result.parameter_derivative.segment(s, n).array() +=
-        -2.0 * k * k * frequency * sine - k * damping_.array() * cosine;
-    result.parameter_derivative.segment(c, n).array() +=
-        -2.0 * k * k * frequency * cosine + k * damping_.array() * sine;
-    J.diagonal().segment(s, 2 * n) += dynamic.matrix().replicate(2, 1);
-    J.block(s, c, n, n).diagonal() -= viscous.matrix();
-    J.block(c, s, n, n).diagonal() += viscous.matrix();
+    const HarmonicBlock block = harmonic_block(stiffness_, damping_, k * frequency);
+    J.diagonal().segment(s, 2 * n) += block.dynamic.matrix().replicate(2, 1);
+    J.block(s, c, n, n).diagonal() -= block.viscous.matrix();
+    J.block(c, s, n, n).diagonal() += block.viscous.matrix();
+    const HarmonicBlock by_frequency{Eigen::ArrayXd::Constant(n, -2.0 * k * k * frequency),
+                                     k * damping_.array()};
+    by_frequency.add_product(x, s, result.parameter_derivative);
     s += 2 * n;
   }
 }
