@@ -343,6 +343,8 @@ class NastranDecks(Conversion):
         deck = "SOL 103\nCEND\nBEGIN BULK\nINCLUDE 'bulk.bdf'\n"
         self.refused(deck, "deck.bdf ends here without an ENDDATA of its own", name="deck.bdf")
         self.assertEqual(self.deck(deck + "ENDDATA\n", "deck.bdf").code, 0)
+        self.refused("INCLUDE 'gone.bdf'\n", "deck.bdf:1", "gone.bdf cannot be read", name="deck.bdf")
+        self.refused("INCLUDE 'deck.bdf'\n", "include itself", name="deck.bdf")
 
 
 class UniversalFiles(Conversion):

@@ -11,6 +11,7 @@ import numpy as np
 
 from .content import (TYPES, Block, Content, Refused, boundary_faces, corners_of_faces, ends_of_edges, four_sorted, leave_out,
                       require, rows_in, volumes)
+from .decks import open_deck
 
 _SOLID = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge", "15": "wedge15",
           "5": "pyramid", "13": "pyramid13"}
@@ -21,7 +22,6 @@ _COPIES = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
 # Trusses are what gmsh writes of named edges, beams are not.
 _BEAM = re.compile(r"B3[123]", re.I)
 _TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING")
-_DEEPEST = 20  # *INCLUDE within *INCLUDE
 
 
 def read(path):
@@ -47,12 +47,7 @@ def _type(name):
 
 def _lines(path, folder, above):
     """Pairs (place, text) of a file and what it includes, without comments and blank lines."""
-    require(len(above) < _DEEPEST, f"{path}: *INCLUDE goes {_DEEPEST} files deep: does it include itself?")
-    try:
-        file = open(path, encoding="latin-1")
-    except OSError as error:
-        raise Refused(f"{above[-1] if above else path}: {path} cannot be read: {error.strerror}") from None
-    with file:
+    with open_deck(path, above, "*INCLUDE") as file:
         for number, text in enumerate(file, 1):
             text = text.strip()
             if not text or text.startswith("**"):

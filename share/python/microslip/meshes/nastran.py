@@ -13,6 +13,7 @@ import re
 import numpy as np
 
 from .content import TYPES, Content, Refused, blocks_of, leave_out, require
+from .decks import open_deck
 
 _SOLID = {"CTETRA": {4: "tetra", 10: "tetra10"}, "CHEXA": {8: "hexahedron", 20: "hexahedron20"},
           "CPENTA": {6: "wedge", 15: "wedge15"}, "CPYRAM": {5: "pyramid", 13: "pyramid13"}}
@@ -47,12 +48,7 @@ def read(path):
 
 def _lines(path, folder, above, deck):
     """Pairs (place, text) of a file and what it includes; comments go to the deck, which looks for names in them."""
-    require(len(above) < 20, f"{path}: INCLUDE goes 20 files deep: does it include itself?")
-    try:
-        file = open(path, encoding="latin-1")
-    except OSError as error:
-        raise Refused(f"{above[-1] if above else path}: {path} cannot be read: {error.strerror}") from None
-    with file:
+    with open_deck(path, above, "INCLUDE") as file:
         for number, line in enumerate(file, 1):
             text = line.split("$", 1)[0].expandtabs(8).rstrip()
             if "$" in line:
