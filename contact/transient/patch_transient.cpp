@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "contact/patch/mode_shape_check.hpp"
-#include "contact/transient/area_shares.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -72,34 +71,27 @@ struct PatchTransient::Instant {
   double v_rate = 0.0;
 };
 
-PatchTransient::PatchTransient(ContactPatch patch, ModalShapes shapes)
-    : patch_(std::move(patch)), shapes_(std::move(shapes)) {
-  require_mode_shape("PatchTransient", "u", shapes_.u, patch_.n_points(), shapes_.u.cols());
-  require_mode_shape("PatchTransient", "v", shapes_.v, patch_.n_points(), shapes_.u.cols());
-  u_size_ = shapes_.u.rowwise().norm();
-  v_size_ = shapes_.v.rowwise().norm();
-}
-
-TransientMemory PatchTransient::virgin_memory() const {
-  TransientMemory memory{std::vector<ContactState>(patch_.points().size()),
-                         Eigen::VectorXd::Zero(n_points())};
-  commit({Eigen::VectorXd::Zero(n_modes()), Eigen::VectorXd::Zero(n_modes())}, memory);
-  return memory;
+PatchTransient::PatchTransient(const ContactPatch& patch, ModalShapes given)
+    : PointwiseTransient(patch.weights(), std::move(given), 1), points_(patch.points()) {
+  require_mode_shape("PatchTransient", "u", shapes().u, n_points(), n_modes());
+  require_mode_shape("PatchTransient", "v", shapes().v, n_points(), n_modes());
+  u_size_ = shapes().u.rowwise().norm();
+  v_size_ = shapes().v.rowwise().norm();
 }
 
 Eigen::VectorXd PatchTransient::modal_force(const Eigen::VectorXd& friction,
                                             const Eigen::VectorXd& normal) const {
-  return shapes_.u.transpose() * friction + shapes_.v.transpose() * normal;
+  return shapes().u.transpose() * friction + shapes().v.transpose() * normal;
 }
 
 Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes_.u * motion.q;
-  Eigen::VectorXd normal = shapes_.v * motion.q;
+  Eigen::VectorXd friction = shapes().u * motion.q;
+  Eigen::VectorXd normal = shapes().v * motion.q;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
-    const PointParameters& point = patch_.points()[static_cast<std::size_t>(i)];
+    const PointParameters& point = points_[static_cast<std::size_t>(i)];
     const double load = std::max(0.0, signed_load(point, normal[i]));
-    const double weight = patch_.weights()[i];
+    const double weight = weights()[i];
     friction[i] = weight * pushed(point, memory.slider[i], friction[i], normal[i]).friction;
     normal[i] = weight * (load - reference_load(point));
   }
@@ -107,13 +99,13 @@ Eigen::VectorXd PatchTransient::trial_force(const ModalMotion& motion,
 }
 
 double PatchTransient::commit(const ModalMotion& motion, TransientMemory& memory) const {
-  const Eigen::VectorXd u = shapes_.u * motion.q;
-  const Eigen::VectorXd v = shapes_.v * motion.q;
+  const Eigen::VectorXd u = shapes().u * motion.q;
+  const Eigen::VectorXd v = shapes().v * motion.q;
   double work = 0.0;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const Pushed next = pushed(patch_.points()[index], memory.slider[i], u[i], v[i]);
-    work += patch_.weights()[i] * next.friction * (next.slider - memory.slider[i]);
+    const Pushed next = pushed(points_[index], memory.slider[i], u[i], v[i]);
+    work += weights()[i] * next.friction * (next.slider - memory.slider[i]);
     memory.slider[i] = next.slider;
     memory.state[index] = next.state;
   }
@@ -122,31 +114,31 @@ double PatchTransient::commit(const ModalMotion& motion, TransientMemory& memory
 
 Eigen::VectorXd PatchTransient::held_force(const ModalMotion& motion,
                                            const TransientMemory& memory) const {
-  Eigen::VectorXd friction = shapes_.u * motion.q;
-  Eigen::VectorXd normal = shapes_.v * motion.q;
+  Eigen::VectorXd friction = shapes().u * motion.q;
+  Eigen::VectorXd normal = shapes().v * motion.q;
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const PointParameters& point = patch_.points()[index];
+    const PointParameters& point = points_[index];
     const Tractions held =
         held_tractions(point, memory.state[index], memory.slider[i], friction[i], normal[i]);
-    friction[i] = patch_.weights()[i] * held.friction;
-    normal[i] = patch_.weights()[i] * (held.normal - reference_load(point));
+    friction[i] = weights()[i] * held.friction;
+    normal[i] = weights()[i] * (held.normal - reference_load(point));
   }
   return modal_force(friction, normal);
 }
 
 PatchTransient::Instant PatchTransient::instant(Eigen::Index point,
                                                 const ModalMotion& motion) const {
-  return {shapes_.u.row(point).dot(motion.q), shapes_.v.row(point).dot(motion.q),
-          shapes_.u.row(point).dot(motion.velocity), shapes_.v.row(point).dot(motion.velocity)};
+  return {shapes().u.row(point).dot(motion.q), shapes().v.row(point).dot(motion.q),
+          shapes().u.row(point).dot(motion.velocity), shapes().v.row(point).dot(motion.velocity)};
 }
 
 TransientForce::Guards PatchTransient::guards_at(Eigen::Index point, const Instant& now,
                                                  ContactState state, double slider,
                                                  const GuardScale& scale) const {
   constexpr double smallest = std::numeric_limits<double>::min();
-  if (patch_.weights()[point] == 0.0) return {1.0, 1.0};
-  const PointParameters& p = patch_.points()[static_cast<std::size_t>(point)];
+  if (weights()[point] == 0.0) return {1.0, 1.0};
+  const PointParameters& p = points_[static_cast<std::size_t>(point)];
   const double k_u = p.tangential_stiffness;
   const double mu = p.friction_coefficient;
   const double load = signed_load(p, now.v);
@@ -172,10 +164,10 @@ TransientForce::Guards PatchTransient::guards_at(Eigen::Index point, const Insta
 
 Eigen::Matrix<double, Eigen::Dynamic, TransientForce::guards_per_point> PatchTransient::guards(
     const ModalMotion& motion, const TransientMemory& memory, const GuardScale& scale) const {
-  const Eigen::VectorXd u = shapes_.u * motion.q;
-  const Eigen::VectorXd v = shapes_.v * motion.q;
-  const Eigen::VectorXd u_rate = shapes_.u * motion.velocity;
-  const Eigen::VectorXd v_rate = shapes_.v * motion.velocity;
+  const Eigen::VectorXd u = shapes().u * motion.q;
+  const Eigen::VectorXd v = shapes().v * motion.q;
+  const Eigen::VectorXd u_rate = shapes().u * motion.velocity;
+  const Eigen::VectorXd v_rate = shapes().v * motion.velocity;
   Eigen::Matrix<double, Eigen::Dynamic, guards_per_point> result(n_points(), guards_per_point);
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const Guards row =
@@ -196,7 +188,7 @@ TransientForce::Guards PatchTransient::guards_of(Eigen::Index point, const Modal
 
 void PatchTransient::switch_state(Eigen::Index point, const ModalMotion& motion,
                                   TransientMemory& memory) const {
-  const PointParameters& p = patch_.points()[static_cast<std::size_t>(point)];
+  const PointParameters& p = points_[static_cast<std::size_t>(point)];
   const Instant now = instant(point, motion);
   const double load = signed_load(p, now.v);
   ContactState& state = memory.state[static_cast<std::size_t>(point)];
@@ -231,31 +223,27 @@ double PatchTransient::slip_power(const ModalMotion& motion, const TransientMemo
   for (Eigen::Index i = 0; i < n_points(); ++i) {
     const ContactState state = memory.state[static_cast<std::size_t>(i)];
     if (state != ContactState::positive_slip && state != ContactState::negative_slip) continue;
-    const PointParameters& p = patch_.points()[static_cast<std::size_t>(i)];
+    const PointParameters& p = points_[static_cast<std::size_t>(i)];
     const Instant now = instant(i, motion);
     const double sign = state == ContactState::positive_slip ? 1.0 : -1.0;
     const double slip_rate = sign * now.u_rate - p.friction_coefficient * p.normal_stiffness *
                                                      now.v_rate / p.tangential_stiffness;
-    power += patch_.weights()[i] * p.friction_coefficient * signed_load(p, now.v) * slip_rate;
+    power += weights()[i] * p.friction_coefficient * signed_load(p, now.v) * slip_rate;
   }
   return power;
-}
-
-StateShares PatchTransient::shares(const TransientMemory& memory) const {
-  return area_shares(memory.state, patch_.weights());
 }
 
 Eigen::MatrixXd PatchTransient::stuck_stiffness() const {
   Eigen::VectorXd k_u(n_points());
   Eigen::VectorXd k_v(n_points());
   for (Eigen::Index i = 0; i < n_points(); ++i) {
-    const PointParameters& point = patch_.points()[static_cast<std::size_t>(i)];
-    const double weight = patch_.weights()[i];
+    const PointParameters& point = points_[static_cast<std::size_t>(i)];
+    const double weight = weights()[i];
     k_u[i] = point.has_friction() ? weight * point.tangential_stiffness : 0.0;
     k_v[i] = weight * point.normal_stiffness;
   }
-  return shapes_.u.transpose() * k_u.asDiagonal() * shapes_.u +
-         shapes_.v.transpose() * k_v.asDiagonal() * shapes_.v;
+  return shapes().u.transpose() * k_u.asDiagonal() * shapes().u +
+         shapes().v.transpose() * k_v.asDiagonal() * shapes().v;
 }
 
 }  // namespace microslip::contact

@@ -16,21 +16,20 @@
 /// weight 0 never changes state.
 #pragma once
 
+#include <vector>
+
 #include "contact/patch/contact_patch.hpp"
-#include "contact/transient_force.hpp"
+#include "contact/transient/pointwise_transient.hpp"
 
 namespace microslip::contact {
 
-class PatchTransient final : public TransientForce {
+class PatchTransient final : public PointwiseTransient {
  public:
   /// @param patch   points, n_points.
   /// @param shapes  relative mode shapes at the points, n_points × n_modes; w is not used.
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
-  PatchTransient(ContactPatch patch, ModalShapes shapes);
+  PatchTransient(const ContactPatch& patch, ModalShapes shapes);
 
-  [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
-  [[nodiscard]] Eigen::Index n_points() const override { return patch_.n_points(); }
-  [[nodiscard]] TransientMemory virgin_memory() const override;
   [[nodiscard]] Eigen::VectorXd trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const override;
   double commit(const ModalMotion& motion, TransientMemory& memory) const override;
@@ -47,7 +46,6 @@ class PatchTransient final : public TransientForce {
                     TransientMemory& memory) const override;
   [[nodiscard]] double slip_power(const ModalMotion& motion,
                                   const TransientMemory& memory) const override;
-  [[nodiscard]] StateShares shares(const TransientMemory& memory) const override;
   /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ) dA; a point without friction (μ = 0) resists normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
 
@@ -59,8 +57,7 @@ class PatchTransient final : public TransientForce {
   [[nodiscard]] Eigen::VectorXd modal_force(const Eigen::VectorXd& friction,
                                             const Eigen::VectorXd& normal) const;
 
-  ContactPatch patch_;
-  ModalShapes shapes_;
+  std::vector<PointParameters> points_;
   Eigen::VectorXd u_size_;  // ‖φ_u‖ of each point
   Eigen::VectorXd v_size_;
 };

@@ -9,7 +9,6 @@
 
 #include "contact/patch/mode_shape_check.hpp"
 #include "contact/plane/planar_slip.hpp"
-#include "contact/transient/area_shares.hpp"
 
 namespace microslip::contact {
 namespace {
@@ -36,6 +35,13 @@ void require_weights(const Eigen::VectorXd& weights, std::size_t n_laws) {
   }
 }
 
+ModalShapes in_three_directions(ModalShapes shapes) {
+  if (shapes.w.size() == 0) {
+    shapes.w = Eigen::MatrixXd::Zero(shapes.u.rows(), shapes.u.cols());
+  }
+  return shapes;
+}
+
 Vector2d slider_of(const TransientMemory& memory, Eigen::Index point) {
   return {memory.slider[point], memory.slider[point + memory.slider.size() / 2]};
 }
@@ -57,24 +63,21 @@ struct PlanarTransient::Motions {
   }
 };
 
-PlanarTransient::PlanarTransient(Eigen::VectorXd weights, std::vector<SurfaceLaw> laws,
-                                 ModalShapes shapes)
-    : weights_(std::move(weights)), shapes_(std::move(shapes)) {
-  require_weights(weights_, laws.size());
-  if (shapes_.w.size() == 0) {
-    shapes_.w = Eigen::MatrixXd::Zero(shapes_.u.rows(), shapes_.u.cols());
-  }
+PlanarTransient::PlanarTransient(Eigen::VectorXd areas, std::vector<SurfaceLaw> laws,
+                                 ModalShapes given)
+    : PointwiseTransient(std::move(areas), in_three_directions(std::move(given)), 2) {
+  require_weights(weights(), laws.size());
   for (const auto& [name, shape] :
-       {std::pair{"u", &shapes_.u}, std::pair{"v", &shapes_.v}, std::pair{"w", &shapes_.w}}) {
-    require_mode_shape("PlanarTransient", name, *shape, weights_.size(), shapes_.u.cols());
+       {std::pair{"u", &shapes().u}, std::pair{"v", &shapes().v}, std::pair{"w", &shapes().w}}) {
+    require_mode_shape("PlanarTransient", name, *shape, n_points(), n_modes());
   }
   points_.reserve(laws.size());
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    points_.emplace_back(laws[i], shapes_.u.row(row).norm() + shapes_.w.row(row).norm(),
-                         shapes_.v.row(row).norm(), !shapes_.w.row(row).isZero(0.0));
+    points_.emplace_back(laws[i], shapes().u.row(row).norm() + shapes().w.row(row).norm(),
+                         shapes().v.row(row).norm(), !shapes().w.row(row).isZero(0.0));
     const std::vector<double> kinks = laws[i].kinks();
-    if (kinks.size() < 2 || weights_[row] == 0.0) continue;
+    if (kinks.size() < 2 || weights()[row] == 0.0) continue;
     kinks_.push_back({row, kinks[1], kinks[1] - kinks[0]});
   }
 }
@@ -85,9 +88,9 @@ PlanarTransient::Motions PlanarTransient::all_motions(const ModalMotion& motion)
     if (q.size() == 0) {
       columns.setZero();
     } else {
-      columns.col(0).noalias() = shapes_.u * q;
-      columns.col(1).noalias() = shapes_.v * q;
-      columns.col(2).noalias() = shapes_.w * q;
+      columns.col(0).noalias() = shapes().u * q;
+      columns.col(1).noalias() = shapes().v * q;
+      columns.col(2).noalias() = shapes().w * q;
     }
     return columns;
   };
@@ -98,25 +101,17 @@ PlanarPointInstant PlanarTransient::instant_at(Eigen::Index i, const ModalMotion
                                                double least_approach) const {
   const auto of = [&](const Eigen::VectorXd& q) -> Eigen::Vector3d {
     if (q.size() == 0) return Eigen::Vector3d::Zero();
-    return {shapes_.u.row(i).dot(q), shapes_.v.row(i).dot(q), shapes_.w.row(i).dot(q)};
+    return {shapes().u.row(i).dot(q), shapes().v.row(i).dot(q), shapes().w.row(i).dot(q)};
   };
   return instant_of(points_[static_cast<std::size_t>(i)],
                     {of(motion.q), of(motion.velocity), of(motion.acceleration)}, least_approach);
 }
 
-TransientMemory PlanarTransient::virgin_memory() const {
-  TransientMemory memory{std::vector<ContactState>(points_.size()),
-                         Eigen::VectorXd::Zero(2 * n_points()), Eigen::VectorXd::Zero(n_points())};
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(n_modes());
-  commit({rest, rest}, memory);
-  return memory;
-}
-
 /// @param tractions  (f_p, n − n_ref, f_r) of each point.
 Eigen::VectorXd PlanarTransient::modal_force(Eigen::MatrixX3d tractions) const {
-  tractions.array().colwise() *= weights_.array();
-  return shapes_.u.transpose() * tractions.col(0) + shapes_.v.transpose() * tractions.col(1) +
-         shapes_.w.transpose() * tractions.col(2);
+  tractions.array().colwise() *= weights().array();
+  return shapes().u.transpose() * tractions.col(0) + shapes().v.transpose() * tractions.col(1) +
+         shapes().w.transpose() * tractions.col(2);
 }
 
 Eigen::VectorXd PlanarTransient::trial_force(const ModalMotion& motion,
@@ -161,7 +156,7 @@ double PlanarTransient::commit(const ModalMotion& motion, TransientMemory& memor
       const Vector2d after = now.position - force.cwiseQuotient(now.stiffness);
       set_slider(memory, i, after);
       memory.internal[i] = std::atan2(force[1], force[0]);
-      work += weights_[i] * now.ratio * force.dot(after - before);
+      work += weights()[i] * now.ratio * force.dot(after - before);
     }
   }
   return work;
@@ -225,7 +220,7 @@ TransientForce::Guards PlanarTransient::guards_at(Eigen::Index i, const PlanarPo
   constexpr double smallest = std::numeric_limits<double>::min();
   const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
   const ContactState state = memory.state[static_cast<std::size_t>(i)];
-  if (weights_[i] == 0.0) return {1.0, 1.0};
+  if (weights()[i] == 0.0) return {1.0, 1.0};
   const PointParameters& p = point.law.point();
   const double normal_stiffness = p.normal_stiffness * point.normal_size;
   const double load_size =
@@ -273,7 +268,7 @@ Eigen::VectorXd PlanarTransient::kink_distances(const ModalMotion& motion) const
   Eigen::VectorXd distances(static_cast<Eigen::Index>(kinks_.size()));
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
     const Kink& kink = kinks_[static_cast<std::size_t>(i)];
-    distances[i] = (shapes_.v.row(kink.point).dot(motion.q) - kink.approach) / kink.width;
+    distances[i] = (shapes().v.row(kink.point).dot(motion.q) - kink.approach) / kink.width;
   }
   return distances;
 }
@@ -320,13 +315,9 @@ double PlanarTransient::slip_power(const ModalMotion& motion, const TransientMem
     const PlanarPoint& point = points_[static_cast<std::size_t>(i)];
     if (memory.state[static_cast<std::size_t>(i)] != ContactState::slip || !point.rubs) continue;
     const PlanarPointInstant now = instant_of(point, all.of(i));
-    power += weights_[i] * now.ratio * now.radius * slip_speed(now, memory.internal[i]);
+    power += weights()[i] * now.ratio * now.radius * slip_speed(now, memory.internal[i]);
   }
   return power;
-}
-
-StateShares PlanarTransient::shares(const TransientMemory& memory) const {
-  return area_shares(memory.state, weights_);
 }
 
 Eigen::MatrixXd PlanarTransient::stuck_stiffness() const {
@@ -338,10 +329,10 @@ Eigen::MatrixXd PlanarTransient::stuck_stiffness() const {
     k(i, 0) = point.law.first_stiffness();
     k(i, 2) = point.law.second_stiffness();
   }
-  k.array().colwise() *= weights_.array();
-  return shapes_.u.transpose() * k.col(0).asDiagonal() * shapes_.u +
-         shapes_.v.transpose() * k.col(1).asDiagonal() * shapes_.v +
-         shapes_.w.transpose() * k.col(2).asDiagonal() * shapes_.w;
+  k.array().colwise() *= weights().array();
+  return shapes().u.transpose() * k.col(0).asDiagonal() * shapes().u +
+         shapes().v.transpose() * k.col(1).asDiagonal() * shapes().v +
+         shapes().w.transpose() * k.col(2).asDiagonal() * shapes().w;
 }
 
 }  // namespace microslip::contact

@@ -18,13 +18,12 @@
 
 #include <vector>
 
-#include "contact/patch.hpp"
 #include "contact/plane/planar_point.hpp"
-#include "contact/transient_force.hpp"
+#include "contact/transient/pointwise_transient.hpp"
 
 namespace microslip::contact {
 
-class PlanarTransient final : public TransientForce {
+class PlanarTransient final : public PointwiseTransient {
  public:
   /// @param weights  of the points, n_points, ≥ 0.   @param laws  n_points.
   /// @param shapes   relative mode shapes at the points, n_points × n_modes; w without elements: nothing
@@ -32,9 +31,6 @@ class PlanarTransient final : public TransientForce {
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
   PlanarTransient(Eigen::VectorXd weights, std::vector<SurfaceLaw> laws, ModalShapes shapes);
 
-  [[nodiscard]] Eigen::Index n_modes() const override { return shapes_.u.cols(); }
-  [[nodiscard]] Eigen::Index n_points() const override { return weights_.size(); }
-  [[nodiscard]] TransientMemory virgin_memory() const override;
   /// The return (I + λK)⁻¹ f* of theory section 9.
   [[nodiscard]] Eigen::VectorXd trial_force(const ModalMotion& motion,
                                             const TransientMemory& memory) const override;
@@ -60,7 +56,6 @@ class PlanarTransient final : public TransientForce {
                     TransientMemory& memory) const override;
   [[nodiscard]] double slip_power(const ModalMotion& motion,
                                   const TransientMemory& memory) const override;
-  [[nodiscard]] StateShares shares(const TransientMemory& memory) const override;
   /// ∫ (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ + φ_w k_w φ_wᵀ) dA, all in full contact; without friction normally only.
   [[nodiscard]] Eigen::MatrixXd stuck_stiffness() const override;
 
@@ -81,8 +76,6 @@ class PlanarTransient final : public TransientForce {
     double width;     ///< from first touch to there [m]
   };
 
-  Eigen::VectorXd weights_;
-  ModalShapes shapes_;
   std::vector<PlanarPoint> points_;
   std::vector<Kink> kinks_;
 };
