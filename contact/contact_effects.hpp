@@ -1,6 +1,6 @@
 /// @file
-/// Which effects of contact are simulated, the same for all patches of a scene; what differs from patch to
-/// patch stands in its SurfaceRules.
+/// Which effects of contact are simulated, the same for all patches of a scene; what differs from
+/// patch to patch stands in its SurfaceRules.
 #pragma once
 
 namespace microslip::contact {

@@ -1,11 +1,14 @@
 /// @file
-/// The one place where it is chosen how the points of a contact are evaluated, and the one object that answers
-/// for them: the force for harmonic balance, the force for integration in time, the history for maps, what is
-/// carried at rest. All of them see the same points under the same load with the same effects.
+/// The one place where it is chosen how the points of a contact are evaluated, and the one object
+/// that answers for them: the force for harmonic balance, the force for integration in time, the
+/// history for maps, what is carried at rest. All of them see the same points under the same load
+/// with the same effects.
 ///
 ///   one harmonic, one direction, plain surfaces    closed form (theory sections 3, 4)
-///   48 points or more, anything else               the period sampled, all points in lanes (contact/sampled)
-///   else                                           each point event by event (contact/line, contact/plane)
+///   48 points or more, anything else               the period sampled, all points in lanes
+///                                                  (contact/sampled)
+///   else                                           each point event by event (contact/line,
+///                                                  contact/plane)
 ///
 /// Several patches are one force whose points are those of all patches in order.
 #pragma once
@@ -35,16 +38,17 @@ struct RestingLoad {
   bool partly_open = false;  ///< presses on a part, a gap on another
 };
 
-/// How points are evaluated. Another method for whole patches (contact/sampled) is one more name here, its condition
-/// in method_for() and its case in ContactForce::force_of(), which has weights, shapes and surfaces() of all points.
+/// How points are evaluated. Another method for whole patches (contact/sampled) is one more name
+/// here, its condition in method_for() and its case in ContactForce::force_of(), which has weights,
+/// shapes and surfaces() of all points.
 enum class Method { closed_form, lanes, point_methods };
 
 /// The choice. @param n_points  of all patches together.
 /// @param plain  one direction, constant friction, smooth surfaces everywhere.
 [[nodiscard]] Method method_for(Eigen::Index n_points, bool plain, int n_harmonics);
 
-/// Whether forces of the patches are sampled in time, in lanes (contact/sampled), instead of located event by
-/// event: where several harmonics meet many points.
+/// Whether forces of the patches are sampled in time, in lanes (contact/sampled), instead of
+/// located event by event: where several harmonics meet many points.
 [[nodiscard]] bool is_sampled(std::span<const Patch> patches, const ContactEffects& effects);
 
 class ContactForce {

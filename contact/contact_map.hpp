@@ -31,12 +31,12 @@ struct ContactMap {
   /// lasts the whole period [rad], n × 5. A boundary between states at θ is a level line of these.
   /// With several harmonics a state may begin several times; this is the first after θ = 0.
   Eigen::MatrixXd state_start;
-  /// All of them in order [rad], n × 5m: columns m k … m (k + 1) − 1 belong to state k, m the most that one state
-  /// begins at one point; NaN beyond its last.
+  /// All of them in order [rad], n × 5m: columns m k … m (k + 1) − 1 belong to state k, m the most
+  /// that one state begins at one point; NaN beyond its last.
   Eigen::MatrixXd state_starts;
   Eigen::MatrixXd state_share;  ///< of the period in each ContactState [-], n × 5
-  /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another kind are their zero
-  /// lines. Empty where methods alone were given, until add_guards().
+  /// Guards of the period (transition_guards.hpp) [Pa], n: boundaries between points of another
+  /// kind are their zero lines. Empty where methods alone were given, until add_guards().
   Eigen::VectorXd slip_guard, smallest_load, largest_load;
   Eigen::VectorXd
       friction_coefficient;       ///< of the points at rest [-], n; empty where it was not told
@@ -65,7 +65,8 @@ struct ContactMap {
                                      double frequency, int n_phases, double wear_coefficient);
 
 /// Guards of the period for points of any surface law.
-/// @param surfaces   one per point, n.   @param shapes  as for contact_map(): w is empty without friction along r.
+/// @param surfaces   one per point, n.
+/// @param shapes  as for contact_map(): w is empty without friction along r.
 /// @param frequency  ω [rad/s].
 void add_guards(ContactMap& map, const std::vector<SurfaceLaw>& surfaces, const ModalShapes& shapes,
                 const Harmonics& q, double frequency);

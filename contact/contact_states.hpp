@@ -1,6 +1,6 @@
 /// @file
-/// States of all points of a patch under one motion, and how much of them is different under another: what
-/// a step control wants to know of a step.
+/// States of all points of a patch under one motion, and how much of them is different under
+/// another: what a step control wants to know of a step.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
 /// @file
-/// Decompositions of dense matrices, compiled once: a header of Eigen's costs every file that includes it
-/// seconds, its code megabytes. The lowest room that needs them has them; the others use its face.
+/// Decompositions of dense matrices, compiled once: a header of Eigen's costs every file that
+/// includes it seconds, its code megabytes. The lowest room that needs them has them;
+/// the others use its face.
 ///
 /// Matrices are square unless said otherwise; numbers that are not finite go through, as in Eigen.
 #pragma once
@@ -71,7 +72,8 @@ struct GeneralPairs {
 [[nodiscard]] std::optional<Eigen::VectorXcd> general_eigenvalues(const Eigen::MatrixXd& A);
 [[nodiscard]] std::optional<GeneralPairs> general_pairs(const Eigen::MatrixXd& A);
 
-/// e^A by scaling and squaring of Padé's approximant (Higham, SIAM J. Matrix Anal. Appl. 26 (2005) 1179–1193).
+/// e^A by scaling and squaring of Padé's approximant (Higham, SIAM J. Matrix Anal. Appl.
+/// 26 (2005) 1179–1193).
 /// @param A  finite.
 [[nodiscard]] Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);
 

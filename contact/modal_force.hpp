@@ -18,14 +18,14 @@
 
 namespace microslip::contact {
 
-/// G and its derivatives at one iterate, by n = rows · n_modes unknowns: all of Harmonics::vector(), in its order, or
-/// those asked for.
+/// G and its derivatives at one iterate, by n = rows · n_modes unknowns: all of
+/// Harmonics::vector(), in its order, or those asked for.
 struct ForceAndJacobian {
   Harmonics force;                       ///< G [N/√kg]
   Eigen::MatrixXd jacobian;              ///< ∂G/∂q [1/s²], n × n
   Eigen::VectorXd frequency_derivative;  ///< ∂G/∂ω at fixed q, n; zero unless rate-dependent
-  /// Largest ‖δG‖ by which G may be off because a method did not meet its own tolerance [N/√kg]. Whoever
-  /// judges a residual adds it.
+  /// Largest ‖δG‖ by which G may be off because a method did not meet its own tolerance [N/√kg].
+  /// Whoever judges a residual adds it.
   double defect = 0.0;
 };
 
@@ -44,19 +44,21 @@ enum class LinearState { unknown, stuck, free };
 
 /// What is asked of the equations at a motion.
 struct Asked {
-  /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, which is
-  /// cheaper where points are sampled.
+  /// Rows of Harmonics::rows() by which to differentiate, ascending; none: the force alone, which
+  /// is cheaper where points are sampled.
   std::vector<Eigen::Index> rows{};
-  /// Of the force: what a motion asks of equations left out. Fewer than the motion has, e.g. 0: those of the motion.
-  /// More: without derivatives.
+  /// Of the force: what a motion asks of equations left out. Fewer than the motion has, e.g. 0:
+  /// those of the motion. More: without derivatives.
   int n_harmonics = 0;
 };
 
-/// A force does not change: what an evaluation leaves for the next lies in a workspace that the caller owns.
+/// A force does not change: what an evaluation leaves for the next lies in a workspace that the
+/// caller owns.
 class ModalForce {
  public:
-  /// Storage, and what was found at the motion evaluated last. It saves time and decides no answer: equal
-  /// questions give equal bits, whatever was asked before. Of one force, for one thread at a time.
+  /// Storage, and what was found at the motion evaluated last. It saves time and decides no answer:
+  /// equal questions give equal bits, whatever was asked before. Of one force,
+  /// for one thread at a time.
   class Workspace {
    public:
     explicit Workspace(const ModalForce& owner) : owner_(&owner) {}
@@ -90,9 +92,10 @@ class ModalForce {
   /// @param q          harmonics of the modal coordinates [m√kg].
   /// @param frequency  ω [rad/s].
   /// @return           derivatives by the rows asked for and by these alone: n = rows · n_modes.
-  /// @throws std::invalid_argument  another number of modes than n_modes(), harmonics that the force does not know,
-  ///                                derivatives of more harmonics than the motion has. Of forces that keep
-  ///                                anything there: a workspace of another.
+  /// @throws std::invalid_argument  another number of modes than n_modes(), harmonics that the
+  ///                                force does not know, derivatives of more harmonics than the
+  ///                                motion has. Of forces that keep anything there:
+  ///                                a workspace of another.
   [[nodiscard]] ForceAndJacobian evaluate(const Harmonics& q, double frequency, const Asked& asked,
                                           Workspace& work) const;
 
@@ -100,8 +103,9 @@ class ModalForce {
   /// @throws std::invalid_argument  as evaluate().
   [[nodiscard]] virtual CycleReport report(const Harmonics& q, double frequency,
                                            Workspace& work) const = 0;
-  /// What each point does under a motion: where the kind of its cycle changes the force has a kink. Costs
-  /// next to nothing at the motion evaluated last with this workspace, elsewhere an evaluation.
+  /// What each point does under a motion: where the kind of its cycle changes the force has a kink.
+  /// Costs next to nothing at the motion evaluated last with this workspace,
+  /// elsewhere an evaluation.
   /// @param result  written whole, storage is used again; empty: not told.
   /// @throws std::invalid_argument  as evaluate().
   virtual void states(const Harmonics& /*q*/, double /*frequency*/, ContactStates& result,
@@ -111,8 +115,8 @@ class ModalForce {
 
   /// Linear limit with every point stuck [1/s², n_modes × n_modes]; the free limit is zero.
   [[nodiscard]] virtual Eigen::MatrixXd stuck_stiffness() const = 0;
-  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg], which may be infinite: of
-  /// all there are. Unknown unless overridden.
+  /// What is proved of all motions within ‖Δx‖ ≤ radius of a centre [m√kg], which may be infinite:
+  /// of all there are. Unknown unless overridden.
   [[nodiscard]] virtual LinearState linear_state(const Harmonics& /*centre*/,
                                                  double /*radius*/) const {
     return LinearState::unknown;

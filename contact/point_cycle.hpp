@@ -1,9 +1,11 @@
 /// @file
 /// The steady friction cycle of a single contact point, by whichever method its motion calls for:
 ///
-///   motion along r as well      located events in the plane, to 1e-12 of its force scale (contact/plane)
+///   motion along r as well      located events in the plane, to 1e-12 of its force scale
+///                               (contact/plane)
 ///   several harmonics           event by event (contact/line)
-///   one harmonic                closed form with its Jacobian (contact/closed_form), instants by the events
+///   one harmonic                closed form with its Jacobian (contact/closed_form), instants by
+///                               the events
 #pragma once
 
 #include <optional>

@@ -1,14 +1,16 @@
 /// @file
-/// How much memory a direct factorisation will take, told by the mesh alone before anything is assembled: time to
-/// refuse, or to go the iterative way.
+/// How much memory a direct factorisation will take, told by the mesh alone before anything is
+/// assembled: time to refuse, or to go the iterative way.
 ///
-/// The elements are halved again and again by planes across an axis, where few nodes lie (nested dissection). Nodes that both halves of a
-/// piece have, and nothing outside it, are eliminated together when the halves meet:
+/// The elements are halved again and again by planes across an axis, where few nodes lie (nested
+/// dissection). Nodes that both halves of a piece have, and nothing outside it, are eliminated
+/// together when the halves meet:
 ///
-///   s nodes eliminated, b nodes on the border of the piece: 9 [s (s + 1)/2 + s b] numbers of the factor       (1)
+///   9 [s (s + 1)/2 + s b]                                                                      (1)
 ///
-/// A slender blade has small borders and a compact block large ones: of 100 000 unknowns each they differ by a factor of three,
-/// which no power of the number of unknowns knows.
+/// numbers of the factor, for s nodes eliminated and b nodes on the border of the piece. A slender
+/// blade has small borders and a compact block large ones: of 100 000 unknowns each they differ by
+/// a factor of three, which no power of the number of unknowns knows.
 ///
 /// Source: George, SIAM J. Numer. Anal. 10 (1973) 345–363.
 #pragma once

@@ -37,7 +37,8 @@ struct ModalTimings {
   double inertia = 0.0;     ///< the count: ordering and factorisation of its own
 };
 
-/// Owns K, M and one factorisation, or the levels of multigrid; answers modes and static questions about one structure.
+/// Owns K, M and one factorisation, or the levels of multigrid;
+/// answers modes and static questions about one structure.
 class Structure {
  public:
   /// Assembles. @param clamped  names of surfaces or node sets of the mesh that are held.
@@ -45,7 +46,8 @@ class Structure {
   Structure(const mesh::Mesh& mesh, const Material& material,
             const std::vector<std::string>& clamped, Tet10Rule rule = Tet10Rule::accurate,
             SolverKind solver = SolverKind::direct);
-  /// Takes K and M from elsewhere. @throws mesh::MeshError, std::invalid_argument  see GivenMatrices.
+  /// Takes K and M from elsewhere.
+  /// @throws mesh::MeshError, std::invalid_argument  see GivenMatrices.
   Structure(const mesh::Mesh& mesh, const GivenMatrices& matrices,
             SolverKind solver = SolverKind::direct);
   ~Structure();
@@ -54,29 +56,33 @@ class Structure {
   Structure(const Structure&) = delete;
   Structure& operator=(const Structure&) = delete;
 
-  /// Lets the body rotate with its supports: K is from now on that of small motions about the static equilibrium
-  /// under the centrifugal load (fem/assembly/rotating_system.hpp), and so are modes and solutions. Once more with
-  /// another speed: begun from the equilibrium before. Springs that were added are gone.
+  /// Lets the body rotate with its supports: K is from now on that of small motions about the
+  /// static equilibrium under the centrifugal load (fem/assembly/rotating_system.hpp), and so are
+  /// modes and solutions. Once more with another speed: begun from the equilibrium before. Springs
+  /// that were added are gone.
   /// @param mesh, material  those it was made of.
   /// @return displacement of the equilibrium, 3 n_nodes [m].
-  /// @throws EigenError  "rotation: …": the body floats, no equilibrium is found, or it is not stable there.
+  /// @throws EigenError  "rotation: …": the body floats, no equilibrium is found,
+  ///         or it is not stable there.
   Eigen::VectorXd rotate(const mesh::Mesh& mesh, const Material& material,
                          const Rotation& rotation);
   [[nodiscard]] Eigen::Index n_dofs() const;  ///< free degrees of freedom
   [[nodiscard]] double mass() const;          ///< [kg]
-  /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero modes
-  ///         than a free body has or a mechanism inside it; with numbers.
+  /// @throws EigenError  fewer modes than asked, a pair not accurate, a missed mode, more zero
+  ///         modes than a free body has or a mechanism inside it; with numbers.
   [[nodiscard]] ModalBasis solve_modes(const ModalOptions& options);
   /// Displacement under loads: columns of F (3 n_nodes × m) [N] → u (3 n_nodes × m) [m].
   /// @throws EigenError  rigid-body modes: K is singular.
   [[nodiscard]] Eigen::MatrixXd solve_static(const Eigen::MatrixXd& forces);
-  /// Three static solves for a uniform unit traction on the surface along p, q and r of each place, minus
-  /// what the modes of `basis` carry (theory section 14). With rigid-body modes: inertia relief.
+  /// Three static solves for a uniform unit traction on the surface along p, q and r of each place,
+  /// minus what the modes of `basis` carry (theory section 14). With rigid-body modes:
+  /// inertia relief.
   [[nodiscard]] ResidualFlexibility residual_flexibility(const ModalBasis& basis,
                                                          const mesh::Surface& surface,
                                                          const mesh::FaceFrame& frame);
-  /// The modes of `basis` and attachment shapes behind them (fem/attachment.hpp): one static solve for each
-  /// traction on the faces along p, q and r of each place, of the same degree on all, and for each column of `forces`.
+  /// The modes of `basis` and attachment shapes behind them (fem/attachment.hpp): one static solve
+  /// for each traction on the faces along p, q and r of each place, of the same degree on all, and
+  /// for each column of `forces`.
   /// @param forces  3 n_nodes × m [N], m ≥ 0: the excitation.
   /// @note With rigid-body modes: inertia relief, as residual_flexibility().
   [[nodiscard]] AttachedBasis attach(const ModalBasis& basis,

@@ -3,7 +3,8 @@
 ///
 ///   G = ΦᵀMΦ = Σ_e Σ_ij m_ij Σ_d φ_id φ_jdᵀ,   m_ij = ∫ ρ N_i N_j dV of element e   [kg]
 ///
-/// with the consistent mass of the elements (fem/elements/element_matrices.hpp). Modes of M have G = I.
+/// with the consistent mass of the elements (fem/elements/element_matrices.hpp).
+/// Modes of M have G = I.
 #pragma once
 
 #include <Eigen/Core>

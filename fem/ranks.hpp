@@ -1,9 +1,11 @@
 /// @file
-/// Processes that mpirun has started together. Rank 0 is the program: it reads, decides, writes. The others sleep until it
-/// gives them work, do their part of what is collective, and are dismissed in the end.
+/// Processes that mpirun has started together. Rank 0 is the program: it reads, decides, writes.
+/// The others sleep until it gives them work, do their part of what is collective,
+/// and are dismissed in the end.
 ///
-/// What fails on one rank must end on all. Each tells the others how its part ended (agree()); a rank that has failed and
-/// is waited for inside a library by others, which therefore never come to tell, ends all processes.
+/// What fails on one rank must end on all. Each tells the others how its part ended (agree()); a
+/// rank that has failed and is waited for inside a library by others, which therefore never come to
+/// tell, ends all processes.
 #pragma once
 
 #include <optional>
@@ -11,7 +13,8 @@
 
 namespace microslip::fem {
 
-/// Whether mpirun (or a batch system by PMI) has started several processes: known by the environment, before a session.
+/// Whether mpirun (or a batch system by PMI) has started several processes: known by the
+/// environment, before a session.
 [[nodiscard]] bool started_in_parallel();
 
 [[nodiscard]] int rank();          ///< 0 without a session
@@ -20,8 +23,8 @@ namespace microslip::fem {
 /// Of the machine.
 [[nodiscard]] int n_cores();
 
-/// Begins a session: counts who is on this machine, and lets rank 0, which does alone what is not solved on all, use the
-/// cores of all of them: mpirun binds each rank to cores of its own.
+/// Begins a session: counts who is on this machine, and lets rank 0, which does alone what is not
+/// solved on all, use the cores of all of them: mpirun binds each rank to cores of its own.
 void meet_ranks();
 
 /// Rank 0: the others get the bytes.
@@ -41,14 +44,15 @@ struct Failure {
   std::string message;
 };
 
-/// For a rank that has failed where others wait for it: ends all processes, with its message and code.
+/// For a rank that has failed where others wait for it: ends all processes,
+/// with its message and code.
 [[noreturn]] void end_all(const Failure& failure);
 
 /// After what all ranks did together.
 /// @param own  of this rank; none: it has done its part.
 /// @return     that of the lowest rank with one.
-/// @note Ends all processes with the code of `own` where others do not come within a quarter of a minute, or cannot be
-///       told.
+/// @note Ends all processes with the code of `own` where others do not come within a quarter of a
+///       minute, or cannot be told.
 [[nodiscard]] std::optional<Failure> agree(const std::optional<Failure>& own);
 
 /// Whether it is so on any rank. Collective.

@@ -10,10 +10,12 @@ namespace microslip::fem {
 
 class SlepcSession {
  public:
-  /// On several MPI ranks (fem/ranks.hpp): each has its share of the cores for BLAS, and rank 0, which does alone what
-  /// is not solved on all, may use the cores of all that are on its machine. Does not read the command line. PETSc's own error handler and signal handler are switched off.
+  /// On several MPI ranks (fem/ranks.hpp): each has its share of the cores for BLAS, and rank 0,
+  /// which does alone what is not solved on all, may use the cores of all that are on its machine.
+  /// Does not read the command line. PETSc's own error handler and signal handler are switched off.
   /// @throws std::logic_error  a second one in the life of the process.
-  /// @throws MemoryError       the address space is limited to less than the libraries need to start.
+  /// @throws MemoryError       the address space is limited to less than the libraries need to
+  ///         start.
   SlepcSession();
   ~SlepcSession();
   SlepcSession(const SlepcSession&) = delete;
@@ -24,8 +26,8 @@ class SlepcSession {
   [[nodiscard]] static bool is_open();
 };
 
-/// From here on, where cores are shared among curves and not within a matrix: the same bits for any number of
-/// workers. Does nothing for a BLAS other than OpenBLAS.
+/// From here on, where cores are shared among curves and not within a matrix: the same bits for any
+/// number of workers. Does nothing for a BLAS other than OpenBLAS.
 void use_one_blas_thread();
 /// The BLAS loaded at run time and its threads, e.g. "OpenBLAS 0.3.21, 2 threads" or
 /// "reference BLAS (slow: install libopenblas0-pthread)".

@@ -8,7 +8,9 @@ namespace microslip::fem {
 
 enum class SolverKind : std::uint8_t {
   direct,  ///< LDLᵀ by MUMPS: fast, modes are counted; memory grows as n^1.3
-  iterative,  ///< conjugate gradients with algebraic multigrid: memory grows as n, slower, modes are not counted
+  /// Conjugate gradients with algebraic multigrid: memory grows as n, slower,
+  /// modes are not counted.
+  iterative,
 };
 
 }  // namespace microslip::fem

@@ -16,12 +16,14 @@ namespace microslip::fem {
 [[nodiscard]] Eigen::VectorXd nodal_areas(const Eigen::MatrixX3d& nodes,
                                           const mesh::Surface& surface);
 
-/// Load vectors of a unit traction along p, q and r, at every place those of its own: 3 nodes.rows() × 3 [N per Pa].
+/// Load vectors of a unit traction along p, q and r, at every place those of its own: 3
+/// nodes.rows() × 3 [N per Pa].
 [[nodiscard]] Eigen::MatrixX3d uniform_tractions(const Eigen::MatrixX3d& nodes,
                                                  const mesh::Surface& surface,
                                                  const mesh::FaceFrame& frame);
 
-/// Load vector ∫ N_i n dA of a unit traction along the outward normal n, wherever it points: 3 nodes.rows() [m²].
+/// Load vector ∫ N_i n dA of a unit traction along the outward normal n, wherever it points:
+/// 3 nodes.rows() [m²].
 /// @note Of a closed surface the forces sum to zero.
 [[nodiscard]] Eigen::VectorXd normal_traction(const Eigen::MatrixX3d& nodes,
                                               const mesh::Surface& surface);

@@ -2,13 +2,14 @@
 /// Parametric blade in the manner of paper A, figures 9 and 10: a twisted, tapered aerofoil on a
 /// platform on a root block.
 ///
-/// Axes: x circumferential, y radial (span), z axial. The foot of the root block lies in y = 0 and is
-/// clamped. The right side face of the platform (largest x, normal +x) is the contact face, a plane.
+/// Axes: x circumferential, y radial (span), z axial. The foot of the root block lies in y = 0 and
+/// is clamped. The right side face of the platform (largest x, normal +x) is the contact face,
+/// a plane.
 ///
 /// Named surfaces: "root" (the foot, y = 0), "contact" (right side face of the platform).
 /// Named points: "A" on the tip section at mid-chord (suction side, where the response is read),
-/// "B" leading edge and "B'" trailing edge of the tip section, the ends of its chord and symmetric about
-/// mid-chord (where forces act). Lengths in m, angles in rad.
+/// "B" leading edge and "B'" trailing edge of the tip section, the ends of its chord and symmetric
+/// about mid-chord (where forces act). Lengths in m, angles in rad.
 #pragma once
 
 #include <optional>
@@ -36,8 +37,9 @@ struct BladeGeometry {
 /// Target edge lengths of the elements [m].
 struct ElementSizes {
   double element_size = 0.004;  ///< > 0
-  /// At the edges where stresses are singular and the mesh errs most: the outline of the clamped foot, and the
-  /// re-entrant edges where root block and aerofoil meet the platform. None: as everywhere.
+  /// At the edges where stresses are singular and the mesh errs most: the outline of the clamped
+  /// foot, and the re-entrant edges where root block and aerofoil meet the platform. None:
+  /// as everywhere.
   std::optional<double> edge_size{};
 };
 

@@ -1,6 +1,6 @@
 /// @file
-/// How well shaped elements are, and warnings about the worst: slivers are valid, but spoil the condition
-/// of the stiffness matrix and the accuracy around them.
+/// How well shaped elements are, and warnings about the worst: slivers are valid, but spoil the
+/// condition of the stiffness matrix and the accuracy around them.
 ///
 /// At each corner with edges e₁, e₂, e₃ (of a pyramid: at its base):
 ///   dihedral angle at e₁   α = atan2(|e₁| det(e₁, e₂, e₃), (e₁ × e₂)·(e₁ × e₃))           (1)
@@ -8,7 +8,8 @@
 ///   aspect ratio           longest edge / smallest height    (cube: 1, regular tetrahedron: 1.22)
 /// Corners only: what edge nodes do to the Jacobian is judged by mesh_quality.hpp.
 ///
-/// Source: Shewchuk, What is a good linear element?, 11th Int. Meshing Roundtable (2002), sections 2–3.
+/// Source: Shewchuk, What is a good linear element?, 11th Int. Meshing Roundtable (2002),
+/// sections 2–3.
 #pragma once
 
 #include <string>
@@ -33,8 +34,8 @@ struct ShapeLimits {
   double largest_angle = 3.0892;   ///< 177° [rad]; above: warned of
 };
 
-/// Sentences for the log: how many elements are beyond a limit, and the worst of them by number and place.
-/// Elements that are there once more count as well. Empty for a mesh without any.
+/// Sentences for the log: how many elements are beyond a limit, and the worst of them by number and
+/// place. Elements that are there once more count as well. Empty for a mesh without any.
 [[nodiscard]] std::vector<std::string> shape_warnings(const Mesh& mesh,
                                                       const ShapeLimits& limits = {});
 

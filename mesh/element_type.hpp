@@ -1,7 +1,7 @@
 /// @file
-/// Element and face types with one node order for the whole project: that of Abaqus, which for these types is
-/// also that of VTK, but for wedge6, whose triangles VTK runs the other way round. Foreign orders are permuted where
-/// files are read and written, nowhere else.
+/// Element and face types with one node order for the whole project: that of Abaqus, which for
+/// these types is also that of VTK, but for wedge6, whose triangles VTK runs the other way round.
+/// Foreign orders are permuted where files are read and written, nowhere else.
 ///
 ///   tet10:     corners 0–3, then edges 01 12 02 03 13 23
 ///   hex20:     corners 0–7, then edges 01 12 23 30, 45 56 67 74, 04 15 26 37

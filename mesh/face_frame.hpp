@@ -1,8 +1,9 @@
 /// @file
-/// Axes of a contact on a surface: one set everywhere, or one for every place of a face that is curved (theory
-/// section 1).
+/// Axes of a contact on a surface: one set everywhere, or one for every place of a face that is
+/// curved (theory section 1).
 ///
-///   q = n,   p = (s − (s·n) n)/|s − (s·n) n|,   r = p × q,      n the outward normal of a place, s the slip direction
+///   q = n,   p = (s − (s·n) n)/|s − (s·n) n|,   r = p × q,      n the outward normal of a place, s
+///                                                               the slip direction
 #pragma once
 
 #include <optional>

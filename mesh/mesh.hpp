@@ -16,7 +16,8 @@
 
 namespace microslip::mesh {
 
-/// What joins the parts of a body: nodes they share, or constraints that are no mesh (ties, equations).
+/// What joins the parts of a body: nodes they share, or constraints that are no mesh (ties,
+/// equations).
 enum class Joined : std::uint8_t { by_nodes, by_constraints };
 
 class Mesh {
@@ -27,25 +28,28 @@ class Mesh {
   /// @param elements   volume elements.
   /// @param surfaces   faces per name as found in the file, any orientation; they are matched to
   ///                   the volume elements and turned outward.
-  /// @param node_sets  named points, edges or sets of nodes. The outer faces all of whose nodes are in a set are a
-  ///                   surface of its name, unless `surfaces` has one.
+  /// @param node_sets  named points, edges or sets of nodes. The outer faces all of whose nodes are
+  ///                   in a set are a surface of its name, unless `surfaces` has one.
   /// @param n_repeated  elements of the source that are there once more and were left out.
   /// @param joined      by constraints: parts that share no node are none to be refused.
-  /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate nodes or
-  ///         loose parts, a surface that is not on the boundary.
+  /// @throws MeshError  a finding of the checks (mesh_quality.hpp): inverted elements, duplicate
+  ///         nodes or loose parts, a surface that is not on the boundary.
   Mesh(Eigen::MatrixX3d nodes, std::vector<ElementBlock> elements,
        const std::map<std::string, std::vector<FaceBlock>>& surfaces, const NodeSets& node_sets,
        Eigen::Index n_repeated = 0, Joined joined = Joined::by_nodes);
 
   [[nodiscard]] Eigen::Index n_nodes() const { return nodes_.rows(); }
   [[nodiscard]] Eigen::Index n_elements() const;
-  /// Nodes that were given but belong to no volume element (centres of arcs and the like): left out.
+  /// Nodes that were given but belong to no volume element (centres of arcs and the like):
+  /// left out.
   [[nodiscard]] Eigen::Index n_loose_nodes() const { return n_loose_nodes_; }
-  /// Volume elements that stood in the source once more, in the same group: left out the second time.
+  /// Volume elements that stood in the source once more, in the same group:
+  /// left out the second time.
   [[nodiscard]] Eigen::Index n_repeated_elements() const { return n_repeated_elements_; }
   [[nodiscard]] const Eigen::MatrixX3d& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<ElementBlock>& elements() const { return elements_; }
-  /// A surface by its name, or the faces of a node set. @throws MeshError  no such surface; the message lists the
+  /// A surface by its name, or the faces of a node set.
+  /// @throws MeshError  no such surface; the message lists the
   /// names there are.
   [[nodiscard]] const Surface& surface(const std::string& name) const;
   /// Nodes of a named point, set or surface. @throws MeshError  as above.

@@ -1,6 +1,6 @@
 /// @file
-/// Geometry → mesh: runs microslip-mesher as a child with time and memory limits and turns its end into a file or a
-/// MeshError: gmsh can crash or hang on bad geometry, and the caller lives on.
+/// Geometry → mesh: runs microslip-mesher as a child with time and memory limits and turns its end
+/// into a file or a MeshError: gmsh can crash or hang on bad geometry, and the caller lives on.
 #pragma once
 
 #include <filesystem>
@@ -20,13 +20,15 @@ struct MesherLimits {
   std::function<bool()> stop;  ///< asked every few milliseconds: true ends the mesher; empty: never
 };
 
-/// The program that does it: beside the running one, or one level up in bin/ (tests); MICROSLIP_MESHER overrides.
+/// The program that does it: beside the running one, or one level up in bin/ (tests);
+/// MICROSLIP_MESHER overrides.
 /// @throws MeshError  it is not there.
 [[nodiscard]] std::filesystem::path mesher_program();
 
-/// Meshes the blade into `file` (gmsh 4.1), second order, curved; a name that ends in .step takes its geometry.
-/// @throws MeshError  the mesher failed, crashed, was stopped, ran out of time or memory; names which, with the
-///         last lines it said.
+/// Meshes the blade into `file` (gmsh 4.1), second order, curved;
+/// a name that ends in .step takes its geometry.
+/// @throws MeshError  the mesher failed, crashed, was stopped, ran out of time or memory; names
+///         which, with the last lines it said.
 void mesh_blade(const BladeGeometry& geometry, const ElementSizes& sizes,
                 const std::filesystem::path& file, const MesherLimits& limits = {});
 

@@ -11,8 +11,8 @@
 
 namespace microslip::mesh {
 
-/// Corner nodes of every outer face in outward order, as the elements have them; the last of a triangle is −1. In an
-/// order that depends on the mesh alone.
+/// Corner nodes of every outer face in outward order, as the elements have them; the last of a
+/// triangle is −1. In an order that depends on the mesh alone.
 [[nodiscard]] std::vector<std::array<Eigen::Index, 4>> outer_faces(const Mesh& mesh);
 
 }  // namespace microslip::mesh

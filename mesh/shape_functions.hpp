@@ -1,19 +1,20 @@
 /// @file
-/// Shape functions and their derivatives on reference elements, in the node order of element_type.hpp.
-/// Tetrahedra and triangles on the unit simplex, hexahedra on [−1, 1]³ (serendipity for 20 nodes),
-/// quadrilaterals on [−1, 1]², wedges on the unit triangle × [−1, 1] (serendipity for 15 nodes), pyramids on
-/// {0 ≤ ζ ≤ 1, |ξ|, |η| ≤ 1 − ζ}: base [−1, 1]², apex (0, 0, 1).
+/// Shape functions and their derivatives on reference elements, in the node order of
+/// element_type.hpp. Tetrahedra and triangles on the unit simplex, hexahedra on [−1, 1]³
+/// (serendipity for 20 nodes), quadrilaterals on [−1, 1]², wedges on the unit triangle × [−1, 1]
+/// (serendipity for 15 nodes), pyramids on {0 ≤ ζ ≤ 1, |ξ|, |η| ≤ 1 − ζ}: base [−1, 1]², apex (0,
+/// 0, 1).
 ///
-/// Shape functions of a pyramid that fit those of its neighbours on all faces are rational. With w = 1 − ζ,
-/// a = ξ/w, b = η/w each is w times a polynomial g(a, b, w), and so
+/// Shape functions of a pyramid that fit those of its neighbours on all faces are rational. With w
+/// = 1 − ζ, a = ξ/w, b = η/w each is w times a polynomial g(a, b, w), and so
 ///
-///   ∂N/∂ξ = ∂g/∂a,   ∂N/∂η = ∂g/∂b,   ∂N/∂ζ = a ∂g/∂a + b ∂g/∂b − g − w ∂g/∂w                     (1)
+///   ∂N/∂ξ = ∂g/∂a,   ∂N/∂η = ∂g/∂b,   ∂N/∂ζ = a ∂g/∂a + b ∂g/∂b − g − w ∂g/∂w                  (1)
 ///
-/// have nothing to divide by. At the apex itself, where a and b depend on the way there, (1) is taken on the
-/// axis, a = b = 0.
+/// have nothing to divide by. At the apex itself, where a and b depend on the way there, (1) is
+/// taken on the axis, a = b = 0.
 ///
-/// Source of the pyramids: Bedrosian, Shape functions and integration formulas for three-dimensional finite
-/// element analysis, Int. J. Numer. Methods Eng. 35 (1992) 95–108.
+/// Source of the pyramids: Bedrosian, Shape functions and integration formulas for
+/// three-dimensional finite element analysis, Int. J. Numer. Methods Eng. 35 (1992) 95–108.
 #pragma once
 
 #include <cstddef>

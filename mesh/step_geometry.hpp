@@ -1,6 +1,6 @@
 /// @file
-/// A STEP file (ISO 10303-21) as far as naming its faces needs it: one solid, its faces with numbers, and triangles on
-/// them. Lengths in metres.
+/// A STEP file (ISO 10303-21) as far as naming its faces needs it: one solid, its faces with
+/// numbers, and triangles on them. Lengths in metres.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ struct StepUnit {
 };
 
 /// @return  the units of length in the file, each once; empty: it says none.
-/// @throws MeshError  the file cannot be read, is no STEP file, ends before its end mark, or has statements that refer to
-///                    none or are not as the standard has them.
+/// @throws MeshError  the file cannot be read, is no STEP file, ends before its end mark, or has
+///                    statements that refer to none or are not as the standard has them.
 [[nodiscard]] std::vector<StepUnit> step_length_units(const std::filesystem::path& file);
 
 struct StepFace {

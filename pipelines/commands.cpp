@@ -366,7 +366,8 @@ std::filesystem::path folder_of_output(const Arguments& arguments) {
   return (std::filesystem::current_path() / arguments.output).parent_path();
 }
 
-/// `init KIND`, or with a file `init mesh`, `init step` or `init modes`; a STEP file is taken for what it is.
+/// `init KIND`, or with a file `init mesh`, `init step` or `init modes`;
+/// a STEP file is taken for what it is.
 std::string new_scene(const Arguments& arguments) {
   const std::string kind = arguments.input.empty() ? "blade" : arguments.input;
   if (arguments.mesh_file.empty()) return scene_template(kind);

@@ -1,6 +1,7 @@
 /// @file
-/// The whole flow, stage by stage: study.cpp is the page to read first. Each function, here and in the headers of the
-/// other commands, is one command of the program and returns its exit code; errors are thrown (exit_code.hpp).
+/// The whole flow, stage by stage: study.cpp is the page to read first. Each function, here and in
+/// the headers of the other commands, is one command of the program and returns its exit code;
+/// errors are thrown (exit_code.hpp).
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"

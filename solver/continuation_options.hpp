@@ -15,26 +15,29 @@ struct ContinuationOptions {
   double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
   int n_harmonics = 1;           ///< highest harmonic of the unknowns, ≥ 1
   std::vector<int> orders;       ///< the only harmonics of the unknowns; empty: 1 … n_harmonics
-  /// Above 0: one set is chosen for the curve, so that those left out change its highest peaks by less than
-  /// this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the highest that may be
-  /// added, `orders` is not used.
+  /// Above 0: one set is chosen for the curve, so that those left out change its highest peaks by
+  /// less than this share of the amplitude (enrichment/curve_harmonics.hpp); n_harmonics is the
+  /// highest that may be added, `orders` is not used.
   double harmonic_tolerance = 0.0;
-  /// Relative, see ResponsePoint::residual; > 0. Of every point; rounding of the residual bounds it below.
+  /// Relative, see ResponsePoint::residual; > 0. Of every point;
+  /// rounding of the residual bounds it below.
   double residual_tolerance = 1e-11;
-  /// Forces alone may be several times cheaper than with derivatives: then steps are corrected with one Jacobian
-  /// each (balance/few_jacobians.hpp).
+  /// Forces alone may be several times cheaper than with derivatives: then steps are corrected with
+  /// one Jacobian each (balance/few_jacobians.hpp).
   enum class Corrector { newton, few_jacobians } corrector = Corrector::newton;
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;
-  /// Whether points are told to be stable or not: a tenth of the time of a curve with several harmonics, much more in
-  /// scenes of few modes. Where curves are traced for their peaks alone, nobody asks.
+  /// Whether points are told to be stable or not: a tenth of the time of a curve with several
+  /// harmonics, much more in scenes of few modes. Where curves are traced for their peaks alone,
+  /// nobody asks.
   bool judge_stability = true;
-  /// Asked between the steps of choices, searches and followed peaks: true ends them with what there is. A curve itself
-  /// is stopped by its observer.
+  /// Asked between the steps of choices, searches and followed peaks: true ends them with what
+  /// there is. A curve itself is stopped by its observer.
   std::function<bool()> stop{};
-  /// A motion near the solution at frequency_begin, of a poorer model say: Newton's method is tried from it before the
-  /// linear limits, so that of several solutions there the curve begins with that one.
+  /// A motion near the solution at frequency_begin, of a poorer model say: Newton's method is tried
+  /// from it before the linear limits, so that of several solutions there the curve begins with
+  /// that one.
   std::optional<contact::Harmonics> near_begin{};
   /// Starts per frequency of a search for detached branches (branch_search.hpp); 0: none.
   int search_starts = 0;

@@ -1,5 +1,6 @@
 /// @file
-/// What ended a curve early, and what was done where a step failed: values in code, names in files and messages.
+/// What ended a curve early, and what was done where a step failed: values in code,
+/// names in files and messages.
 #pragma once
 
 #include <array>
@@ -16,10 +17,12 @@ enum class Diagnosis : std::uint8_t {
   newton_stall,   ///< Newton's method fails and no remedy helps
   fold_lost,      ///< the same next to a fold: the branch turns, no way on was found
   event_chatter,  ///< the same where the Jacobian jumps within the smallest step
-  branch_jump,  ///< beyond such a point only another branch was found; points before and after are valid
-  loop,         ///< a branch entered by a jump is closed and does not reach the end
-  budget,       ///< max_points were not enough
-  out_of_range,  ///< the branch turned back out of the range at its begin; in time: beyond all numbers
+  /// Beyond such a point only another branch was found; points before and after are valid.
+  branch_jump,
+  loop,    ///< a branch entered by a jump is closed and does not reach the end
+  budget,  ///< max_points were not enough
+  /// The branch turned back out of the range at its begin; in time: beyond all numbers.
+  out_of_range,
   unbounded,     ///< at an undamped resonance that nothing limits
   not_periodic,  ///< in time: motions that do not repeat themselves
   interrupted    ///< the observer asked to stop
@@ -37,7 +40,8 @@ enum class Remedy : std::uint8_t {
   other_end,        ///< the curve is that from the end of the range
   located_events,   ///< the whole curve traced again, events located in place of sampled forces
   harmonics_kept,   ///< the choice of harmonics did not settle
-  peak_unsolved,  ///< there is one, of which the nearest point found is marked, within the step in which it lies
+  /// There is one, of which the nearest point found is marked, within the step in which it lies.
+  peak_unsolved,
   fold_unsolved  ///< likewise
 };
 

@@ -1,7 +1,8 @@
 /// @file
-/// The best value of one scene parameter: minimum over the parameter of the largest amplitude on the
-/// frequency range, its ends included. Peaks and ends are followed from value to value (peak_trace.hpp);
-/// the best value itself is confirmed on a whole curve, and where that keeps failing every value is.
+/// The best value of one scene parameter: minimum over the parameter of the largest amplitude on
+/// the frequency range, its ends included. Peaks and ends are followed from value to value
+/// (peak_trace.hpp); the best value itself is confirmed on a whole curve,
+/// and where that keeps failing every value is.
 #pragma once
 
 #include <array>
@@ -17,12 +18,12 @@ struct Optimum {
   PeakOfParameter best;
   std::vector<PeakOfParameter> trace;  ///< all values solved for, sorted by parameter
   bool found = false;  ///< false: minimum at a bound of the parameter, flat, or not confirmed
-  /// Where the minimum does not depend on the parameter: the interval over which it is the same; `best` is
-  /// then one of many.
+  /// Where the minimum does not depend on the parameter: the interval over which it is the same;
+  /// `best` is then one of many.
   std::optional<std::array<double, 2>> flat;
   std::string objection;  ///< why not found; empty: found
-  /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly as good
-  /// elsewhere, and whether an end of the frequency range counts.
+  /// The objection, the interval that is as good to 1 % among the values solved for, minima nearly
+  /// as good elsewhere, and whether an end of the frequency range counts.
   std::string message;
   std::vector<std::string> notes;     ///< see PeakTrace
   std::vector<std::string> warnings;  ///< likewise
@@ -41,13 +42,15 @@ struct OptimumOptions {
   double amplitude_tolerance = 1e-7;
   int n_scan = 12;  ///< values of the first scan, ≥ 3
   ParameterScale scale = ParameterScale::logarithmic;
-  /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best value and at
-  /// both ends of the interval that is as good to 1 %; 0: none beside those the scene asks for.
+  /// Of a search for solutions beside the curve (ContinuationOptions::search_starts) at the best
+  /// value and at both ends of the interval that is as good to 1 %; 0:
+  /// none beside those the scene asks for.
   int search_starts = 2;
   Together together = one_by_one;  ///< curves that do not wait for one another
 };
 
-/// @param family  scene for a value of the parameter; on whatever threads `together` runs its tasks.
+/// @param family  scene for a value of the parameter; on whatever threads `together` runs its
+///                tasks.
 /// @throws std::invalid_argument  bounds or counts out of range.
 [[nodiscard]] Optimum minimise_peak(const SceneFamily& family, const ContinuationOptions& range,
                                     const OptimumOptions& options);

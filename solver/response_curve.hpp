@@ -1,6 +1,6 @@
 /// @file
-/// Solution points of a scene over frequency, in branch order, each with its proof: residual, energy
-/// balance, stability.
+/// Solution points of a scene over frequency, in branch order, each with its proof: residual,
+/// energy balance, stability.
 #pragma once
 
 #include <functional>
@@ -19,8 +19,8 @@ enum class PointMark { none, peak, fold };
 /// 1, 0, −1 in files.
 enum class Stability { unstable = 0, stable = 1, not_assessed = -1 };
 
-/// What a verdict of stability rests on (stability.hpp). Hill's exponents do not prove that pairs of a hysteretic
-/// force decay: what they call stable is not proved stable.
+/// What a verdict of stability rests on (stability.hpp). Hill's exponents do not prove that pairs
+/// of a hysteretic force decay: what they call stable is not proved stable.
 enum class StabilityBasis { slow_flow, hill, period_map, damped_linear };
 
 /// What a period takes from the excitation [J].
@@ -66,8 +66,8 @@ struct SolverEvent {
 /// A branch that the sweep does not meet: it coexists with the curve.
 struct DetachedBranch {
   std::vector<ResponsePoint> points;  ///< in branch order
-  /// An isola: the last point is next to the first. Else both ends leave the range, or the range is one
-  /// frequency and the branch one point.
+  /// An isola: the last point is next to the first. Else both ends leave the range, or the range is
+  /// one frequency and the branch one point.
   bool closed = false;
 };
 
@@ -84,7 +84,8 @@ struct ResponseCurve {
   bool complete = false;
   Diagnosis diagnosis = Diagnosis::none;
   std::string message;  ///< a sentence with the numbers
-  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole range, or rest.
+  /// Empty, or what was proved instead of solved: the linear limit is a solution over the whole
+  /// range, or rest.
   std::string certificate;
   std::vector<SolverEvent> log;          ///< remedies in the order they were needed
   std::vector<DetachedBranch> detached;  ///< found by the search, if one was asked for

@@ -1,6 +1,7 @@
 /// @file
-/// What the harmonics that a curve was given leave out, at its highest peak: the peak is solved again with more
-/// (theory section 24; where the step is long the richer equations are solved, and here they always are).
+/// What the harmonics that a curve was given leave out, at its highest peak: the peak is solved
+/// again with more (theory section 24; where the step is long the richer equations are solved,
+/// and here they always are).
 #pragma once
 
 #include <optional>
@@ -16,8 +17,8 @@ namespace microslip::solver {
 struct RicherPeak {
   double frequency = 0.0;  ///< with more harmonics [rad/s]
   double amplitude = 0.0;  ///< [m]
-  /// (amplitude − that of the curve) / amplitude; empty: the peak is not found from that of the curve, which is far
-  /// from it then, or on another branch.
+  /// (amplitude − that of the curve) / amplitude; empty: the peak is not found from that of the
+  /// curve, which is far from it then, or on another branch.
   std::optional<double> change;
   int highest = 0;                 ///< harmonic
   double seconds = 0.0;            ///< that solving it took
@@ -48,8 +49,9 @@ struct PeakOfBoth {
   double dissipated_energy = 0.0, other_dissipated_energy = 0.0;  ///< by friction in a period [J]
 };
 
-/// The highest peak of a curve, or end of its range, solved for again in another model with the same harmonics. Where what
-/// is found is much lower, or nothing is, points beside the peak are tried too, and the highest counts.
+/// The highest peak of a curve, or end of its range, solved for again in another model with the
+/// same harmonics. Where what is found is much lower, or nothing is, points beside the peak are
+/// tried too, and the highest counts.
 /// @param scene, range  of the curve.
 /// @return empty: the curve has no such point, or the other model has no peak near by.
 [[nodiscard]] std::optional<PeakOfBoth> peak_elsewhere(const Scene& scene,

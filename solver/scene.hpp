@@ -14,8 +14,8 @@ namespace microslip::solver {
 
 using contact::Harmonics;
 
-/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates. Nothing that solves it changes it:
-/// threads may share a scene, each with a HarmonicBalance of its own.
+/// (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k) in mass-normalised modal coordinates. Nothing that
+/// solves it changes it: threads may share a scene, each with a HarmonicBalance of its own.
 struct Scene {
   Eigen::VectorXd natural_frequency;                   ///< ω_n [rad/s], n_modes, ≥ 0
   Eigen::VectorXd damping_ratio;                       ///< ζ_n [-], n_modes

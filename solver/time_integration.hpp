@@ -15,10 +15,11 @@ namespace microslip::solver {
 
 /// The end of a run at one frequency.
 struct TimePoint {
-  /// As far as it applies: harmonics, `amplitude` as half the peak-to-peak value of the motion itself,
-  /// first harmonic, mean, phase; `residual` the distance to the periodic motion against its size;
-  /// `energy_imbalance` and `dissipation_mismatch` from the work of forces and sliders; contact report;
-  /// stable = 1 with the period of the excitation, not assessed else; `iterations` the periods integrated.
+  /// As far as it applies: harmonics, `amplitude` as half the peak-to-peak value of the motion
+  /// itself, first harmonic, mean, phase; `residual` the distance to the periodic motion against
+  /// its size; `energy_imbalance` and `dissipation_mismatch` from the work of forces and sliders;
+  /// contact report; stable = 1 with the period of the excitation, not assessed else;
+  /// `iterations` the periods integrated.
   ResponsePoint response;
   bool periodic = false;          ///< with period 1 to 4
   int period_multiple = 0;        ///< 1: the period of the excitation; 0: none was found
@@ -28,8 +29,8 @@ struct TimePoint {
   std::vector<int> stick_phases;  ///< of each point, in the periods recorded
 };
 
-/// Integrates until the motion repeats itself or max_periods have passed, then records one period more
-/// (as many as the period multiple; the largest multiple when nothing repeats).
+/// Integrates until the motion repeats itself or max_periods have passed, then records one period
+/// more (as many as the period multiple; the largest multiple when nothing repeats).
 /// @param state  where to start; left where the run ends, at θ = 0.
 /// @throws std::invalid_argument  as TimeSystem and make_stepper().
 /// @throws TimeError  as TimeStepper::advance_period().

@@ -18,12 +18,14 @@ struct TimeOptions {
   int steps_per_period = 0;
   /// events: error per step against the largest motion of a period, > 0. Infinity: fixed steps.
   double step_tolerance = 1e-10;
-  /// Estimated distance to the periodic motion, against its size, at which it counts as reached, > 0.
+  /// Estimated distance to the periodic motion, against its size, at which it counts as reached,
+  /// > 0.
   double periodicity_tolerance = 1e-7;
   int max_periods = 5000;  ///< ≥ 1, per frequency
   /// Periods at least integrated at each frequency, ≥ 1.
   int min_periods = 4;
-  /// events: more changes of state than this in one period are `event-chatter`. 0: 1000 + 100 per point.
+  /// events: more changes of state than this in one period are `event-chatter`. 0:
+  /// 1000 + 100 per point.
   int max_events = 0;
   int n_harmonics = 5;  ///< H of the result, ≥ 1
 };

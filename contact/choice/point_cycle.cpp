@@ -6,7 +6,8 @@
 namespace microslip::contact {
 namespace {
 
-/// Of planar cycles, relative to their force scale: near the tightest there is, a table is no hot path.
+/// Of planar cycles, relative to their force scale: near the tightest there is,
+/// a table is no hot path.
 constexpr double planar_tolerance = 1e-12;
 
 bool has_second_direction(const Harmonics& motion) {

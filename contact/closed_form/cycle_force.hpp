@@ -1,9 +1,10 @@
 /// @file
-/// Fourier coefficients of a steady cycle and their Jacobian, given its phases (theory sections 5, 6).
+/// Fourier coefficients of a steady cycle and their Jacobian, given its phases (theory sections 5,
+/// 6).
 ///
-/// Force is continuous at every transition, so the derivative of a coefficient is the integral of the
-/// derivative: what is left beside the springs is the memory c of each stick phase, one number that
-/// depends on the instant at which the phase began.
+/// Force is continuous at every transition, so the derivative of a coefficient is the integral of
+/// the derivative: what is left beside the springs is the memory c of each stick phase, one number
+/// that depends on the instant at which the phase began.
 #pragma once
 
 #include "contact/closed_form/cycle_phases.hpp"

@@ -7,10 +7,10 @@
 ///   d_N = 2 atan2(√(L₁+L₂−2q), √(2q+ΔL)),   d_P = 2 atan2(√(L₁+L₂−2q), √(2q−ΔL)),  ΔL = L₂ − L₁
 ///   γ   = 2 atan2(√(B+n₀), √(B−n₀))
 ///
-/// From the end of positive slip θ_P to the end of negative slip θ_N lies an angle η in (0, 2π]; the
-/// last d_N of it is slip, the rest stick. The way back takes 2π − η, of which the last d_P is slip.
-/// Written so, a phase of zero length can never turn into a full turn by rounding, and no tolerance
-/// is needed.
+/// From the end of positive slip θ_P to the end of negative slip θ_N lies an angle η in (0, 2π];
+/// the last d_N of it is slip, the rest stick. The way back takes 2π − η, of which the last d_P is
+/// slip. Written so, a phase of zero length can never turn into a full turn by rounding, and no
+/// tolerance is needed.
 #pragma once
 
 #include <array>
@@ -51,8 +51,8 @@ struct CyclePhases {
 /// Regime by the order of theory section 4.1.
 [[nodiscard]] CycleRegime cycle_regime(const SlipFunctions& w);
 
-/// Stick–slip: S P S N, beginning with the stick phase after θ_P. Separation: from the first instant of
-/// contact, the separated phase last. None for a point that is stuck or open throughout.
+/// Stick–slip: S P S N, beginning with the stick phase after θ_P. Separation: from the first
+/// instant of contact, the separated phase last. None for a point that is stuck or open throughout.
 [[nodiscard]] CyclePhases cycle_phases(const SlipFunctions& w, CycleRegime regime);
 
 }  // namespace microslip::contact

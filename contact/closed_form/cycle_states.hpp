@@ -1,6 +1,6 @@
 /// @file
-/// What a point does over the period of single-harmonic motion, without its forces: regime and states at
-/// some instants, from the closed form of its phases.
+/// What a point does over the period of single-harmonic motion, without its forces: regime and
+/// states at some instants, from the closed form of its phases.
 #pragma once
 
 #include "contact/closed_form/cycle_phases.hpp"

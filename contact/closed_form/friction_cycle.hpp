@@ -2,8 +2,8 @@
 /// Steady friction cycle of one contact point under single-harmonic motion, in closed form
 /// (theory sections 4 to 7).
 ///
-/// The point is a tangential spring k_u in series with a slider of limit μ n, and a one-sided normal
-/// spring k_v:
+/// The point is a tangential spring k_u in series with a slider of limit μ n, and a one-sided
+/// normal spring k_v:
 ///
 ///   n(θ) = max(0, n₀ + k_v v),   f = k_u (u − s),   |f| ≤ μ n,   n₀ = n₀' + k_v v₀             (1)
 ///
@@ -16,10 +16,10 @@
 /// wherever it is in contact; μ = 0 slips without force.
 ///
 /// Accuracy: coefficients within a few 1e-16 of k_u a + μ (|n₀| + B) in every regime and limit
-/// (a tangential amplitude, B = k_v b), and of the force itself where a point sticks for a short time. Transition angles have square roots at the limits between
-/// regimes and are only that accurate there; forces are not affected. The derivatives are those of
-/// (1), (2); they jump or grow without bound, one-sided, at the limits of full stick and at grazing
-/// contact.
+/// (a tangential amplitude, B = k_v b), and of the force itself where a point sticks for a short
+/// time. Transition angles have square roots at the limits between regimes and are only that
+/// accurate there; forces are not affected. The derivatives are those of (1), (2); they jump or
+/// grow without bound, one-sided, at the limits of full stick and at grazing contact.
 ///
 /// Source: theory sections 4–7; the closed form is that of the 2D microslip model with normal load
 /// variation, equations 19–29, with the misprints corrected and free of 0/0.

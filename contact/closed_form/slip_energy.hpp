@@ -1,15 +1,15 @@
 /// @file
 /// Work and distance of the slip phases of a cycle (theory section 7).
 ///
-/// On its way to the extremum θ_k of its slip function the slider moves at k_u |ds/dθ| = L sin x, with
-/// x = |θ_k − θ| the angle that remains, under the load n = n₀ + a cos x − r sin x, a = k_v v(θ_k),
-/// r = k_v v̇(θ_k). About the middle x_m of the phase, y = x − x_m, the odd parts drop out:
+/// On its way to the extremum θ_k of its slip function the slider moves at k_u |ds/dθ| = L sin x,
+/// with x = |θ_k − θ| the angle that remains, under the load n = n₀ + a cos x − r sin x, a = k_v
+/// v(θ_k), r = k_v v̇(θ_k). About the middle x_m of the phase, y = x − x_m, the odd parts drop out:
 ///
 ///   n = n₀ + A cos y − S sin y,   A = a cos x_m − r sin x_m,   S = a sin x_m + r cos x_m
 ///   ∫ n |ds| = (L/k_u) ∫ { sin x_m [(n₀ + A) cos y − A (1 − cos y) cos y] − S cos x_m sin²y } dy
 ///
-/// Nothing cancels in a short phase, wherever it lies: a point that slips just before it lifts off does
-/// so far from its extremum.
+/// Nothing cancels in a short phase, wherever it lies: a point that slips just before it lifts off
+/// does so far from its extremum.
 #pragma once
 
 #include "contact/closed_form/cycle_phases.hpp"

@@ -11,9 +11,9 @@
 
 namespace microslip::contact {
 
-/// Adds up points, by whatever method: shares by the lengths of the segments; the largest coexistence of the three
-/// states by a sweep over all transition angles, between which the area fractions do not change; slip work
-/// ∬∮μn|ds|dA. Shares are 0 if all weights are.
+/// Adds up points, by whatever method: shares by the lengths of the segments; the largest
+/// coexistence of the three states by a sweep over all transition angles, between which the area
+/// fractions do not change; slip work ∬∮μn|ds|dA. Shares are 0 if all weights are.
 class ReportSum {
  public:
   ReportSum();

@@ -3,7 +3,8 @@
 ///
 ///   G(q) = Tᵀ G_x(T q),     ∂G/∂q = Tᵀ (∂G_x/∂x) T
 ///
-/// Patches are small and stiff beside the body: some six coordinates move them as fourteen mode shapes do.
+/// Patches are small and stiff beside the body: some six coordinates move them as fourteen mode
+/// shapes do.
 #pragma once
 
 #include <memory>

@@ -1,12 +1,13 @@
 /// @file
-/// Modal force of a friction patch whose points move along p with one harmonic, on plain surfaces: field → point cycles
-/// in closed form → modal force and exact Jacobian by quadrature over the points (theory section 13).
+/// Modal force of a friction patch whose points move along p with one harmonic, on plain surfaces:
+/// field → point cycles in closed form → modal force and exact Jacobian by quadrature over the
+/// points (theory section 13).
 ///
 ///   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,      J_i the 6 × 6 Jacobian of the point
 ///
-/// Points are taken in blocks: one cycle per point, then the modal Jacobian by dense products, mode pair by mode
-/// pair. Blocks in which nothing slips or separates leave out what is zero there. The cost of a point is about that of its
-/// Jacobian entries: 22 products for each pair of modes.
+/// Points are taken in blocks: one cycle per point, then the modal Jacobian by dense products, mode
+/// pair by mode pair. Blocks in which nothing slips or separates leave out what is zero there. The
+/// cost of a point is about that of its Jacobian entries: 22 products for each pair of modes.
 #pragma once
 
 #include <span>

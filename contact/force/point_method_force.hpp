@@ -1,10 +1,11 @@
 /// @file
-/// Modal force of a friction patch whose points are evaluated by any method (point_method.hpp), for any number of
-/// harmonics and both tangential directions (theory section 13):
+/// Modal force of a friction patch whose points are evaluated by any method (point_method.hpp), for
+/// any number of harmonics and both tangential directions (theory section 13):
 ///
 ///   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,      J_i the Jacobian of the point
 ///
-/// PatchForce does the same faster where the closed form of one harmonic and one direction is enough.
+/// PatchForce does the same faster where the closed form of one harmonic and one direction is
+/// enough.
 #pragma once
 
 #include <memory>
@@ -21,7 +22,8 @@ class PointMethodForce final : public PointwiseForce {
  public:
   /// @param weights  area of each point [m²], n ≥ 1, ≥ 0.
   /// @param methods     one per point, n; shared by patches of one scene.
-  /// @param shapes   relative mode shapes at the points, n × n_modes; w may be empty (no motion along r).
+  /// @param shapes   relative mode shapes at the points, n × n_modes;
+  ///                 w may be empty (no motion along r).
   /// @throws std::invalid_argument  sizes differ or a value is not finite.
   PointMethodForce(Eigen::VectorXd weights, std::vector<std::shared_ptr<const PointMethod>> methods,
                    ModalShapes shapes);

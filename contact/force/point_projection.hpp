@@ -1,10 +1,12 @@
 /// @file
-/// Sum over the points of a patch of what their methods give, projected on the modes (theory section 13):
+/// Sum over the points of a patch of what their methods give,
+/// projected on the modes (theory section 13):
 ///
-///   G^(k) = Σ_i w_i Σ_s φ_si (f_si − n_ref,i δ_s1 δ_k0)^(k),   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i,   ∂G/∂ω
+///   G^(k) = Σ_i w_i Σ_s φ_si (f_si − n_ref,i δ_s1 δ_k0)^(k),   ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i
 ///
-/// with the signals s: u, v and, where the patch moves along r, w. Points are taken in blocks; Φᵀ (J Φ) of a
-/// block are dense products (projection_kernels.hpp). Storage is kept from one sum to the next.
+/// and ∂G/∂ω, with the signals s: u, v and, where the patch moves along r, w. Points are taken in
+/// blocks; Φᵀ (J Φ) of a block are dense products (projection_kernels.hpp).
+/// Storage is kept from one sum to the next.
 #pragma once
 
 #include <vector>

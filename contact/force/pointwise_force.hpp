@@ -1,6 +1,7 @@
 /// @file
-/// Modal force of a patch whose points are evaluated while they slip or part, and are one matrix while they are
-/// proved stuck or open (sleeping_set.hpp): what is the same however a point is evaluated (theory section 13).
+/// Modal force of a patch whose points are evaluated while they slip or part, and are one matrix
+/// while they are proved stuck or open (sleeping_set.hpp): what is the same however a point is
+/// evaluated (theory section 13).
 ///
 ///   G^(k)_m = Σ_i w_i [ φ_u,im f_p,i + φ_v,im (n_i − n_ref,i δ_k0) + φ_w,im f_r,i ]^(k)
 #pragma once
@@ -31,7 +32,8 @@ class PointwiseForce : public ModalForce {
   [[nodiscard]] LinearState linear_state(const Harmonics& centre, double radius) const final;
 
  protected:
-  /// @param shapes  relative mode shapes at the points, n × n_modes; w may be empty (no motion along r).
+  /// @param shapes  relative mode shapes at the points, n × n_modes;
+  ///                w may be empty (no motion along r).
   /// @throws std::invalid_argument  sizes differ, a value is not finite, or no points.
   PointwiseForce(RestingPoints points, ModalShapes&& shapes);
 
@@ -57,7 +59,8 @@ class PointwiseForce : public ModalForce {
   /// Equal input gives equal bits, whatever was asked before.
   [[nodiscard]] ForceAndJacobian evaluated(const Harmonics& q, double frequency, const Asked& asked,
                                            Workspace& work) const final;
-  /// Sum of the awake points under the motion at work. What they do is kept, but where more harmonics are asked for.
+  /// Sum of the awake points under the motion at work. What they do is kept,
+  /// but where more harmonics are asked for.
   /// @param work  of this force, as workspace() makes them; here and below.
   [[nodiscard]] virtual ForceAndJacobian awake_force(double frequency, const Asked& asked,
                                                      PointwiseWork& work) const = 0;

@@ -1,12 +1,15 @@
 /// @file
-/// Inner loops of ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i for points with any number of harmonics (point_projection.hpp):
+/// Inner loops of ∂G/∂q = Σ_i w_i Φ_iᵀ J_i Φ_i for points with any number of harmonics
+/// (point_projection.hpp):
 ///
-///   spread   y_ksl = Σ_t a_kslt φ_t         J_i Φ_i of one point, harmonic k of signal s by harmonic l
+///   spread   y_ksl = Σ_t a_kslt φ_t         J_i Φ_i of one point, harmonic k of signal s by
+///                                           harmonic l
 ///   add      C += Φᵀ Y                      of a block of points, for one k
 ///
-/// Rows are padded: a row of φ with zeros to `phi_stride`, a row of y by `spare` numbers at least that are
-/// written and never read. Compiled for the plain instruction set and for AVX2 and AVX-512 with FMA; the
-/// machine decides at run time. The order of summation is fixed on a machine: equal input gives equal bits.
+/// Rows are padded: a row of φ with zeros to `phi_stride`, a row of y by `spare` numbers at least
+/// that are written and never read. Compiled for the plain instruction set and for AVX2 and AVX-512
+/// with FMA; the machine decides at run time. The order of summation is fixed on a machine:
+/// equal input gives equal bits.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,15 @@
 /// @file
-/// Points of a patch, by any method, that are proved stuck, or open, for the whole cycle (linear_range.hpp):
-/// one matrix stands for all of them, only the others are evaluated one by one.
+/// Points of a patch, by any method, that are proved stuck, or open, for the whole cycle
+/// (linear_range.hpp): one matrix stands for all of them, only the others are evaluated one by one.
 ///
-///   G^(k)_sleeping = K q^(k) + δ_k0 g,   K = Σ_stuck w (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ + φ_w k_w φ_wᵀ)
+///   G^(k)_sleeping = K q^(k) + δ_k0 g
+///   K = Σ_stuck w (φ_u k_u φ_uᵀ + φ_v k_v φ_vᵀ + φ_w k_w φ_wᵀ)
 ///   g = Σ_stuck w φ_v (n₀' − n_ref) − Σ_open w φ_v n_ref                                      (1)
 ///
-/// Who sleeps depends on the motion asked for and on nothing else. K is kept in sums over groups of points;
-/// a group is added up anew when one of its points has changed its state, so that equal sets give equal
-/// bits, whatever was asked before. A decision costs some 10 ns per point and harmonic.
+/// Who sleeps depends on the motion asked for and on nothing else. K is kept in sums over groups of
+/// points; a group is added up anew when one of its points has changed its state, so that equal
+/// sets give equal bits, whatever was asked before. A decision costs some 10 ns per point and
+/// harmonic.
 #pragma once
 
 #include <optional>
@@ -21,7 +23,8 @@
 
 namespace microslip::contact {
 
-/// Motion of all points, harmonics row by row as they lie in `Harmonics`: n_points × (2H+1) each [m].
+/// Motion of all points, harmonics row by row as they lie in `Harmonics`:
+/// n_points × (2H+1) each [m].
 struct PatchMotion {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows u;
@@ -51,15 +54,16 @@ struct RestingPoints {
   std::vector<std::optional<LinearRange>> ranges;  ///< none: always evaluated
 };
 
-/// Whether the patch answers every motion of a ball like a linear spring through the origin: all points stuck with
-/// n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion takes away, or a gap that it closes,
-/// leaves a constant force: unknown. Points that exert no dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not
-/// count.
+/// Whether the patch answers every motion of a ball like a linear spring through the origin: all
+/// points stuck with n₀' ≥ 0, or all of them open with n₀' ≤ 0. A rest load that the mean motion
+/// takes away, or a gap that it closes, leaves a constant force: unknown. Points that exert no
+/// dynamic force at all (k_v = 0 with μ = 0 or k_u = 0) do not count.
 /// @param radius  ‖Δx‖ from the centre over all modal unknowns [m√kg], ≥ 0.
 [[nodiscard]] LinearState linear_state(const RestingPoints& points, const ModalShapes& shapes,
                                        const Harmonics& centre, double radius);
 
-/// Of one patch, in a workspace: its points and shapes are those of the constructor, here and below.
+/// Of one patch, in a workspace: its points and shapes are those of the constructor,
+/// here and below.
 class SleepingSet {
  public:
   SleepingSet(const RestingPoints& points, const ModalShapes& shapes);

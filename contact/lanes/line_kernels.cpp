@@ -96,7 +96,8 @@ MICROSLIP_INLINE void load_all(std::size_t n, const SmoothArrays& constants, con
   }
 }
 
-/// Between two instants, by what is there and by the slopes from their neighbours; C¹ from one to the next.
+/// Between two instants, by what is there and by the slopes from their neighbours;
+/// C¹ from one to the next.
 struct Spline {
   Pack begin, slope, square, cube;
 
@@ -135,7 +136,8 @@ struct Places {
   }
 };
 
-/// u + ratio r: an end of the band, which extended by r < 0 is smooth where contact opens and closes.
+/// u + ratio r: an end of the band, which extended by r < 0 is smooth where contact opens and
+/// closes.
 MICROSLIP_INLINE Spline end_of_band(const Spline& u, const Spline& r, const Pack& ratio) {
   return {u.begin + ratio * r.begin, u.slope + ratio * r.slope, u.square + ratio * r.square,
           u.cube + ratio * r.cube};

@@ -1,15 +1,16 @@
 /// @file
-/// One tangential direction, a block of points through all instants of the period (theory sections 8, 23):
+/// One tangential direction, a block of points through all instants of the period (theory sections
+/// 8, 23):
 ///
 ///   s_i = clip(s_{i−1}; w_i, W_i),   f_i = k_i (u_i − s_i)                                    (1)
 ///   r_{i−1} ≤ 0 < r_i:   s_{i−1} is u where r, interpolated, vanishes                         (2)
 ///
-/// r > 0 tells contact, g = μn/k is the half-width of the slider's band, [w, W] = [u − g, u + g]. On smooth surfaces the
-/// slider is taken along where u − g or u + g turns between two instants as well, and (2) is by four instants:
-/// between two of them u and r are cubics whose slopes are those of their neighbours, so that what turns and
-/// lands depends on the motion without a jump. On others both are by two instants.
-/// Two periods from the virgin slider s = 0 give the steady cycle, the second is kept. Arrays are [instant][point]
-/// with block_size points.
+/// r > 0 tells contact, g = μn/k is the half-width of the slider's band, [w, W] = [u − g, u + g].
+/// On smooth surfaces the slider is taken along where u − g or u + g turns between two instants as
+/// well, and (2) is by four instants: between two of them u and r are cubics whose slopes are those
+/// of their neighbours, so that what turns and lands depends on the motion without a jump. On
+/// others both are by two instants. Two periods from the virgin slider s = 0 give the steady cycle,
+/// the second is kept. Arrays are [instant][point] with block_size points.
 ///
 /// Compiled for several instruction sets; equal input gives equal bits on a machine.
 #pragma once
@@ -44,10 +45,12 @@ struct LineArrays {
   const double* low = nullptr;         ///< w [m]
   const double* high = nullptr;        ///< W [m]
   const double* half_width = nullptr;  ///< g [m], 0 where separated
-  /// Which end turned since the instant before and is in w or W, the other being of no matter: 0 none, 1 w, 2 W,
-  /// 3 first w then W, 4 first W then w; null: none at any, and (2) by two instants.
+  /// Which end turned since the instant before and is in w or W, the other being of no matter: 0
+  /// none, 1 w, 2 W, 3 first w then W, 4 first W then w; null: none at any,
+  /// and (2) by two instants.
   const double* turns = nullptr;
-  /// u where contact closed since the instant before, the least number where it did not; with `turns`.
+  /// u where contact closed since the instant before, the least number where it did not;
+  /// with `turns`.
   const double* landed = nullptr;
   double* slider = nullptr;  ///< s [m], written
   double* state = nullptr;   ///< InstantState, written

@@ -1,9 +1,10 @@
 /// @file
-/// Eight points side by side. The vector is eight doubles on every machine, the compiler cuts it to the
-/// registers there are: results do not depend on their width but for the rounding of fused products.
+/// Eight points side by side. The vector is eight doubles on every machine, the compiler cuts it to
+/// the registers there are: results do not depend on their width but for the rounding of fused
+/// products.
 ///
-/// A set of kernels is written once, as always-inlined templates, and compiled for the plain instruction
-/// set, AVX2 and AVX-512 (vector_lanes.hpp); the machine decides at run time.
+/// A set of kernels is written once, as always-inlined templates, and compiled for the plain
+/// instruction set, AVX2 and AVX-512 (vector_lanes.hpp); the machine decides at run time.
 #pragma once
 
 #include <cstddef>

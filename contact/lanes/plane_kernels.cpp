@@ -14,7 +14,8 @@ struct Moving {
   Pack slips;  // > 0 where it does
 };
 
-/// λ of (λ + W) e = b, |e| = 1: 1/|e(λ)| is concave and increasing, Newton's method from below is monotone.
+/// λ of (λ + W) e = b, |e| = 1: 1/|e(λ)| is concave and increasing,
+/// Newton's method from below is monotone.
 template <bool equal>
 MICROSLIP_INLINE Pair settled_direction(const Pair& b, const Pair& W) {
   constexpr double smallest = 1e-290;

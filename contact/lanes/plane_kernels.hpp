@@ -1,23 +1,25 @@
 /// @file
-/// Two tangential directions, a block of points through all instants of the period (theory sections 9, 23.1). With the
-/// half-widths W = diag(W_p, W_r) of the slider's ellipse around x = (u, w), W_p = μ n/k_p:
+/// Two tangential directions, a block of points through all instants of the period (theory sections
+/// 9, 23.1). With the half-widths W = diag(W_p, W_r) of the slider's ellipse around x = (u, w),
+/// W_p = μ n/k_p:
 ///
-///   η = W⁻¹ (x − s),   |η| ≤ 1,   f = μ n η;   slip: η = e, s = x − W e, s' ∥ e                     (1)
+///   η = W⁻¹ (x − s),   |η| ≤ 1,   f = μ n η;   slip: η = e, s = x − W e, s' ∥ e               (1)
 ///
-/// Between two instants x and W are straight lines. A step ends in stick where |W₁⁻¹ (x₁ − s)| ≤ 1; else slip
-/// begins at the part ξ of it where |η₀ + ξ (η₁ − η₀)| = 1, at once where it goes on, and turns e by (2):
+/// Between two instants x and W are straight lines. A step ends in stick where |W₁⁻¹ (x₁ − s)| ≤ 1;
+/// else slip begins at the part ξ of it where |η₀ + ξ (η₁ − η₀)| = 1, at once where it goes on,
+/// and turns e by (2):
 ///
-///   α' = e_⊥·d/c,   d = x' − (e_⊥·W' e) e_⊥,   c = e_⊥·W e_⊥,      e = e(α)                         (2)
-///   tan ½∠(e₁, d) = tan ½∠(e₀, d)/P,   P = 1 + z + z²/2 + z³/6,   z = |d|/c over the step            (3)
+///   α' = e_⊥·d/c,   d = x' − (e_⊥·W' e) e_⊥,   c = e_⊥·W e_⊥,      e = e(α)                   (2)
+///   tan ½∠(e₁, d) = tan ½∠(e₀, d)/P,   P = 1 + z + z²/2 + z³/6,   z = |d|/c over the step      (3)
 ///
-/// (3) is (2) with d and c held, those of e half a step on; P is exp(z) to third order. Whatever the step, e only
-/// comes nearer to d. With equal widths d and c do not depend on e.
+/// (3) is (2) with d and c held, those of e half a step on; P is exp(z) to third order. Whatever
+/// the step, e only comes nearer to d. With equal widths d and c do not depend on e.
 ///
-/// Touch-down inside a step: s = x where r, interpolated, vanishes. Slip from there on is self-similar:
-/// (λ + W₁) e = x₁ − s with λ ≥ 0 so that |e| = 1.
+/// Touch-down inside a step: s = x where r, interpolated, vanishes. Slip from there on is
+/// self-similar: (λ + W₁) e = x₁ − s with λ ≥ 0 so that |e| = 1.
 ///
-/// Arrays are [instant][point] with block_size points. Compiled for several instruction sets; equal input gives
-/// equal bits on a machine.
+/// Arrays are [instant][point] with block_size points. Compiled for several instruction sets; equal
+/// input gives equal bits on a machine.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +35,8 @@ inline constexpr double slip_edge = 1.0 + 1e-12;
 /// Of the state at instant 0: s_p, s_r, η_p, η_r, 1 where the point slips; [number][block].
 inline constexpr std::size_t n_state_numbers = 5;
 
-/// ∂α₁ of (3) by α₀, Δx_p, Δx_r, and W_p, W_r at onset and at the end of the step; ξ; [number][block].
+/// ∂α₁ of (3) by α₀, Δx_p, Δx_r, and W_p, W_r at onset and at the end of the step; ξ;
+/// [number][block].
 enum TurnNumber : std::size_t {
   by_angle,
   by_way_p,
@@ -71,7 +74,8 @@ struct PlaneArrays {
 };
 
 struct PlaneKernels {
-  /// The state at instant 0 of a slider that stands at its s: taken back to the ellipse where it is beyond.
+  /// The state at instant 0 of a slider that stands at its s:
+  /// taken back to the ellipse where it is beyond.
   void (*start)(const PlaneArrays& arrays, double* state);
   /// One period from instant 0 to instant 0; `state` becomes that at its end.
   /// @param slips  1 where a point slips at some instant, else 0.

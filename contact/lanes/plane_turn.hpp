@@ -1,6 +1,6 @@
 /// @file
-/// How slip turns the force within a step, in lanes: (2) and (3) of plane_kernels.hpp with their derivatives (theory
-/// section 23.1).
+/// How slip turns the force within a step, in lanes: (2) and (3) of plane_kernels.hpp with their
+/// derivatives (theory section 23.1).
 #pragma once
 
 #include "contact/lanes/pack.hpp"
@@ -27,8 +27,8 @@ MICROSLIP_INLINE Pack where(const Pack& test, const Pack& a, const Pack& b) {
 MICROSLIP_INLINE Pair where(const Pack& test, const Pair& a, const Pair& b) {
   return {where(test, a.p, b.p), where(test, a.r, b.r)};
 }
-/// > 0 where both are. Conditions are numbers and joined as such: masks of masks are taken apart lane by lane by the
-/// compiler.
+/// > 0 where both are. Conditions are numbers and joined as such: masks of masks are taken apart
+/// lane by lane by the compiler.
 MICROSLIP_INLINE Pack both(const Pack& a, const Pack& b) { return smaller(a, b); }
 /// > 0 where a is not.
 MICROSLIP_INLINE Pack opposite(const Pack& a) { return 1e-300 - a; }

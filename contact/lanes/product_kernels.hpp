@@ -25,7 +25,8 @@ struct ProductSizes {
 };
 
 struct ProductKernels {
-  /// @param n_rows  l < n_rows; up to seven numbers more are read behind each row of J, and written behind y.
+  /// @param n_rows  l < n_rows; up to seven numbers more are read behind each row of J,
+  ///                and written behind y.
   void (*spread)(std::size_t n_signals, std::size_t n_modes, std::size_t n_rows,
                  const std::array<const double*, 3>& J,
                  const std::array<std::vector<double>, 3>& phi, double* y);

@@ -1,12 +1,13 @@
 /// @file
-/// Fourier coefficients of the forces of a steady cycle in its band (band_walk.hpp), their derivatives, and
-/// the work of friction.
+/// Fourier coefficients of the forces of a steady cycle in its band (band_walk.hpp), their
+/// derivatives, and the work of friction.
 ///
 ///   stick  f = k_u g (u − s),      slip  f = ±μ n,      g_0 = 1/2π, else 1/π
-///   f_i = g_i ∫ f b_i dθ,   ∂f_i = g_i ∫ ∂f b_i dθ     (f is continuous, ends of pieces bring nothing)
+///   f_i = g_i ∫ f b_i dθ,   ∂f_i = g_i ∫ ∂f b_i dθ
 ///
-/// with b_i the functions 1, sin θ, cos θ, sin 2θ, … The derivative of s is that of the instant θ_e at which
-/// the slider was left (theory section 6):
+/// with b_i the functions 1, sin θ, cos θ, sin 2θ, …; f is continuous, ends of pieces bring
+/// nothing. The derivative of s is that of the instant θ_e at which the slider was left (theory
+/// section 6):
 ///
 ///   after P, N     ∂s = ∂u ∓ ∂r at θ_e, an extremum of w
 ///   where u' = 0   ∂s = ∂u ∓ (r_v ∂v + r_v v' ∂θ_e),     ∂θ_e = −∂u'/u''     (the kink of |u'|)

@@ -1,14 +1,15 @@
 /// @file
-/// Layers of time in which a coefficient that depends on the rate changes: next to where the motion turns,
-/// and where it nearly stands.
+/// Layers of time in which a coefficient that depends on the rate changes: next to where the motion
+/// turns, and where it nearly stands.
 ///
-/// |u'| is monotone between the zeros of u' and u''. From the smaller end of such an interval, its anchor,
-/// stops are set where |u'| passes the grades of the law (friction_law.hpp); between two of them μ is a
-/// polynomial of low degree however thin the layer is. Next to an anchor a the speed is
+/// |u'| is monotone between the zeros of u' and u''. From the smaller end of such an interval, its
+/// anchor, stops are set where |u'| passes the grades of the law (friction_law.hpp); between two of
+/// them μ is a polynomial of low degree however thin the layer is. Next to an anchor a the speed is
 ///
-///   u'(a + x) = u'(a) + Σ_h 2h sin(hx/2) [ −u_sh sin h(a + x/2) − u_ch cos h(a + x/2) ]              (1)
+///   u'(a + x) = u'(a) + Σ_h 2h sin(hx/2) [ −u_sh sin h(a + x/2) − u_ch cos h(a + x/2) ]        (1)
 ///
-/// which keeps its digits where a phase counted from 0 would lose them; x is what stops are told by.
+/// which keeps its digits where a phase counted from 0 would lose them;
+/// x is what stops are told by.
 #pragma once
 
 #include <vector>
@@ -42,7 +43,8 @@ class BandLayers {
 
   /// Sign changes of u' [rad], in [0, 2π]; none where the coefficient is constant.
   [[nodiscard]] const std::vector<double>& stands() const { return stands_; }
-  /// Anchors apart; in [0, 2π] or just outside. None where the coefficient changes too slowly to matter.
+  /// Anchors apart; in [0, 2π] or just outside. None where the coefficient changes too slowly to
+  /// matter.
   [[nodiscard]] const std::vector<BandPlace>& stops() const { return stops_; }
   /// The phase counted from the nearest anchor, if there is one.
   [[nodiscard]] BandPlace place(double phase) const;

@@ -1,7 +1,7 @@
 /// @file
-/// Integrals over the pieces of a cycle in its band (band_walk.hpp): Gauss–Legendre panels of twelve points,
-/// halved until what they leave out is rounding. Layers of a coefficient that depends on the rate have pieces
-/// of their own, so that no panel steps over one.
+/// Integrals over the pieces of a cycle in its band (band_walk.hpp): Gauss–Legendre panels of
+/// twelve points, halved until what they leave out is rounding. Layers of a coefficient that
+/// depends on the rate have pieces of their own, so that no panel steps over one.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ using BandPoints = Eigen::Matrix<double, n_band_nodes, 1>;
 /// On [−1, 1].
 struct BandPanel {
   BandPoints node, weight;
-  /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less. One degree
-  /// alone would miss functions that are even or odd about the middle.
+  /// Values → shares of the Legendre polynomials of degree 8 to 11, the lower ones counted less.
+  /// One degree alone would miss functions that are even or odd about the middle.
   Eigen::Matrix<double, 4, n_band_nodes> top;
 };
 
@@ -62,7 +62,8 @@ class PieceVisitor {
   }
 
  private:
-  /// Of one thread, so that a panel allocates nothing once it has grown; an object lives for one cycle.
+  /// Of one thread, so that a panel allocates nothing once it has grown;
+  /// an object lives for one cycle.
   static BandPanelNodes& storage() {
     thread_local BandPanelNodes nodes;
     return nodes;
@@ -107,8 +108,8 @@ class PieceVisitor {
   /// Relative to the sizes of the forces.
   struct Tail {
     double top = 0.0;
-    /// The rule is exact to degree 23. Terms fall off geometrically: as the one of degree 11 is to the
-    /// largest value, so is what is left out to that, and less.
+    /// The rule is exact to degree 23. Terms fall off geometrically: as the one of degree 11 is to
+    /// the largest value, so is what is left out to that, and less.
     double left_out = 0.0;
   };
 

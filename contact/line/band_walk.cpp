@@ -21,8 +21,9 @@ Slider left_by(SliderOrigin origin, const BandNode& node) {
   return {at, origin, node.place, node.turns};
 }
 
-/// Offset at which the lower (sign 1) or upper (−1) end of the band reaches a position; there is one crossing
-/// in the stretch. Newton's method within a bracket: the force errs by the square of what the phase does.
+/// Offset at which the lower (sign 1) or upper (−1) end of the band reaches a position; there is
+/// one crossing in the stretch. Newton's method within a bracket:
+/// the force errs by the square of what the phase does.
 double crossing(SliderBand& band, double sign, double position, const BandStretch& stretch) {
   double low = stretch.begin;
   double high = stretch.end;

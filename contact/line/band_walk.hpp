@@ -1,14 +1,16 @@
 /// @file
-/// The steady cycle of a slider in its band (slider_band.hpp): pieces of stick and slip in order of time.
+/// The steady cycle of a slider in its band (slider_band.hpp):
+/// pieces of stick and slip in order of time.
 ///
-/// On a stretch both ends of the band are monotone. The slider is taken along by w_P if that ends above it,
-/// by w_N if that ends below it, and rests otherwise, so that a stretch has one transition at most, the root
-/// of a monotone function.
+/// On a stretch both ends of the band are monotone. The slider is taken along by w_P if that ends
+/// above it, by w_N if that ends below it, and rests otherwise, so that a stretch has one
+/// transition at most, the root of a monotone function.
 ///
 /// One walk gives the steady cycle (theory section 4.6 with a start that belongs to it):
 ///   with separation   from each touch-down, where s = u;
 ///   never separated   from the largest w_P, where s = w_P, unless the point sticks throughout:
-///                     max w_P ≤ min w_N, with the virgin slider pushed into [max w_P, min w_N] (section 4.2).
+///                     max w_P ≤ min w_N, with the virgin slider pushed into [max w_P,
+///                     min w_N] (section 4.2).
 #pragma once
 
 #include <cstdint>

@@ -2,14 +2,15 @@
 /// Fourier coefficients of a steady cycle of many harmonics and their Jacobian, given its phases
 /// (theory sections 5, 6, 8).
 ///
-/// On each phase forces are trigonometric polynomials; with b_i the functions 1, sin θ, cos θ, sin 2θ, …
-/// and ⟨·⟩ an integral over the phases named,
+/// On each phase forces are trigonometric polynomials; with b_i the functions 1, sin θ, cos θ, sin
+/// 2θ, … and ⟨·⟩ an integral over the phases named,
 ///
-///   f_i = g_i [ Σ_j spring_j ⟨b_i b_j⟩_stick + Σ_j μ load_j (⟨b_i b_j⟩_P − ⟨b_i b_j⟩_N) + Σ_stick c ⟨b_i⟩ ]
+///   f_i = g_i [ Σ_j spring_j ⟨b_i b_j⟩_stick + Σ_j μ load_j (⟨b_i b_j⟩_P − ⟨b_i b_j⟩_N)
+///               + Σ_stick c ⟨b_i⟩ ]
 ///   n_i = g_i Σ_j load_j ⟨b_i b_j⟩_contact,          g_0 = 1/2π, else 1/π
 ///
-/// Force is continuous, so the Jacobian is the same sum with derivatives inside; each stick phase brings
-/// the derivative of its memory c, which knows only the instant θ_e at which it was set:
+/// Force is continuous, so the Jacobian is the same sum with derivatives inside; each stick phase
+/// brings the derivative of its memory c, which knows only the instant θ_e at which it was set:
 ///
 ///   after P, N   ∂c/∂u_j = −k_u b_j(θ_e),   ∂c/∂v_j = ± μ k_v b_j(θ_e)
 ///   after E      ∂c/∂u_j = −k_u b_j(θ_e),   ∂c/∂v_j = (spring'/load') k_v b_j(θ_e)

@@ -1,6 +1,7 @@
 /// @file
-/// What a periodic motion means to one contact point before any state is known: the guards whose signs
-/// decide states, trigonometric polynomials of the harmonics of the motion (theory sections 3, 8).
+/// What a periodic motion means to one contact point before any state is known: the guards whose
+/// signs decide states, trigonometric polynomials of the harmonics of the motion (theory sections
+/// 3, 8).
 ///
 ///   spring  k_u (u − u₀)            load  n₀' + k_v v, means included, negative where separated
 ///   w_P = spring − μ load + μ n₀    w_N = spring + μ load − μ n₀       (no means)

@@ -1,16 +1,16 @@
 /// @file
-/// The phases of a steady friction cycle under periodic motion with any number of harmonics, event by
-/// event (theory section 8).
+/// The phases of a steady friction cycle under periodic motion with any number of harmonics, event
+/// by event (theory section 8).
 ///
-/// Slip P lasts until a maximum of w_P, N until a minimum of w_N; contact begins and ends where the load
-/// changes sign; stick ends where w_P rises above q − c or w_N falls below −q − c. All extrema and all
-/// signs of the load are known beforehand (find_sign_changes), so between two of them every guard is
-/// monotone and has one crossing or none: no pair of events can be missed.
+/// Slip P lasts until a maximum of w_P, N until a minimum of w_N; contact begins and ends where the
+/// load changes sign; stick ends where w_P rises above q − c or w_N falls below −q − c. All extrema
+/// and all signs of the load are known beforehand (find_sign_changes), so between two of them every
+/// guard is monotone and has one crossing or none: no pair of events can be missed.
 ///
 /// One walk gives the steady cycle (section 4.6 with a start that belongs to it):
 ///   with separation   from each touch-down, where s = u;
-///   never separated   from the largest maximum of w_P: the slider is never below max w_P − q there, nor
-///                     above it after the smallest minimum of w_N, if
+///   never separated   from the largest maximum of w_P: the slider is never below max w_P − q
+///                     there, nor above it after the smallest minimum of w_N, if
 ///   full stick        does not hold: max w_P − q ≤ min w_N + q.
 #pragma once
 

@@ -1,16 +1,17 @@
 /// @file
-/// The band that holds the slider of a point with one tangential direction, for any surface law, and
-/// where it turns (theory sections 3, 4.6, 8, 10, 11).
+/// The band that holds the slider of a point with one tangential direction, for any surface law,
+/// and where it turns (theory sections 3, 4.6, 8, 10, 11).
 ///
-///   w_P = u − r  ≤  s  ≤  w_N = u + r,      r = μ(ω|u'|) n/(k_u g)                              (1)
+///   w_P = u − r  ≤  s  ≤  w_N = u + r,      r = μ(ω|u'|) n/(k_u g)                             (1)
 ///
-/// s moves only where a rising w_P or a falling w_N takes it along. (1) is smooth between edges: touch-down
-/// and lift-off, kinks of a rough law, and with a coefficient that depends on the rate where u' = 0; edges
-/// are sign changes of trigonometric polynomials (sign_changes.hpp), none is missed. Where the coefficient
-/// changes within thin layers their stops are nodes as well, and phases are counted from the place where the
-/// layer is (band_layers.hpp). Between nodes w_P' and w_N' are polynomials in Chebyshev form to 1e-10, or far
-/// from zero, whose sign changes are isolated, not looked for (smooth_signs.hpp). What remains are stretches
-/// on which both ends of the band are monotone.
+/// s moves only where a rising w_P or a falling w_N takes it along. (1) is smooth between edges:
+/// touch-down and lift-off, kinks of a rough law, and with a coefficient that depends on the rate
+/// where u' = 0; edges are sign changes of trigonometric polynomials (sign_changes.hpp), none is
+/// missed. Where the coefficient changes within thin layers their stops are nodes as well, and
+/// phases are counted from the place where the layer is (band_layers.hpp). Between nodes w_P' and
+/// w_N' are polynomials in Chebyshev form to 1e-10, or far from zero, whose sign changes are
+/// isolated, not looked for (smooth_signs.hpp). What remains are stretches on which both ends of
+/// the band are monotone.
 #pragma once
 
 #include <vector>

@@ -1,22 +1,24 @@
 /// @file
-/// A contact point with one tangential direction and any surface law under periodic motion of any number of
-/// harmonics: the steady friction cycle found event by event.
+/// A contact point with one tangential direction and any surface law under periodic motion of any
+/// number of harmonics: the steady friction cycle found event by event.
 ///
-///   n = N(v),   f = k_u g (u − s),   |f| ≤ μ(ω|u'|) n,   s moves only where |f| = μ n               (1)
+///   n = N(v),   f = k_u g (u − s),   |f| ≤ μ(ω|u'|) n,   s moves only where |f| = μ n          (1)
 ///
 /// with rough surfaces, a load-dependent stiffness and a coefficient that depends on the rate
 /// (surface_law.hpp). The slider lives in a band (slider_band.hpp), one walk gives its cycle
-/// (band_walk.hpp), coefficients and their derivatives are integrals over its pieces (band_force.hpp).
+/// (band_walk.hpp), coefficients and their derivatives are integrals over its pieces
+/// (band_force.hpp).
 ///
-/// w is ignored and f_r = 0. A point that never slips nor separates has a virgin slider, pushed into its
-/// admissible band (theory section 4.2). A point without tangential stiffness carries no friction and counts
-/// as stuck; μ = 0 slips without force. With smooth surfaces and a constant coefficient this is the cycle of
-/// line_events.hpp, which is faster.
+/// w is ignored and f_r = 0. A point that never slips nor separates has a virgin slider, pushed
+/// into its admissible band (theory section 4.2). A point without tangential stiffness carries no
+/// friction and counts as stuck; μ = 0 slips without force. With smooth surfaces and a constant
+/// coefficient this is the cycle of line_events.hpp, which is faster.
 ///
-/// Accuracy: force coefficients within about 1e-14 of k_u |u| + μ n, where |·| sums the amplitudes of the
-/// harmonics and n is the largest load, however thin the layers are in which the coefficient changes;
-/// derivatives within about 1e-11 as long as a layer is not thinner than 1e-4 of the period, one-sided where
-/// they jump. Of an event the phase is rounded, in a layer 1/R as thin a derivative loses R times as much.
+/// Accuracy: force coefficients within about 1e-14 of k_u |u| + μ n, where |·| sums the amplitudes
+/// of the harmonics and n is the largest load, however thin the layers are in which the coefficient
+/// changes; derivatives within about 1e-11 as long as a layer is not thinner than 1e-4 of the
+/// period, one-sided where they jump. Of an event the phase is rounded, in a layer 1/R as thin a
+/// derivative loses R times as much.
 ///
 /// Source: theory sections 3–8, 10, 11.
 #pragma once

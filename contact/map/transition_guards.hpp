@@ -1,14 +1,16 @@
 /// @file
-/// Guards of a point over the whole period: continuous functions whose signs say what occurs at some time of it
-/// (theory section 7). Zero lines of their values on a patch are the boundaries between points that stick
-/// throughout and those that slip, that touch throughout and that separate, that separate and stay open: found
-/// between points by interpolation of the guard, never of a state number.
+/// Guards of a point over the whole period: continuous functions whose signs say what occurs at
+/// some time of it (theory section 7). Zero lines of their values on a patch are the boundaries
+/// between points that stick throughout and those that slip, that touch throughout and that
+/// separate, that separate and stay open: found between points by interpolation of the guard,
+/// never of a state number.
 ///
-///   slip        min_s max_θ 2 (|f_s(θ)| − μ n(θ))      f_s: force of a slider resting at s              (1)
-///   load        min_θ n*(θ) and max_θ n*(θ)            n* = n, and what the springs would pull where open  (2)
+///   slip        min_s max_θ 2 (|f_s(θ)| − μ n(θ))                                          (1)
+///   load        min_θ n*(θ) and max_θ n*(θ)                                                (2)
 ///
-/// (1) is below 0 where some resting slider holds. In one direction and one harmonic it is L₁ + L₂ − 2μn₀, (2) are
-/// n₀ − B and n₀ + B. Where loads separate, (1) is above 0.
+/// f_s is the force of a slider resting at s, n* is n, and what the springs would pull where open.
+/// (1) is below 0 where some resting slider holds. In one direction and one harmonic it is L₁ + L₂
+/// − 2μn₀, (2) are n₀ − B and n₀ + B. Where loads separate, (1) is above 0.
 #pragma once
 
 #include <vector>
@@ -31,10 +33,11 @@ struct TransitionGuards {
 [[nodiscard]] TransitionGuards transition_guards(const PointParameters& point,
                                                  const PointMotion& motion);
 
-/// Any law and motion, by samples of the period and parabolas through the extreme ones: of the forces to 1e-6 for
-/// a few harmonics in one direction, to 1e-3 in two. Slip without stiffness or friction is that of (1) as it
-/// stands.
-/// @param motion     three signals, H ≥ 1.   @param frequency  ω [rad/s], for friction that depends on the rate.
+/// Any law and motion, by samples of the period and parabolas through the extreme ones: of the
+/// forces to 1e-6 for a few harmonics in one direction, to 1e-3 in two. Slip without stiffness or
+/// friction is that of (1) as it stands.
+/// @param motion     three signals, H ≥ 1.
+/// @param frequency  ω [rad/s], for friction that depends on the rate.
 /// @param along_r    whether the second direction is simulated.
 [[nodiscard]] TransitionGuards transition_guards(const SurfaceLaw& law, const Harmonics& motion,
                                                  double frequency, bool along_r);

@@ -9,8 +9,8 @@ namespace microslip::contact {
 
 /// @param f          function of one number.
 /// @param low, high  ends of the bracket; f(low) and f(high) have opposite signs or one is zero.
-/// @param tolerance  of the point: it is returned once two guesses differ by no more; 0 for the rounding of
-///                   `low` and `high`.
+/// @param tolerance  of the point: it is returned once two guesses differ by no more; 0 for the
+///                   rounding of `low` and `high`.
 /// @return a point where f changes sign.
 template <typename Function>
 [[nodiscard]] double bracketed_root(const Function& f, double low, double high, double f_low,

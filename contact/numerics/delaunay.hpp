@@ -1,9 +1,9 @@
 /// @file
 /// Delaunay triangulation of points in the plane, by insertion point after point.
 ///
-/// Source: Bowyer, Comput. J. 24 (1981) 162–166. Signs of areas and of the in-circle determinant are taken
-/// in quadruple precision on coordinates scaled to the extent of the points, so that points on circles and
-/// lines, as on grids, are decided the same way every time.
+/// Source: Bowyer, Comput. J. 24 (1981) 162–166. Signs of areas and of the in-circle determinant
+/// are taken in quadruple precision on coordinates scaled to the extent of the points, so that
+/// points on circles and lines, as on grids, are decided the same way every time.
 #pragma once
 
 #include <array>

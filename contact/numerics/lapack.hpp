@@ -1,5 +1,6 @@
 /// @file
-/// The three routines of LAPACK that large matrices are worth a call of: its interface, not a wrapper.
+/// The three routines of LAPACK that large matrices are worth a call of: its interface,
+/// not a wrapper.
 #pragma once
 
 #ifdef MICROSLIP_HAS_LAPACK
@@ -11,8 +12,8 @@ void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivots,
 /// Solves with the factors, or their transpose, in place.
 void dgetrs_(const char* transposed, const int* n, const int* n_right, const double* a,
              const int* lda, const int* pivots, double* b, const int* ldb, int* info);
-/// Eigenvalues and, on request, vectors ‖·‖ = 1 of a real matrix, which is overwritten; pairs of complex vectors
-/// as real and imaginary columns. @param info  > 0: not all converged.
+/// Eigenvalues and, on request, vectors ‖·‖ = 1 of a real matrix, which is overwritten; pairs of
+/// complex vectors as real and imaginary columns. @param info  > 0: not all converged.
 void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda,
             double* real, double* imaginary, double* vl, const int* ldvl, double* vr,
             const int* ldvr, double* work, const int* lwork, int* info);

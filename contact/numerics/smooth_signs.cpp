@@ -121,7 +121,8 @@ class Search {
     return tail > 0.25 * before && small;
   }
 
-  /// Whether f keeps its sign, or has one change at most and none near the ends, whatever the next terms are.
+  /// Whether f keeps its sign, or has one change at most and none near the ends,
+  /// whatever the next terms are.
   static bool is_clear(const Series& c, double tail) {
     constexpr double margin = 30.0;  // of terms that fall off slowly
     if (std::abs(c[0]) > variation(c) + margin * tail) return true;

@@ -1,12 +1,12 @@
 /// @file
 /// All sign changes of two smooth functions of one number on an interval.
 ///
-///   f(x) = Σ_k c_k T_k(x) on a cell [−1, 1],     |f − c₀| ≤ Σ_{k>0} |c_k|                        (1)
+///   f(x) = Σ_k c_k T_k(x) on a cell [−1, 1],     |f − c₀| ≤ Σ_{k>0} |c_k|                      (1)
 ///
-/// Cells are halved until the last coefficients are below a tolerance, or so far below the others that what
-/// follows is beyond doubt; then (1) for f proves that its sign
-/// is kept, (1) for f' that there is one change at most, or the polynomial is halved. Pairs of changes are
-/// told from none as long as f rises between them to the tolerance.
+/// Cells are halved until the last coefficients are below a tolerance, or so far below the others
+/// that what follows is beyond doubt; then (1) for f proves that its sign
+/// is kept, (1) for f' that there is one change at most, or the polynomial is halved. Pairs of
+/// changes are told from none as long as f rises between them to the tolerance.
 ///
 /// Points of a cell lie inside, so that a kink at an end does not matter.
 #pragma once
@@ -27,8 +27,8 @@ using SmoothPair = std::function<std::array<double, 2>(double phase)>;
 
 /// @param functions  smooth inside (begin, end).
 /// @param cell       longest cell, as long as the functions are expected to be resolved on.
-/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it; where they are larger than
-///                   that, 1e-11 of what they are.
+/// @param size       of the functions: tolerance is 1e-10, rounding 1e-15 of it; where they are
+///                   larger than that, 1e-11 of what they are.
 /// @param found      sign changes are added, function by function and cell by cell; not sorted.
 void add_smooth_signs(const SmoothPair& functions, double begin, double end, double cell,
                       double size, std::vector<SmoothSign>& found);

@@ -1,11 +1,13 @@
 /// @file
-/// Integrals of sines and cosines over parts of a period, and from them those of products of two: what
-/// Fourier coefficients of a force that is a trigonometric polynomial on each phase are made of.
+/// Integrals of sines and cosines over parts of a period, and from them those of products of two:
+/// what Fourier coefficients of a force that is a trigonometric polynomial on each phase are made
+/// of.
 ///
-///   C_m = ∫ cos mθ dθ,   S_m = ∫ sin mθ dθ,   ∫ sin aθ cos bθ = ½ (S_{a+b} + S_{a−b}), …            (1)
-///   one piece of length d about m̂:  C_m = 2 cos m m̂ sin(m d/2)/m,   S_m = 2 sin m m̂ sin(m d/2)/m   (2)
+///   C_m = ∫ cos mθ dθ,   S_m = ∫ sin mθ dθ,   ∫ sin aθ cos bθ = ½ (S_{a+b} + S_{a−b}), …    (1)
+///   C_m = 2 cos m m̂ sin(m d/2)/m,   S_m = 2 sin m m̂ sin(m d/2)/m                             (2)
 ///
-/// (2) does not cancel for short pieces. Weighted sums over samples serve as well as integrals.
+/// (2) is one piece of length d about m̂, and does not cancel for short pieces. Weighted sums over
+/// samples serve as well as integrals.
 ///
 /// Source: theory section 5, for any harmonic.
 #pragma once

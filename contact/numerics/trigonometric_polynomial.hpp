@@ -1,7 +1,8 @@
 /// @file
 /// Trigonometric polynomials, and a root of one in a bracket.
 ///
-///   p(θ) = p₀ + Σ_h ( p_sh sin hθ + p_ch cos hθ ) = p₀ + Im Σ_h C_h z^h,   C_h = p_sh + i p_ch, z = e^{iθ}
+///   p(θ) = p₀ + Σ_h ( p_sh sin hθ + p_ch cos hθ ) = p₀ + Im Σ_h C_h z^h
+///   C_h = p_sh + i p_ch,   z = e^{iθ}
 #pragma once
 
 #include <cstddef>
@@ -57,8 +58,8 @@ class TrigonometricPolynomial {
 };
 
 /// From `x` to the root of p − level between low and high; p − level > 0 at the lower end if
-/// `low_positive`, and not at the other, or the other way round. One Taylor expansion leaves the error
-/// M step⁴/24 over the slope: two or three are enough.
+/// `low_positive`, and not at the other, or the other way round. One Taylor expansion leaves the
+/// error M step⁴/24 over the slope: two or three are enough.
 /// @param fourth  M = p.bound(4).
 [[nodiscard]] double root_within(const TrigonometricPolynomial& p, double fourth, double level,
                                  double low, double high, bool low_positive, double x);

@@ -1,6 +1,6 @@
 /// @file
-/// Vectors of doubles for inner loops that are compiled once per instruction set, and the choice between
-/// the sets at run time. The bodies are inlined into functions that carry the target.
+/// Vectors of doubles for inner loops that are compiled once per instruction set, and the choice
+/// between the sets at run time. The bodies are inlined into functions that carry the target.
 #pragma once
 
 #include <vector>

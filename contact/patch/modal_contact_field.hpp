@@ -7,8 +7,8 @@
 ///
 /// What one sample would be off if it had been left out follows from the fit itself, with the
 /// diagonal of the hat matrix H = Q Qᵀ:  e_i / (1 − H_ii). The degree is the smallest whose
-/// leave-one-out error, over all modes and components together, is within 5 % of the least. Terms the
-/// samples cannot tell apart (all on a line, too few) are left out.
+/// leave-one-out error, over all modes and components together, is within 5 % of the least. Terms
+/// the samples cannot tell apart (all on a line, too few) are left out.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,9 @@ class ModalContactField {
   /// @param degree   total degree of the basis, 0 … max_degree; without a value it is chosen by
   ///                 leave-one-out cross-validation. A degree the samples cannot carry is lowered
   ///                 (see degree()).
-  /// @param between  places (p, r) all over the patch, k × 2: terms that the samples hold down and that grow
-  ///                 there are left out. Without rows nothing is known between the samples.
+  /// @param between  places (p, r) all over the patch, k × 2: terms that the samples hold down and
+  ///                 that grow there are left out. Without rows nothing is known between the
+  ///                 samples.
   /// @throws std::invalid_argument  sizes differ, a value is not finite or out of its range.
   ModalContactField(const Eigen::VectorXd& p, const Eigen::VectorXd& r,
                     const Eigen::VectorXd& weights, const ModalShapes& shapes,
@@ -42,8 +43,8 @@ class ModalContactField {
   /// Degree in use, never more than was asked for.
   [[nodiscard]] int degree() const { return degree_; }
   /// Leave-one-out error of each mode relative to its own rms size over u, v and w [-], n_modes.
-  /// A mode that does not move the patch has error 0; samples that cannot be left out (as many terms
-  /// as samples) count with their residual.
+  /// A mode that does not move the patch has error 0; samples that cannot be left out (as many
+  /// terms as samples) count with their residual.
   [[nodiscard]] const Eigen::VectorXd& fit_error() const { return fit_error_; }
 
  private:

@@ -6,10 +6,10 @@
 ///
 /// Loads measured as a scale multiply the rest loads that are given, gaps included.
 ///
-/// Where moments act beside the load two stiff bodies tilt against each other until the points, which cannot
-/// pull, carry it (theory section 12, "Preload"): points that lift off have a gap, −k_v times the opening.
-/// Where no point has normal stiffness (constant loads) the load spreads as over an elastic foundation that is
-/// the same everywhere.
+/// Where moments act beside the load two stiff bodies tilt against each other until the points,
+/// which cannot pull, carry it (theory section 12, "Preload"): points that lift off have a gap,
+/// −k_v times the opening. Where no point has normal stiffness (constant loads) the load spreads as
+/// over an elastic foundation that is the same everywhere.
 #pragma once
 
 #include <vector>
@@ -29,8 +29,8 @@ struct PatchLoad {
 /// @throws LoadError  a gap where no patch has normal stiffness.
 [[nodiscard]] std::vector<PatchLoad> shared_load(const std::vector<Patch>& patches, double load);
 
-/// Pressure at rest [Pa] of the points of a tilted area, in order; rough surfaces and bodies in series with
-/// them included.
+/// Pressure at rest [Pa] of the points of a tilted area, in order; rough surfaces and bodies in
+/// series with them included.
 /// @param samples  patch.cells; or patch.vertices, all of them: meshes have one area.
 /// @throws LoadError  no equilibrium; stiffness here and none there.
 [[nodiscard]] Eigen::VectorXd tilted_pressures(const Patch& patch, const TiltedArea& area,

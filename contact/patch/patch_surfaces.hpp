@@ -7,8 +7,8 @@
 
 namespace microslip::contact {
 
-/// Surfaces at one place with a rest load of its own. The place for a friction coefficient that depends on
-/// something new: its rule is a row of SurfaceRules, this hands it to the SurfaceLaw.
+/// Surfaces at one place with a rest load of its own. The place for a friction coefficient that
+/// depends on something new: its rule is a row of SurfaceRules, this hands it to the SurfaceLaw.
 /// @param point  constants, bodies in series included; its rest load is taken as it is.
 /// @param row    of the place in the samples.
 /// @throws std::invalid_argument  as SurfaceLaw.

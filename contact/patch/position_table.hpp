@@ -1,10 +1,11 @@
 /// @file
 /// A quantity given at points of a patch, anywhere else by interpolation.
 ///
-/// Points that fill a grid of the axes p and r are interpolated bilinearly, others linearly on their
-/// Delaunay triangulation. Both are continuous, hit every value given, reproduce linear fields and never
-/// leave the range of the values. Outside, the value at the nearest place inside counts (of the grid's
-/// rectangle, of the convex hull). Points on one line are interpolated along it.
+/// Points that fill a grid of the axes p and r are interpolated bilinearly, others linearly on
+/// their Delaunay triangulation. Both are continuous, hit every value given, reproduce linear
+/// fields and never leave the range of the values. Outside, the value at the nearest place inside
+/// counts (of the grid's rectangle, of the convex hull).
+/// Points on one line are interpolated along it.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ namespace microslip::contact {
 class PositionTable {
  public:
   /// @param p, r    positions [m], n ≥ 1.   @param values  there, n, any unit.
-  /// @throws std::invalid_argument  sizes differ, a number is not finite, or a position is given twice
-  ///         (names both rows, from 1).
+  /// @throws std::invalid_argument  sizes differ, a number is not finite, or a position is given
+  ///         twice (names both rows, from 1).
   /// @note O(n²) for n scattered points; a grid costs nothing.
   PositionTable(Eigen::VectorXd p, Eigen::VectorXd r, Eigen::VectorXd values);
 

@@ -13,7 +13,8 @@ class Windows {
  public:
   explicit Windows(const PlanarMotion& motion) : motion_(motion) {}
 
-  /// The maximum of the guard near a phase; nothing if there is none within a quarter of the shortest wave.
+  /// The maximum of the guard near a phase; nothing if there is none within a quarter of the
+  /// shortest wave.
   [[nodiscard]] std::optional<CornerSide> side(double near, const Vector2d& slider) const {
     const auto rate = [&](double phase) { return guard_rate(motion_.at(phase), slider); };
     const double reach = 0.5 * std::acos(-1.0) / motion_.n_harmonics();

@@ -1,15 +1,15 @@
 /// @file
 /// Where a slider that two ellipses push in turn comes to rest.
 ///
-/// Stuck throughout is possible for every slider in the intersection of the ellipses of all phases. A slider
-/// outside is pushed in; where the boundaries of two windows of the period meet at an acute angle it goes
-/// to and fro between them, by ever smaller steps, towards their corner:
+/// Stuck throughout is possible for every slider in the intersection of the ellipses of all phases.
+/// A slider outside is pushed in; where the boundaries of two windows of the period meet at an
+/// acute angle it goes to and fro between them, by ever smaller steps, towards their corner:
 ///
 ///   G_i(s) = max_{θ near θ_i} |K (x − s)| − r = 0,    i = 1, 2                                 (1)
 ///
-/// G is convex in s, so that Newton's method on (1), begun outside both, stays outside and approaches the
-/// corner from one side. If it turns back there is no corner: the two ellipses have no point in common, and
-/// the slider slips for good. ∇G = −K e with the direction e of the force.
+/// G is convex in s, so that Newton's method on (1), begun outside both, stays outside and
+/// approaches the corner from one side. If it turns back there is no corner: the two ellipses have
+/// no point in common, and the slider slips for good. ∇G = −K e with the direction e of the force.
 ///
 /// Source: theory sections 4.2, 9 (common point of the discs).
 #pragma once

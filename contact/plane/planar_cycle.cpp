@@ -63,7 +63,8 @@ SteadyOrbit cycle_of(const PlanarMotion& motion, const Intervals& intervals,
   return steady;
 }
 
-/// Of an orbit, whose forces are counted in k a + max μn, for friction of the size of the smaller of both.
+/// Of an orbit, whose forces are counted in k a + max μn,
+/// for friction of the size of the smaller of both.
 double tolerance_of(const PlanarMotion& motion, double tolerance) {
   constexpr double rounding = 1e-15;  // of a slider of order one
   return std::max(tolerance * motion.friction_share(), rounding);

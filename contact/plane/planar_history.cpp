@@ -15,8 +15,8 @@ const PlanarPiece& piece_at(const PlanarOrbit& orbit, double phase) {
   return found != orbit.pieces.end() ? *found : orbit.pieces.back();
 }
 
-/// Slider / L₀ and K (x − s) / F₀ of a piece in contact. In slip the latter lies along the direction of the
-/// collocation: of little friction x − s is rounding.
+/// Slider / L₀ and K (x − s) / F₀ of a piece in contact. In slip the latter lies along the
+/// direction of the collocation: of little friction x − s is rounding.
 struct Held {
   Eigen::Vector2d slider = Eigen::Vector2d::Zero();
   Eigen::Vector2d force = Eigen::Vector2d::Zero();

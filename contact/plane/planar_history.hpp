@@ -1,5 +1,6 @@
 /// @file
-/// What a planar orbit was at any phase: states, forces, slider; and its segments for maps and tables.
+/// What a planar orbit was at any phase: states, forces, slider;
+/// and its segments for maps and tables.
 #pragma once
 
 #include <vector>

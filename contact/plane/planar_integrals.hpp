@@ -1,6 +1,6 @@
 /// @file
-/// Fourier coefficients of the forces of a planar orbit, and its work: Gauss quadrature where the point
-/// sticks and for the load, the rule of the collocation, of its full order, where it slips.
+/// Fourier coefficients of the forces of a planar orbit, and its work: Gauss quadrature where the
+/// point sticks and for the load, the rule of the collocation, of its full order, where it slips.
 ///
 /// Source: theory sections 5, 7, 9.
 #pragma once

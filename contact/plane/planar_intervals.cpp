@@ -48,8 +48,8 @@ void add_speed_rate(const Eigen::VectorXd& signal, std::vector<std::complex<doub
   }
 }
 
-/// Where the tangential speed is smallest: there a rate-dependent coefficient has a kink or nearly one.
-/// These are the sign changes of a trigonometric polynomial as well: none is missed.
+/// Where the tangential speed is smallest: there a rate-dependent coefficient has a kink or nearly
+/// one. These are the sign changes of a trigonometric polynomial as well: none is missed.
 void add_slowest(const PlanarMotion& motion, std::vector<double>& found) {
   const int degree = 2 * motion.n_harmonics();
   const auto& rows = motion.harmonics().rows();
@@ -103,8 +103,8 @@ std::vector<PlanarInterval> between(const PlanarMotion& motion, const std::vecto
   return intervals;
 }
 
-/// Instants between a minimum of the radius and the end of its cell, ever closer to the minimum as long as
-/// the radius still falls: the force may turn there on any of these lengths.
+/// Instants between a minimum of the radius and the end of its cell, ever closer to the minimum as
+/// long as the radius still falls: the force may turn there on any of these lengths.
 void add_approach(const PlanarMotion& motion, double minimum, double end, double least,
                   std::vector<PlanarInstant>& added) {
   for (double aside = 0.5 * (end - minimum); std::abs(aside) > 1e-8; aside *= 0.5) {
@@ -134,8 +134,8 @@ void refine_minima(const PlanarMotion& motion, std::vector<PlanarInstant>& grid)
             [](const PlanarInstant& a, const PlanarInstant& b) { return a.phase < b.phase; });
 }
 
-/// Instants between an end of an interval and that of its first cell, ever closer to the end as long as the
-/// speed still changes: a coefficient that depends on it changes on these lengths.
+/// Instants between an end of an interval and that of its first cell, ever closer to the end as
+/// long as the speed still changes: a coefficient that depends on it changes on these lengths.
 void add_slow_layer(const PlanarMotion& motion, const PlanarInstant& slowest, double end,
                     std::vector<PlanarInstant>& added) {
   constexpr double narrowest = 1e-9;  // what may slip in less moves the forces by less

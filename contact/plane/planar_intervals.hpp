@@ -2,8 +2,8 @@
 /// The period of a planar cycle cut where the load, and with it the limit of friction, has a kink:
 /// touch-down, lift-off and the kinks of a rough law. None of this depends on the slider.
 ///
-/// Crossings of v(θ) with a kink are sign changes of a trigonometric polynomial (sign_changes.hpp): none is
-/// missed. Instants are 24 per harmonic, and ever closer where the load nearly vanishes.
+/// Crossings of v(θ) with a kink are sign changes of a trigonometric polynomial (sign_changes.hpp):
+/// none is missed. Instants are 24 per harmonic, and ever closer where the load nearly vanishes.
 ///
 /// Source: theory sections 3, 8.
 #pragma once
@@ -28,7 +28,8 @@ struct PlanarInterval {
   [[nodiscard]] double nudge() const;
 };
 
-/// Intervals in order of time over one period: from the first touch-down if there is one, else from 0.
+/// Intervals in order of time over one period: from the first touch-down if there is one,
+/// else from 0.
 [[nodiscard]] std::vector<PlanarInterval> planar_intervals(const PlanarMotion& motion);
 
 }  // namespace microslip::contact

@@ -1,16 +1,17 @@
 /// @file
-/// What a planar slider sees: the motion of one contact point at any phase, and the disc that drags the
-/// slider along, free of units.
+/// What a planar slider sees: the motion of one contact point at any phase, and the disc that drags
+/// the slider along, free of units.
 ///
 ///   x(θ) = (u, w) without means,   n = N(v),   |f| ≤ μ n,   f = g K (x − s)                   (1)
 ///   |K (x − s)| ≤ r(θ),   r = μ n / g,   K = diag(k_u, k_w h)                                 (2)
 ///
-/// (2) holds for every surface law: g = g_p, stiffness that depends on the load, enters through r alone,
-/// and h = g_r/g_p is 1 except where bodies of unequal compliance stand in series with rough surfaces.
-/// Lengths are counted in L₀ = F₀/k₀ and r in F₀, the force scale of the cycle, so that K and the numbers
-/// in (2) are of order one.
+/// (2) holds for every surface law: g = g_p, stiffness that depends on the load, enters through r
+/// alone, and h = g_r/g_p is 1 except where bodies of unequal compliance stand in series with rough
+/// surfaces. Lengths are counted in L₀ = F₀/k₀ and r in F₀, the force scale of the cycle, so that K
+/// and the numbers in (2) are of order one.
 ///
-/// A direction without stiffness carries no friction: its motion is taken away and its force is zero.
+/// A direction without stiffness carries no friction: its motion is taken away and its force is
+/// zero.
 ///
 /// Source: theory sections 3, 9, 10, 11.
 #pragma once
@@ -22,9 +23,10 @@
 
 namespace microslip::contact {
 
-/// r / F₀ where contact leaves less of it. The slider follows the motion without memory there, s' ∥ x' to the
-/// square root of this, and forces are limit · e: any r below it gives the same e, this one without products
-/// that underflow (fourth powers of it times ratios of stiffness down to 1e-60 are normal numbers).
+/// r / F₀ where contact leaves less of it. The slider follows the motion without memory there, s' ∥
+/// x' to the square root of this, and forces are limit · e: any r below it gives the same e, this
+/// one without products that underflow (fourth powers of it times ratios of stiffness down to 1e-60
+/// are normal numbers).
 inline constexpr double least_radius = 1e-60;
 
 /// One phase. Rates are with respect to θ.
@@ -78,8 +80,8 @@ class PlanarMotion {
   PlanarMotion(const SurfaceLaw& law, const Harmonics& motion, double frequency);
 
   [[nodiscard]] PlanarInstant at(double phase) const;
-  /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where the
-  /// law has a kink.
+  /// As at(), with the derivatives of the law taken at phase + nudge: the side that is meant where
+  /// the law has a kink.
   [[nodiscard]] PlanarInstant at(double phase, double nudge) const;
   /// x'' of both directions, whether they carry friction or not [m].
   [[nodiscard]] Eigen::Vector2d tangential_acceleration(double phase) const;
@@ -87,7 +89,8 @@ class PlanarMotion {
   /// False where no friction acts: μ = 0, no stiffness, no load, forces below the smallest doubles.
   [[nodiscard]] bool has_friction() const { return force_scale_ > 0.0; }
   [[nodiscard]] double force_scale() const { return force_scale_; }  ///< F₀ [Pa]
-  /// Twice the smaller of k a and max μn/g, / F₀: the size of friction, at most 1; 0 without friction.
+  /// Twice the smaller of k a and max μn/g, / F₀: the size of friction, at most 1;
+  /// 0 without friction.
   [[nodiscard]] double friction_share() const { return friction_share_; }
   [[nodiscard]] double length_scale() const { return length_scale_; }  ///< L₀ [m]
   /// K₀ L₀/F₀, diagonal, both > 0: of full contact, a measure of lengths as forces.

@@ -15,12 +15,12 @@ using Eigen::Vector2d;
 /// Shortest advance of a walk that would otherwise not move: what it skips is below rounding.
 constexpr double shortest_step = 1e-11;
 
-/// Length of a step for a tolerance. The share of the highest polynomial falls as εⁿ with its degree n,
-/// so that the error of a step, of degree nine, is its power 9/5; 3/2 leaves room.
+/// Length of a step for a tolerance. The share of the highest polynomial falls as εⁿ with its
+/// degree n, so that the error of a step, of degree nine, is its power 9/5; 3/2 leaves room.
 double allowed_top_term(double tolerance) { return std::pow(tolerance, 1.0 / 1.5); }
 
-/// The rule of Radau integrates a wave of k oscillations per 2π over a length h with an error of about
-/// 1e-8 (kh/2)⁹; 2 is where the shape of a step would be lost.
+/// The rule of Radau integrates a wave of k oscillations per 2π over a length h with an error of
+/// about 1e-8 (kh/2)⁹; 2 is where the shape of a step would be lost.
 double longest_step_length(const OrbitOptions& options) {
   return std::min(2.0, 2.0 * std::pow(1e8 * options.tolerance, 1.0 / 9.0)) /
          options.highest_harmonic;
@@ -184,8 +184,8 @@ class Walk {
     }
   }
 
-  /// Whether no two neighbouring stages differ by more than 60 degrees: else slip may have ended and
-  /// begun again between them.
+  /// Whether no two neighbouring stages differ by more than 60 degrees: else slip may have ended
+  /// and begun again between them.
   [[nodiscard]] bool turns_slowly(const SlipStep& step) const {
     const Vector2d begin = motion_.at(step.begin).force(step.slider);
     constexpr double has_direction = 1e-11;  // below it rounding turns the force
@@ -235,8 +235,8 @@ class Walk {
     slipping_ = false;
   }
 
-  /// The rest of an interval in slip, by steps that nothing controls. Both the force and what it should be
-  /// lie in the disc of friction: their coefficients differ by at most 8/π of its radius.
+  /// The rest of an interval in slip, by steps that nothing controls. Both the force and what it
+  /// should be lie in the disc of friction: their coefficients differ by at most 8/π of its radius.
   void finish_roughly() {
     double limit = 0.0;
     for (const PlanarInstant& now : interval_->grid) limit = std::max(limit, now.limit);

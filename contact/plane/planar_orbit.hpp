@@ -5,9 +5,9 @@
 ///   slip       by collocation (planar_slip.hpp) until the slip rate ρ falls to 0
 ///   separated  no force; s = x where contact begins, slipping at once if |K x'| > r'
 ///
-/// The end of stick is found to rounding (planar_stick.hpp). The end of slip is solved for as the length of a
-/// last step. Steps are chosen so that the error of forces and slider is about the tolerance; measured
-/// factors are in the tests.
+/// The end of stick is found to rounding (planar_stick.hpp). The end of slip is solved for as the
+/// length of a last step. Steps are chosen so that the error of forces and slider is about the
+/// tolerance; measured factors are in the tests.
 #pragma once
 
 #include <cstdint>
@@ -43,15 +43,16 @@ struct PlanarOrbit {
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< and ended with
   bool slips = false;
   bool separates = false;
-  /// Bound of what the coefficients of the forces may miss, / F₀: 0 unless the walk ran out of steps.
+  /// Bound of what the coefficients of the forces may miss, / F₀:
+  /// 0 unless the walk ran out of steps.
   double defect = 0.0;
 };
 
 struct OrbitOptions {
   double tolerance = 1e-10;       ///< of forces, relative to F₀; 1e-13 to 1e-2
   double highest_harmonic = 1.0;  ///< that forces are integrated against, ≥ 1
-  /// Pieces and steps of a period, and 200 per harmonic on top: hundreds are usual. Beyond, the rest of the
-  /// period is walked in steps of a fixed length, and the defect of the orbit says so.
+  /// Pieces and steps of a period, and 200 per harmonic on top: hundreds are usual. Beyond, the
+  /// rest of the period is walked in steps of a fixed length, and the defect of the orbit says so.
   int most_steps = 20000;
 };
 

@@ -14,8 +14,9 @@ using Eigen::Vector2d;
 Vector2d tangential(const Eigen::Vector3d& motion) { return {motion[0], motion[2]}; }
 Vector2d across(const Vector2d& e) { return {-e[1], e[0]}; }
 
-/// β' of (3), fading out where the motion is too slow to be followed (|x'|² ≪ |x''| reach) and where slip
-/// does not follow it: friction of a falling load may drive the slider against the motion.
+/// β' of (3), fading out where the motion is too slow to be followed (|x'|² ≪ |x''| reach) and
+/// where slip does not follow it: friction of a falling load may drive the slider against the
+/// motion.
 double heading_rate(const PlanarPointInstant& now, const Vector2d& e, double reach) {
   const double speed = now.velocity.norm();
   const double square = speed * speed + now.acceleration.norm() * reach;
@@ -29,8 +30,8 @@ double held_radius(const PlanarPointInstant& now, double edge) {
   return std::sqrt(std::hypot(now.radius * now.radius, edge * edge));
 }
 
-/// ρ_∞ of (4): the largest root of Σ (x'_i / (ρ + D_i))² = 1 with D = (r C)', by Newton's method on the
-/// inverse root of the sum, which is concave: monotone from the left.
+/// ρ_∞ of (4): the largest root of Σ (x'_i / (ρ + D_i))² = 1 with D = (r C)', by Newton's method on
+/// the inverse root of the sum, which is concave: monotone from the left.
 double settled_slip_speed(const Vector2d& velocity, const Vector2d& reach_rate) {
   const double speed = velocity.norm();
   const double least = -reach_rate.minCoeff();

@@ -4,14 +4,16 @@
 ///
 ///   K (x − s) = r e in slip,   |K (x − s)| ≤ r,   r = μ n/g,   f = g K (x − s)             (1)
 ///
-/// with x = (u, w), K = diag(k_u, k_w h), C = K⁻¹. g = g_p is the share of the stiffness along p that the load
-/// leaves rough surfaces, h = g_r/g_p is 1 except where bodies of unequal compliance stand in series with
-/// them (surface_law.hpp). From s' ∥ e, s = x − r C e and with d = x' − (r C)' e
+/// with x = (u, w), K = diag(k_u, k_w h), C = K⁻¹. g = g_p is the share of the stiffness along p
+/// that the load leaves rough surfaces, h = g_r/g_p is 1 except where bodies of unequal compliance
+/// stand in series with them (surface_law.hpp). From s' ∥ e,
+/// s = x − r C e and with d = x' − (r C)' e
 ///
 ///   α' = e_⊥·d / (r e_⊥·C e_⊥),      ρ = e·d − (e·C e_⊥/e_⊥·C e_⊥) e_⊥·d                     (2)
 ///
-/// σ, the speed that μ(σ) sees, is |x'| (theory section 10); r' then holds x''. (r C)' holds h'. Where smooth surfaces part
-/// (1) goes on with a negative load, so that it is smooth until the end has been located.
+/// σ, the speed that μ(σ) sees, is |x'| (theory section 10); r' then holds x''. (r C)' holds h'.
+/// Where smooth surfaces part (1) goes on with a negative load,
+/// so that it is smooth until the end has been located.
 #pragma once
 
 #include <limits>
@@ -39,7 +41,8 @@ struct PlanarPoint {
   bool rubs;  ///< friction, and some stiffness to act through
 };
 
-/// Relative motion (u, v, w) of a point [m] and its rates by time; `second` is 0 where nobody knows it.
+/// Relative motion (u, v, w) of a point [m] and its rates by time;
+/// `second` is 0 where nobody knows it.
 struct PlanarPointMotion {
   Eigen::Vector3d value;
   Eigen::Vector3d rate;
@@ -60,7 +63,8 @@ struct PlanarPointInstant {
   double radius_rate = 0.0;  ///< r' [Pa/s]
 };
 
-/// @param least_approach  the law is seen at this approach [m] if it is further closed than the motion's.
+/// @param least_approach  the law is seen at this approach [m] if it is further closed than the
+///                        motion's.
 [[nodiscard]] PlanarPointInstant instant_of(
     const PlanarPoint& point, const PlanarPointMotion& motion,
     double least_approach = -std::numeric_limits<double>::infinity());
@@ -78,19 +82,20 @@ struct PlanarPointInstant {
 /// ρ of (2) [m/s].
 [[nodiscard]] double slip_speed(const PlanarPointInstant& now, double angle);
 
-/// α where stick ends: the direction of the spring, and the more (3) would hold α back, the more the one it
-/// settles in, e ∥ d,
+/// α where stick ends: the direction of the spring, and the more (3) would hold α back, the more
+/// the one it settles in, e ∥ d,
 ///
 ///   (r/R) F/|F| + (1 − r/R) e_∞,     x' = (ρ_∞ I + (r C)') e_∞,   |e_∞| = 1                  (4)
 ///
-/// An α that starts aside and lags would end slip that the point is far from ending; the stick would end at
-/// once, a little farther round, and so on.
+/// An α that starts aside and lags would end slip that the point is far from ending; the stick
+/// would end at once, a little farther round, and so on.
 /// @param force  F = K (x − s) [Pa].   @param edge  as of turn_rate().
 [[nodiscard]] double starting_angle(const PlanarPoint& point, const PlanarPointInstant& now,
                                     const Eigen::Vector2d& force, double edge);
 
-/// α' of (2) [rad/s]; 0 along a line. Where r is small α follows the motion within r C/|x'|, however short
-/// that is. There it is given more time, with the motion's own turning β' fed forward,
+/// α' of (2) [rad/s]; 0 along a line. Where r is small α follows the motion within r C/|x'|,
+/// however short that is. There it is given more time, with the motion's own turning β' fed
+/// forward,
 ///
 ///   α' = β' + (r α'₍₂₎ − r β')/R,     R = (r⁴ + edge⁴)^¼,     β' = x' × x''/|x'|²              (3)
 ///

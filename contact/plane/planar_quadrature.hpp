@@ -1,6 +1,6 @@
 /// @file
-/// Integrals over parts of a period: Gauss–Legendre panels, eight nodes each, as many as the harmonics
-/// and the curvature of the surface law ask for.
+/// Integrals over parts of a period: Gauss–Legendre panels, eight nodes each, as many as the
+/// harmonics and the curvature of the surface law ask for.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace microslip::contact {
 
 inline constexpr int n_gauss = 8;
 
-/// On [−1, 1], with the shares of the highest Legendre polynomials, degree 7 and 6: one of them may vanish
-/// by symmetry.
+/// On [−1, 1], with the shares of the highest Legendre polynomials, degree 7 and 6: one of them may
+/// vanish by symmetry.
 struct GaussNodes {
   std::array<double, n_gauss> node{};
   std::array<double, n_gauss> weight{};

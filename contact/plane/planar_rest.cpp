@@ -98,8 +98,8 @@ class RestSearch {
     best_ = highest(windows_);
   }
 
-  /// A grid of finer cells: two maxima of the coarse one may be in the same or in neighbouring cells, their
-  /// difference that of the fourth order of a cell.
+  /// A grid of finer cells: two maxima of the coarse one may be in the same or in neighbouring
+  /// cells, their difference that of the fourth order of a cell.
   void refine() {
     constexpr int parts = 8;
     const Vector2d slider = slider_of(place_);
@@ -120,7 +120,8 @@ class RestSearch {
     look();
   }
 
-  /// Whether the cubic through g and its rates at two instants comes closer to the highest value than it varies.
+  /// Whether the cubic through g and its rates at two instants comes closer to the highest value
+  /// than it varies.
   [[nodiscard]] bool may_reach(const PlanarInstant& a, const PlanarInstant& b,
                                const Vector2d& slider) const {
     const double third = (b.phase - a.phase) / 3.0;
@@ -141,9 +142,9 @@ class RestSearch {
     return (size > 0.0 ? force.dot(now.force_rate(slider)) / size : 0.0) - now.radius_rate;
   }
 
-  /// Tries a step; where G does not fall by it what was seen there is kept and the next one is shorter.
-  /// A step far shorter than the last is taken as it is: there the method converges, though the edges of two
-  /// windows of different curvature may raise G for a while.
+  /// Tries a step; where G does not fall by it what was seen there is kept and the next one is
+  /// shorter. A step far shorter than the last is taken as it is: there the method converges,
+  /// though the edges of two windows of different curvature may raise G for a while.
   double attempt(const Balance& balance, double radius) {
     const double size = balance.step.norm();
     const Vector2d trial = place_ + balance.step;
@@ -210,8 +211,8 @@ class RestSearch {
     return value - gradient.norm() * reach;
   }
 
-  /// The minimum of the model max (g + ∇g·d) + d·B d/2 over the windows: of all balances of one to three
-  /// windows the one that no other window exceeds.
+  /// The minimum of the model max (g + ∇g·d) + d·B d/2 over the windows: of all balances of one to
+  /// three windows the one that no other window exceeds.
   [[nodiscard]] Balance balanced(double radius) const {
     // Windows bend along their edges alone. Across, where two of them settle the step by
     // themselves, any curvature of order one keeps B regular and does not slow the search down.
@@ -329,7 +330,8 @@ class RestSearch {
     return found;
   }
 
-  /// The instant at which g is highest next to one of the grid, the first of two where intervals meet.
+  /// The instant at which g is highest next to one of the grid,
+  /// the first of two where intervals meet.
   [[nodiscard]] PlanarInstant peak_near(std::size_t i, const Vector2d& slider) const {
     const std::size_t next = i + 1 < grid_.size() ? i + 1 : 0;
     const std::size_t right = is_end_[i] ? next : i;

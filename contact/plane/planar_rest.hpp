@@ -5,17 +5,18 @@
 ///
 ///   G(s) = max_θ g(θ, s) ≤ 0,    g = |K (x − s)| − r                                          (1)
 ///
-/// G is convex, and its least value, found where two or three windows of the period balance, tells rest from
-/// slip without marching: G* ≤ 0 rest, G* > 0 slip, however little. Windows are the maxima of g over θ,
-/// located between the instants of the intervals. The minimum is found by Newton's method for such maxima
-/// (a quadratic programme with the curvature of the windows that balance), with windows of failed steps kept
-/// as tangents: they bound a convex function from below.
+/// G is convex, and its least value, found where two or three windows of the period balance, tells
+/// rest from slip without marching: G* ≤ 0 rest, G* > 0 slip, however little. Windows are the
+/// maxima of g over θ, located between the instants of the intervals. The minimum is found by
+/// Newton's method for such maxima (a quadratic programme with the curvature of the windows that
+/// balance), with windows of failed steps kept as tangents:
+/// they bound a convex function from below.
 ///
-/// With multipliers λ of the windows, Σ λ = 1, any slider s' obeys G(s') ≥ Σ λ g − |Σ λ ∇g| |s' − s|: slip is proved
-/// by this bound, before the minimum is known to all digits.
+/// With multipliers λ of the windows, Σ λ = 1, any slider s' obeys G(s') ≥ Σ λ g − |Σ λ ∇g| |s' −
+/// s|: slip is proved by this bound, before the minimum is known to all digits.
 ///
-/// Source: theory sections 4.2, 9; J. Nocedal, S. J. Wright, Numerical Optimization, section 18 (sequential
-/// quadratic programming).
+/// Source: theory sections 4.2, 9; J. Nocedal, S. J. Wright, Numerical Optimization, section 18
+/// (sequential quadratic programming).
 #pragma once
 
 #include <cstdint>

@@ -83,8 +83,8 @@ class Reversal {
     return bracketed_root(rate, d.high, d.low, d.rate_high, d.rate_low, enough);
   }
 
-  /// The rate is above 0 where the cell begins and not where it ends; slip that is about to end as the step
-  /// begins is taken to begin as fast as it has to turn back.
+  /// The rate is above 0 where the cell begins and not where it ends; slip that is about to end as
+  /// the step begins is taken to begin as fast as it has to turn back.
   [[nodiscard]] double end_within(int cell) const {
     const double before = cell > 0 ? rate_[cell - 1] : std::max(-rate_[0], 1e-300);
     return root({begin_of_cell(cell), before, end_of_cell(cell), rate_[cell]});

@@ -1,10 +1,11 @@
 /// @file
-/// Where within a step of slip the slider stops: the first fraction at which the slip rate ρ falls to 0.
+/// Where within a step of slip the slider stops: the first fraction at which the slip rate ρ falls
+/// to 0.
 ///
-/// ρ is known at the nodes of the step. Between them it is followed by the polynomial through these, and
-/// seen again where that has a minimum: ρ may fall below 0 and rise again between two nodes. Where a step
-/// ends at an end of its interval and μ depends on the rate, ρ may turn within a layer there, far thinner
-/// than a cell of nodes: it is looked at ever closer to that end.
+/// ρ is known at the nodes of the step. Between them it is followed by the polynomial through
+/// these, and seen again where that has a minimum: ρ may fall below 0 and rise again between two
+/// nodes. Where a step ends at an end of its interval and μ depends on the rate, ρ may turn within
+/// a layer there, far thinner than a cell of nodes: it is looked at ever closer to that end.
 ///
 /// Source: theory sections 9, 10.
 #pragma once

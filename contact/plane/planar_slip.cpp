@@ -147,8 +147,8 @@ Eigen::Vector2d rough_return(const Eigen::Vector2d& trial, const Eigen::Vector2d
   return returned(trial, stiffness, radius, 1e-3);
 }
 
-/// Stages from successive returns, direction by direction. Where a return finds stick the direction is
-/// kept: slip is continued backwards, and its negative rate tells the walk where it ended.
+/// Stages from successive returns, direction by direction. Where a return finds stick the direction
+/// is kept: slip is continued backwards, and its negative rate tells the walk where it ended.
 void guess(SlipStep& step) {
   Eigen::Vector2d slider = step.slider;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
@@ -167,8 +167,8 @@ void guess(SlipStep& step) {
   }
 }
 
-/// Stages from the polynomial of the step before, continued. Where it runs away from the first return
-/// there is no guess.
+/// Stages from the polynomial of the step before, continued. Where it runs away from the first
+/// return there is no guess.
 bool guess_from(const SlipStep& before, SlipStep& step) {
   constexpr double farthest = 4.0;  // steps grow by no more; beyond, the polynomial is noise
   if (before.begin + before.length != step.begin || step.length > farthest * before.length) {
@@ -217,8 +217,8 @@ void set_factor(SlipStep& step) {
   step.factor.compute(A);
 }
 
-/// One Newton step; returns the largest change of an angle, less what rounding of positions of order one
-/// does to it where both the ellipse and the way are small.
+/// One Newton step; returns the largest change of an angle, less what rounding of positions of
+/// order one does to it where both the ellipse and the way are small.
 double improve(SlipStep& step) {
   Stages residual;
   for (int i = 0; i < n_stages; ++i) {

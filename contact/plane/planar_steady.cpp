@@ -41,8 +41,8 @@ double force_of(const PlanarMotion& motion, const Vector2d& slider) {
   return motion.stiffness().cwiseProduct(slider).norm();
 }
 
-/// What a period does to the slider, summed over its slip: of little slip this has all digits, which the
-/// difference of two positions has not.
+/// What a period does to the slider, summed over its slip: of little slip this has all digits,
+/// which the difference of two positions has not.
 struct PeriodMove {
   Vector2d change = Vector2d::Zero();
   double path = 0.0;
@@ -83,11 +83,13 @@ std::vector<double> ends_of_slip(const PlanarOrbit& orbit) {
   return found;
 }
 
-/// Smallest Newton step and smallest move of a period so far. Far from the cycle the first may grow while
-/// the second shrinks; where one direction contracts fast and another slowly it is the other way round.
+/// Smallest Newton step and smallest move of a period so far. Far from the cycle the first may grow
+/// while the second shrinks; where one direction contracts fast and another slowly it is the other
+/// way round.
 class Progress {
  public:
-  /// Whether one of them has fallen, Newton steps by little at least where they creep; keeps the smaller.
+  /// Whether one of them has fallen, Newton steps by little at least where they creep;
+  /// keeps the smaller.
   bool add(double newton, double move) {
     const bool falls = newton < 0.98 * newton_ || move < 0.9 * move_;
     newton_ = std::min(newton_, newton);
@@ -145,7 +147,8 @@ class FixedPoint {
     return trial;
   }
 
-  /// ⟨K (Φ(s) − s), d⟩: falls along d, since Φ brings no two sliders farther apart in the measure of K.
+  /// ⟨K (Φ(s) − s), d⟩: falls along d, since Φ brings no two sliders farther apart in the measure
+  /// of K.
   [[nodiscard]] double pull(const Trial& trial, const Vector2d& along) const {
     return trial.moved.dot(motion_.stiffness().cwiseProduct(along));
   }
@@ -177,8 +180,8 @@ class FixedPoint {
     return steady;
   }
 
-  /// A step across a kink of the period map, where a window of slip appears or goes, may turn the pull round:
-  /// the zero of it is looked for on the way. Returns the number of periods this takes.
+  /// A step across a kink of the period map, where a window of slip appears or goes, may turn the
+  /// pull round: the zero of it is looked for on the way. Returns the number of periods this takes.
   int shorten(const Trial& before, const Vector2d& step, Trial& now, SteadyOrbit& steady) const {
     constexpr double enough = 0.3;  // of the pull before the step
     constexpr int most = 8;
@@ -200,7 +203,8 @@ class FixedPoint {
     return most;
   }
 
-  /// From a first period on, period by period, until the slider no longer moves; whether it has come so far.
+  /// From a first period on, period by period, until the slider no longer moves;
+  /// whether it has come so far.
   bool march(SteadyOrbit& steady) const {
     for (int period = 1; period < longest_march; ++period) {
       const Vector2d slider = steady.orbit.end;
@@ -216,9 +220,9 @@ class FixedPoint {
     return false;
   }
 
-  /// The first slider that rests on the way from the end of a march to a place where rest is known: such as
-  /// around a circle, where the sliders that rest are few and the march comes close like 1/periods. The way
-  /// on to that place estimates how far apart such sliders are.
+  /// The first slider that rests on the way from the end of a march to a place where rest is known:
+  /// such as around a circle, where the sliders that rest are few and the march comes close like
+  /// 1/periods. The way on to that place estimates how far apart such sliders are.
   void rest_towards(const Vector2d& place, SteadyOrbit& steady) const {
     const Vector2d begin = steady.orbit.end;
     double slips = 0.0;
@@ -235,9 +239,10 @@ class FixedPoint {
     steady.closes = false;
   }
 
-  /// Whether the two windows that push in the last period leave the slider in their corner. If so the
-  /// orbit is that of the slider at rest there. A slow march along the valley between two windows may be
-  /// taken over by a third before their corner: it is followed to the corner of the two that push then.
+  /// Whether the two windows that push in the last period leave the slider in their corner. If so
+  /// the orbit is that of the slider at rest there. A slow march along the valley between two
+  /// windows may be taken over by a third before their corner:
+  /// it is followed to the corner of the two that push then.
   bool rest_in_corner(SteadyOrbit& steady, bool is_slow) const {
     constexpr int most_windows = 4;
     std::vector<double> ends = ends_of_slip(steady.orbit);

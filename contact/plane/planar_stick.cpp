@@ -62,8 +62,8 @@ class RestingSlider {
     return found <= left.phase ? found : breach_between(right, high);
   }
 
-  /// Whether the cubic through two guards and their rates comes closer to 0 than half of what it varies by:
-  /// then a peak between them may pass it.
+  /// Whether the cubic through two guards and their rates comes closer to 0 than half of what it
+  /// varies by: then a peak between them may pass it.
   static bool may_peak(const Guard& a, const Guard& b, double length) {
     const auto [low, high] = std::minmax(
         {a.value, a.value + a.rate * length / 3.0, b.value - b.rate * length / 3.0, b.value});

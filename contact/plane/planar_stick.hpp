@@ -3,8 +3,9 @@
 ///
 ///   |K (x − s)| > r                                                                          (1)
 ///
-/// is looked for cell by cell of the instants of an interval, on both sides of a minimum of the force, at the
-/// maximum between two instants, and in halves of cells in which (1) comes close; it is found to rounding.
+/// is looked for cell by cell of the instants of an interval, on both sides of a minimum of the
+/// force, at the maximum between two instants, and in halves of cells in which (1) comes close;
+/// it is found to rounding.
 ///
 /// Source: theory sections 3, 9.
 #pragma once

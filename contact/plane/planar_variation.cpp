@@ -17,7 +17,8 @@ using Eigen::Vector2d;
 
 Vector2d across(const Vector2d& e) { return {-e[1], e[0]}; }
 
-/// Whether friction is too little to tell from rounding of x − s: how long the point sticks is not known.
+/// Whether friction is too little to tell from rounding of x − s:
+/// how long the point sticks is not known.
 bool is_lost(const PlanarMotion& motion, const PlanarPiece& piece) {
   const auto is_little = [](const PlanarInstant& now) { return now.limit <= stick_slack; };
   return is_little(piece.at_begin) && is_little(motion.at(0.5 * (piece.begin + piece.end))) &&

@@ -8,8 +8,8 @@
 ///   stick        δs constant
 ///   slip         the linearised collocation, with its factor at the solution
 ///   slip begins, or the law has a kink: δs moves along e until it is tangent to the ellipse
-///   slip ends    δs unchanged, since s' = 0 there; where the motion along a line turns back and μ rises with
-///                the rate, slip stops at a kink: δs + ρe δθ, δθ = −x''·δx'/|x''|²
+///   slip ends    δs unchanged, since s' = 0 there; where the motion along a line turns back and μ
+///                rises with the rate, slip stops at a kink: δs + ρe δθ, δθ = −x''·δx'/|x''|²
 ///   touch-down   δs = δx + (x' − ρe) δθ₂,  δθ₂ = −δv/v'   (ρ = 0 into stick)
 ///
 /// Source: theory sections 6, 9.
@@ -24,8 +24,8 @@
 
 namespace microslip::contact {
 
-/// Parameters are the harmonics of the motion in the order of Harmonics::vector(), then ω; the slider at
-/// the begin of the period follows with two columns.
+/// Parameters are the harmonics of the motion in the order of Harmonics::vector(), then ω; the
+/// slider at the begin of the period follows with two columns.
 class OrbitVariation {
  public:
   enum class Columns { slider_only, all };
@@ -62,8 +62,8 @@ class OrbitVariation {
   void begin_slip(const PlanarPiece& piece);
   void step(const SlipStep& step);
   void integrate_stick(const PlanarPiece& piece);
-  /// Of friction below rounding: nothing, but where the motion turns back the force jumps by 2 μn e, and the
-  /// jump moves by δθ = −e·δx'/|x''|.
+  /// Of friction below rounding: nothing, but where the motion turns back the force jumps by 2 μn
+  /// e, and the jump moves by δθ = −e·δx'/|x''|.
   void integrate_lost_stick(const PlanarPiece& piece);
   void integrate_slip(const PlanarInstant& now, const Eigen::Vector2d& direction,
                       const Eigen::RowVectorXd& turn, double weight);

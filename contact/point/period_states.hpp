@@ -1,7 +1,7 @@
 /// @file
-/// What one point of a patch does over its period, as numbers that are cheap to compare: its state at 32
-/// instants, two bits each. Between two motions the share of the instants that differ is the part of the
-/// period in which the point has changed its state.
+/// What one point of a patch does over its period, as numbers that are cheap to compare: its state
+/// at 32 instants, two bits each. Between two motions the share of the instants that differ is the
+/// part of the period in which the point has changed its state.
 #pragma once
 
 #include <bit>

@@ -1,7 +1,7 @@
 /// @file
-/// The door between a contact point and the patch it belongs to: harmonics of the motion of one point
-/// go in, harmonics of its tractions and their derivatives come out; how a method finds them, in closed
-/// form, event by event or sampled in time, is not seen from outside.
+/// The door between a contact point and the patch it belongs to: harmonics of the motion of one
+/// point go in, harmonics of its tractions and their derivatives come out; how a method finds them,
+/// in closed form, event by event or sampled in time, is not seen from outside.
 ///
 /// A `Harmonics` of a point has three signals, in this order:
 ///
@@ -35,8 +35,8 @@ struct PointTraction {
       frequency_derivative;  ///< ∂force/∂ω at fixed motion [Pa·s], m; 0 unless rate-dependent
   CycleRegime regime = CycleRegime::separated;
   PeriodStates period{ContactState::separated};
-  /// What the force may be off by because the search for the steady cycle ended before its tolerance, in
-  /// any coefficient [Pa]; 0 where the method met it.
+  /// What the force may be off by because the search for the steady cycle ended before its
+  /// tolerance, in any coefficient [Pa]; 0 where the method met it.
   double defect = 0.0;
 };
 
@@ -89,8 +89,8 @@ class PointMethod {
   [[nodiscard]] virtual PointHistory history(const Harmonics& motion, double frequency,
                                              const Eigen::VectorXd& phases,
                                              int n_harmonics) const = 0;
-  /// Stiffness along p, q, r while the point sticks, at the load of rest [N/m³]; 0 along p and r where
-  /// μ = 0.
+  /// Stiffness along p, q, r while the point sticks, at the load of rest [N/m³]; 0 along p and r
+  /// where μ = 0.
   [[nodiscard]] virtual Eigen::Vector3d stuck_stiffness() const = 0;
   /// n_ref: the load that is in balance before vibration begins [Pa].
   [[nodiscard]] virtual double reference_load() const = 0;

@@ -4,7 +4,8 @@
 
 namespace microslip::contact {
 
-/// Relative motion u = u₀ + u_s sin θ + u_c cos θ along p, v likewise along q (v > 0: approach) [m].
+/// Relative motion u = u₀ + u_s sin θ + u_c cos θ along p, v likewise along q (v > 0:
+/// approach) [m].
 struct PointMotion {
   double u_mean = 0.0;
   double u_sin = 0.0;

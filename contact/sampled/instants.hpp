@@ -1,10 +1,12 @@
 /// @file
-/// The instants θ_i = 2πi/n of a period and the functions of the Fourier convention there, in the order
-/// [1, sin θ … sin Hθ, cos θ … cos Hθ] ("split": a row of products of two of them is then made of slices):
+/// The instants θ_i = 2πi/n of a period and the functions of the Fourier convention there, in the
+/// order [1, sin θ … sin Hθ, cos θ … cos Hθ] ("split": a row of products of two of them is then
+/// made of slices):
 ///
 ///   T_k(θ_i),   T_k'(θ_i),   Σ_{j<i} cos mθ_j,   Σ_{j<i} sin mθ_j      m = 0 … 2H
 ///
-/// and those rows: Σ_i W_i T_k T_l for weights W known by their moments Σ_i W_i cos mθ_i, Σ_i W_i sin mθ_i.
+/// and those rows: Σ_i W_i T_k T_l for weights W known by their moments Σ_i W_i cos mθ_i,
+/// Σ_i W_i sin mθ_i.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +33,8 @@ class Instants {
   /// T', likewise.
   [[nodiscard]] const double* rates() const { return rates_.data(); }
   [[nodiscard]] const double* rates(std::size_t i) const { return rates_.data() + i * n_rows_; }
-  /// Functions of moments at one instant, and their sums over the instants before it (i = n: over all).
+  /// Functions of moments at one instant, and their sums over the instants before it (i = n:
+  /// over all).
   [[nodiscard]] const double* moment_basis(std::size_t i) const {
     return moment_basis_.data() + i * n_moments();
   }

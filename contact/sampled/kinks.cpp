@@ -97,7 +97,8 @@ class Step {
     kink.share = kink.rise == 0.0 ? 0.5 : std::clamp(way / kink.rise, 0.0, 1.0);
   }
 
-  /// The slope of a signal at the kink, damped to 0 where it does not go in the direction it met the kink.
+  /// The slope of a signal at the kink, damped to 0 where it does not go in the direction it met
+  /// the kink.
   static void damp(Kink& kink, const std::array<double, 4>& w, double direction) {
     const StepSpline signal(w);
     const double x = kink.share;

@@ -1,16 +1,17 @@
 /// @file
-/// Kinks of the sampled force of a point with a smooth surface. The sum over instants, h = 2π/n apart, errs where the
-/// slope of a signal jumps by D between two of them (Euler and Maclaurin; x from the one before, D per instant):
+/// Kinks of the sampled force of a point with a smooth surface. The sum over instants, h = 2π/n
+/// apart, errs where the slope of a signal jumps by D between two of them (Euler and Maclaurin; x
+/// from the one before, D per instant):
 ///
-///   h Σ f_i T(θ_i) = ∮ f T dθ + Σ_kinks h [ D x (1−x)/2 − φ D'/12 ] T(θ_x) + O(h³)                (1)
+///   h Σ f_i T(θ_i) = ∮ f T dθ + Σ_kinks h [ D x (1−x)/2 − φ D'/12 ] T(θ_x) + O(h³)             (1)
 ///
-/// D by the two instants, so that D x (1−x) is a smooth function of them however small the kink; D' by the slopes of
-/// splines (step_spline.hpp), φ ≤ 1 the instants after which that slope would vanish: a kink that has just begun has
-/// another one behind it, not an instant.
+/// D by the two instants, so that D x (1−x) is a smooth function of them however small the kink; D'
+/// by the slopes of splines (step_spline.hpp), φ ≤ 1 the instants after which that slope would
+/// vanish: a kink that has just begun has another one behind it, not an instant.
 ///
-/// Slip begins where u − g or u + g meets the slider, contact closes and opens where r vanishes; where slip ends
-/// there is no kink. Taking (1) off the two samples around each leaves a force whose error falls with n³, and
-/// which does not jump where a kink passes an instant.
+/// Slip begins where u − g or u + g meets the slider, contact closes and opens where r vanishes;
+/// where slip ends there is no kink. Taking (1) off the two samples around each leaves a force
+/// whose error falls with n³, and which does not jump where a kink passes an instant.
 #pragma once
 
 #include <array>
@@ -44,7 +45,8 @@ struct LineColumns {
   const double* slider = nullptr;
 };
 
-/// u + side g at the four instants around the step that ends at `now`, extended by r < 0. @param side  −1 w, 1 W.
+/// u + side g at the four instants around the step that ends at `now`, extended by r < 0.
+/// @param side  −1 w, 1 W.
 [[nodiscard]] std::array<double, 4> end_of_band(const SmoothPoint& point,
                                                 const LineColumns& columns, double side,
                                                 std::size_t now, std::size_t n);

@@ -1,6 +1,6 @@
 /// @file
-/// Steady cycles of a block of points along one direction: motion in, Fourier sums of friction and load,
-/// states and derivatives out (lanes/line_kernels.hpp, line_point.hpp).
+/// Steady cycles of a block of points along one direction: motion in, Fourier sums of friction and
+/// load, states and derivatives out (lanes/line_kernels.hpp, line_point.hpp).
 #pragma once
 
 #include <array>

@@ -20,7 +20,8 @@ double sign_of(InstantState state) { return state == InstantState::negative_slip
 
 }  // namespace
 
-/// ds of (2) as a function of û and v̂: u at a place between four instants and what follows from it.
+/// ds of (2) as a function of û and v̂: u at a place between four instants and what follows from
+/// it.
 struct LineDerivatives::Anchor {
   std::size_t first = 0;  // instants, counted on over n
   std::array<double, 4> share{1.0, 0.0, 0.0, 0.0};
@@ -217,7 +218,8 @@ void LineDerivatives::add_stuck(const Run& run, const LineColumns& columns) {
   }
 }
 
-/// P = T(θ_x) between the two instants, Q its change from one to the other, and its slope by the spline.
+/// P = T(θ_x) between the two instants, Q its change from one to the other,
+/// and its slope by the spline.
 void LineDerivatives::place(const Kink& kink) {
   const std::size_t n = instants_->size();
   const std::array<double, 4> shares = StepSpline::slope_shares(kink.share);
@@ -233,9 +235,11 @@ void LineDerivatives::place(const Kink& kink) {
   }
 }
 
-/// The derivative of what is taken off, with w = u ∓ g, its rise Δ over the step, x Δ = s − w_before, b = x (1−x)/2:
+/// The derivative of what is taken off, with w = u ∓ g, its rise Δ over the step,
+/// x Δ = s − w_before, b = x (1−x)/2:
 ///
-///   d k (b Δ − φ w'/12) P = k [ b P dΔ − φ P dw'/12 + (b' P + b Q − φ (w'' P + w' Q)/(12 Δ)) (ds − dw_x) ]
+///   d k (b Δ − φ w'/12) P = k [ b P dΔ − φ P dw'/12
+///                               + (b' P + b Q − φ (w'' P + w' Q)/(12 Δ)) (ds − dw_x) ]
 void LineDerivatives::add_slip(const Kink& kink, const Run& run, const LineColumns& columns) {
   place(kink);
   const double k_u = point_.tangential_stiffness;
@@ -256,8 +260,8 @@ void LineDerivatives::add_slip(const Kink& kink, const Run& run, const LineColum
   }
 }
 
-/// Moments for the instants that the sums count too much or too little; the antisymmetric part of the derivative, of
-/// second order, has no place there.
+/// Moments for the instants that the sums count too much or too little; the antisymmetric part of
+/// the derivative, of second order, has no place there.
 void LineDerivatives::add_load(const Kink& kink, double sign) {
   const double weight = sign * point_.normal_stiffness *
                         (kink.weight_slope() - kink.late() * ratio_of(kink.bend, kink.rise) / 12.0);
@@ -281,7 +285,8 @@ void LineDerivatives::add_opening(const Kink& kink) {
   add_outer(b_, slope_, 0.0, limit);
 }
 
-/// −d(x f P/2) with f at the instant behind, and what the slope at the kink adds: that of k u or that of the limit.
+/// −d(x f P/2) with f at the instant behind, and what the slope at the kink adds:
+/// that of k u or that of the limit.
 void LineDerivatives::add_closing(const Kink& kink, const Run& run) {
   place(kink);
   add_load(kink, 1.0);

@@ -1,16 +1,18 @@
 /// @file
-/// Derivatives of the sampled force of one point along one direction, those of the sums over instants (theory
-/// sections 6, 8):
+/// Derivatives of the sampled force of one point along one direction, those of the sums over
+/// instants (theory sections 6, 8):
 ///
-///   stick   df_i = k_i (du_i − ds) + k_i' dv_i (u_i − s),   slip   df_i = ± d(μ n)_i,   apart   0       (1)
+///   stick  df_i = k_i (du_i − ds) + k_i' dv_i (u_i − s),  slip  df_i = ± d(μ n)_i,  apart  0   (1)
 ///   ds  after slip at i*         du ∓ dg  there
 ///       after touch-down         (1−x) du_{i−1} + x du_i + (u_i − u_{i−1}) dx,   n = 0 at i−1+x
-///       virgin                   0                                                                    (2)
+///       virgin                   0                                                             (2)
 ///
-/// so that ∂f̂/∂û = [products of moments of weights] + Σ_stick phases a ⊗ b, a_k = −Σ_phase k_i T_k(θ_i), b of (2).
+/// so that ∂f̂/∂û = [products of moments of weights] + Σ_stick phases a ⊗ b,
+/// a_k = −Σ_phase k_i T_k(θ_i), b of (2).
 ///
-/// On smooth surfaces i* lies between instants, du there is that of the polynomial through its neighbours, and the
-/// sums are mended at kinks (kinks.hpp); their derivatives are complete but for parts of second order.
+/// On smooth surfaces i* lies between instants, du there is that of the polynomial through its
+/// neighbours, and the sums are mended at kinks (kinks.hpp);
+/// their derivatives are complete but for parts of second order.
 #pragma once
 
 #include <cstddef>

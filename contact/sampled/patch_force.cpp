@@ -25,7 +25,8 @@ Eigen::RowVector3d stuck_stiffness(const SurfaceLaw& surface, bool planar) {
           planar ? surface.second_stiffness() * rest.second_stiffness_ratio : 0.0};
 }
 
-/// Without a spring along the face nothing slips, whatever its slider does: as by the other methods.
+/// Without a spring along the face nothing slips, whatever its slider does:
+/// as by the other methods.
 std::vector<CycleSegment> told(std::vector<CycleSegment> segments, const SurfaceLaw& surface,
                                bool planar) {
   const bool has_spring =

@@ -1,17 +1,20 @@
 /// @file
-/// Modal force of a friction patch sampled in time, all points going through the instants together in the
-/// lanes of the processor (theory section 23): any number of harmonics, any surfaces (surface_law.hpp).
+/// Modal force of a friction patch sampled in time, all points going through the instants together
+/// in the lanes of the processor (theory section 23): any number of harmonics,
+/// any surfaces (surface_law.hpp).
 ///
-///   G^(k)_m = Σ_i w_i [ φ_u f_p + φ_v (n − n_ref δ_k0) + φ_w f_r ]^(k)_im,   sums over n instants         (1)
+///   G^(k)_m = Σ_i w_i [ φ_u f_p + φ_v (n − n_ref δ_k0) + φ_w f_r ]^(k)_im                      (1)
 ///
-/// The error falls with n³ along one direction on smooth surfaces (kinks.hpp), else with n²; derivatives are those of
-/// the sums, so that Newton's method converges on them.
-/// In two directions the slider is marched until it repeats (plane_block.hpp); what has not settled is the defect.
+/// with sums over n instants. The error falls with n³ along one direction on smooth surfaces
+/// (kinks.hpp), else with n²; derivatives are those of the sums, so that Newton's method converges
+/// on them. In two directions the slider is marched until it repeats (plane_block.hpp); what has
+/// not settled is the defect.
 ///
-/// Points are summed in parts, by as many cores as are to spare (spare_cores.hpp); the parts depend on the number of points
-/// alone, and so do the bits of their sum.
+/// Points are summed in parts, by as many cores as are to spare (spare_cores.hpp); the parts depend
+/// on the number of points alone, and so do the bits of their sum.
 ///
-/// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (line_events.hpp) are exact and slower.
+/// Cost and error: tests/benchmarks/bench_lanes.cpp. Located events (line_events.hpp) are exact and
+/// slower.
 #pragma once
 
 #include <map>
@@ -33,8 +36,8 @@ class PatchForce final : public PointwiseForce {
  public:
   /// @param weights   area of each point [m²], n_points ≥ 1, ≥ 0.
   /// @param surfaces  one per point.
-  /// @param shapes    relative mode shapes, n_points × n_modes; w empty: no motion along r, friction along p
-  ///                  alone.
+  /// @param shapes    relative mode shapes, n_points × n_modes; w empty: no motion along r,
+  ///                  friction along p alone.
   /// @param instants  n ≥ 16 per period; doubled until 8 (H + 1) at least.
   /// @throws std::invalid_argument  sizes differ, a value is not finite, too few instants.
   PatchForce(Eigen::VectorXd weights, std::vector<SurfaceLaw> surfaces, ModalShapes shapes,

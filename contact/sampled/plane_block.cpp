@@ -48,8 +48,8 @@ void PlaneBlock::resize() {
              turns_.data()};
 }
 
-/// Directions without stiffness carry no friction: there the point does not move. Places without a point repeat
-/// the first.
+/// Directions without stiffness carry no friction: there the point does not move. Places without a
+/// point repeat the first.
 void PlaneBlock::load_motion(const PatchMotion& motion) {
   const std::size_t rows = instants_->n_rows();
   for (std::size_t p = 0; p < block_size; ++p) {
@@ -235,8 +235,9 @@ void PlaneBlock::rest_in_corners(const State& end, std::span<const double> slips
   }
 }
 
-/// Whether both windows leave the slider in their corner. A slow march along the valley between them may be taken
-/// over by a third before it: it is followed to the corner of the two that push then. Writes over what is recorded.
+/// Whether both windows leave the slider in their corner. A slow march along the valley between
+/// them may be taken over by a third before it: it is followed to the corner of the two that push
+/// then. Writes over what is recorded.
 bool PlaneBlock::rest_in_corner(std::size_t p, std::array<std::size_t, 2> instants, State state,
                                 bool is_slow) {
   constexpr int most_windows = 4;
@@ -282,7 +283,8 @@ void PlaneBlock::copy(const State& from, std::size_t p, State& to) {
   }
 }
 
-/// (1) for one point that slips: where its next period is to begin, if not where this one has ended.
+/// (1) for one point that slips: where its next period is to begin,
+/// if not where this one has ended.
 bool PlaneBlock::jump(std::size_t p, const State& before, const State& end, State& next) {
   Search& search = search_[p];
   const auto along = [&](const State& s, std::size_t k) { return s[k * block_size + p]; };

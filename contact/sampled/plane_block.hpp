@@ -1,17 +1,18 @@
 /// @file
-/// Steady cycles of a block of points in two directions: motion in, Fourier sums of friction and load, states and
-/// derivatives out (lanes/plane_kernels.hpp, plane_point.hpp; theory section 23.1).
+/// Steady cycles of a block of points in two directions: motion in, Fourier sums of friction and
+/// load, states and derivatives out (lanes/plane_kernels.hpp, plane_point.hpp;
+/// theory section 23.1).
 ///
-/// The virgin slider, s = 0 at instant 0, is marched through the period. A period that parts and touches down, or
-/// without slip, has settled it; else period follows on period, s ← Φ(s), and the last two of them tell where the
-/// sequence goes:
+/// The virgin slider, s = 0 at instant 0, is marched through the period. A period that parts and
+/// touches down, or without slip, has settled it; else period follows on period, s ← Φ(s), and the
+/// last two of them tell where the sequence goes:
 ///
-///   s ← Φ(s) − γ (Φ(s) − Φ(s')),   γ = g·(g − g')/|g − g'|²,   g = Φ(s) − s                          (1)
+///   s ← Φ(s) − γ (Φ(s) − Φ(s')),   γ = g·(g − g')/|g − g'|²,   g = Φ(s) − s                    (1)
 ///
-/// (after slip the slider has one coordinate, and (1) is the secant of one equation). Where that leads to a slider
-/// at rest, the march is gone through without it: where a slider comes to rest is history. Where two stretches of slip
-/// push it in turn into the corner of their ellipses it goes there at once (plane_corner.hpp): by itself it comes near
-/// like 1/periods.
+/// (after slip the slider has one coordinate, and (1) is the secant of one equation). Where that
+/// leads to a slider at rest, the march is gone through without it: where a slider comes to rest is
+/// history. Where two stretches of slip push it in turn into the corner of their ellipses it goes
+/// there at once (plane_corner.hpp): by itself it comes near like 1/periods.
 #pragma once
 
 #include <array>

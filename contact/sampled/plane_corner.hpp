@@ -1,13 +1,15 @@
 /// @file
-/// Where a slider that two windows of the period push in turn comes to rest, of one point in lanes (theory sections 9,
-/// 23.1): on the edge of the ellipses of both, which march along the valley between them comes near like 1/periods.
+/// Where a slider that two windows of the period push in turn comes to rest,
+/// of one point in lanes (theory sections 9,
+/// 23.1): on the edge of the ellipses of both, which march along the valley between them comes near
+/// like 1/periods.
 ///
-///   G_j(s) = max_θ near θ_j |W⁻¹ (x − s)| − 1 = 0,    j = 1, 2                                    (1)
+///   G_j(s) = max_θ near θ_j |W⁻¹ (x − s)| − 1 = 0,    j = 1, 2                                 (1)
 ///
-/// by Newton's method from outside both. If it turns back there is no corner and the slider slips for good. The
-/// maximum is that of the parabola through the highest instant and its neighbours,
+/// by Newton's method from outside both. If it turns back there is no corner and the slider slips
+/// for good. The maximum is that of the parabola through the highest instant and its neighbours,
 ///
-///   δG = Σ_k c_k(x) δ|W_k⁻¹ (x_k − s)|,    c = [x (x−1)/2, 1 − x², x (x+1)/2]                     (2)
+///   δG = Σ_k c_k(x) δ|W_k⁻¹ (x_k − s)|,    c = [x (x−1)/2, 1 − x², x (x+1)/2]                  (2)
 ///
 /// x from the highest instant, by which G errs in the fourth order of a step and (2) in the third.
 #pragma once
@@ -52,7 +54,8 @@ struct PlaneCorner {
 [[nodiscard]] bool rests_throughout(const PlaneArrays& arrays, std::size_t place,
                                     const std::array<double, 2>& slider);
 
-/// The last instants of both stretches of slip of the recorded period; nothing where there are not two.
+/// The last instants of both stretches of slip of the recorded period;
+/// nothing where there are not two.
 [[nodiscard]] std::optional<std::array<std::size_t, 2>> two_ends_of_slip(const PlaneArrays& arrays,
                                                                          std::size_t place);
 

@@ -1,16 +1,17 @@
 /// @file
-/// Derivatives of the sampled force of one point in two directions, exactly those of the sums over instants
-/// (theory section 23.1):
+/// Derivatives of the sampled force of one point in two directions, exactly those of the sums over
+/// instants (theory section 23.1):
 ///
-///   stick   df = K (dx − ds) + K' dv (x − s)          slip   df = e dL + L e_⊥ dα,   L = μ n           (1)
-///   ds  after slip at i   dx − dW e − W e_⊥ dα   there,      after touch-down   that of the landing    (2)
+///   stick   df = K (dx − ds) + K' dv (x − s)          slip   df = e dL + L e_⊥ dα,   L = μ n   (1)
+///   ds  after slip at i   dx − dW e − W e_⊥ dα  there,  after touch-down  that of the landing  (2)
 ///   dα  from instant to instant by the numbers of linearise() (lanes/plane_kernels.hpp)
 ///
-/// What a point remembers is ds in stick, dα in slip, nothing apart. A period is walked from a touch-down, or from
-/// slip, where it is one number: dα₀ = D + M dα₀ closes it. A point that never slips remembers what pushed it.
+/// What a point remembers is ds in stick, dα in slip, nothing apart. A period is walked from a
+/// touch-down, or from slip, where it is one number: dα₀ = D + M dα₀ closes it. A point that never
+/// slips remembers what pushed it.
 ///
-/// (1) is a sum of products, T_k(θ_i) of what has the memory by the derivatives of the memory, and moments of
-/// weights for the rest (instants.hpp).
+/// (1) is a sum of products, T_k(θ_i) of what has the memory by the derivatives of the memory, and
+/// moments of weights for the rest (instants.hpp).
 #pragma once
 
 #include <array>
@@ -48,7 +49,8 @@ struct PlaneStart {
 
 class PlaneDerivatives {
  public:
-  /// @param slopes  of the n instants; one for all where `constant`.   @param closeness_by_approach  dr/dv.
+  /// @param slopes  of the n instants; one for all where `constant`.
+  /// @param closeness_by_approach  dr/dv.
   struct Point {
     const PlaneArrays* arrays = nullptr;  ///< of linearise()
     std::size_t place = 0;
@@ -69,7 +71,8 @@ class PlaneDerivatives {
   /// Of a steady cycle with slip or separation.
   void steady(const Point& point, const std::vector<Run>& runs);
 
-  /// ∂f̂_k/∂(û, v̂, ŵ) in split order, without the norm of row k [N/m³]. @param direction  0 p, 1 r.
+  /// ∂f̂_k/∂(û, v̂, ŵ) in split order, without the norm of row k [N/m³].
+  /// @param direction  0 p, 1 r.
   [[nodiscard]] const double* by(std::size_t direction, std::size_t signal) const {
     return by_[direction][signal].data();
   }

@@ -1,10 +1,11 @@
 /// @file
-/// Sum over the points of a patch of sampled forces and derivatives, projected on the modes (theory section 13):
+/// Sum over the points of a patch of sampled forces and derivatives,
+/// projected on the modes (theory section 13):
 ///
 ///   G^(k) = Σ w (φ_u f_p + φ_v n + φ_w f_r)^(k),   ∂G^(k)/∂q^(l) = Σ w Σ_st φ_s J_st,kl φ_tᵀ
 ///
-/// Points are taken in blocks. Friction: J φ_t of each point, then one product with Φ per row k. Load: its
-/// derivatives are known by 4H + 1 moments, one product of these with the pairs of modes.
+/// Points are taken in blocks. Friction: J φ_t of each point, then one product with Φ per row k.
+/// Load: its derivatives are known by 4H + 1 moments, one product of these with the pairs of modes.
 #pragma once
 
 #include <array>
@@ -30,7 +31,8 @@ struct PointDerivatives {
 
 class Projection {
  public:
-  /// @param of_motion, of_force  see LineBlock.   @param rows  asked for, as of Harmonics, ascending.
+  /// @param of_motion, of_force  see LineBlock.
+  /// @param rows  asked for, as of Harmonics, ascending.
   void start(const ModalShapes& shapes, const Instants& of_motion, const Instants& of_force,
              const std::vector<Eigen::Index>& rows);
   /// @param sums  of f_p, n and f_r or null: numbers `stride` apart, Σ_i f_i T_k.

@@ -1,6 +1,6 @@
 /// @file
-/// What the instants of one point say: stretches of the same state, and what a step control and a report want to
-/// know of them.
+/// What the instants of one point say: stretches of the same state, and what a step control and a
+/// report want to know of them.
 #pragma once
 
 #include <cstddef>

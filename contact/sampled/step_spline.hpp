@@ -1,6 +1,7 @@
 /// @file
-/// A signal between two instants: the cubic with the slopes that its neighbours give at both ends, as the kernels have
-/// it (lanes/line_kernels.cpp). From one step to the next it is C¹; its error is of third order in the step.
+/// A signal between two instants: the cubic with the slopes that its neighbours give at both ends,
+/// as the kernels have it (lanes/line_kernels.cpp). From one step to the next it is C¹; its error
+/// is of third order in the step.
 #pragma once
 
 #include <algorithm>

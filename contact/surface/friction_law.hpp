@@ -5,8 +5,9 @@
 ///   exponential   μ(σ) = μ∞ + (μ₀ − μ∞) e^{−λσ}                                              (1)
 ///   hyperbolic    μ(σ) = μ₀ / (1 + pσ)                                                       (2)
 ///
-/// σ is the imposed relative tangential speed in physical time, not that of the slider: with a spring
-/// in series a coefficient that falls with the slider's speed has no unique force (theory section 10).
+/// σ is the imposed relative tangential speed in physical time, not that of the slider: with a
+/// spring in series a coefficient that falls with the slider's speed has no unique force (theory
+/// section 10).
 ///
 /// Source: paper B, after eq 5; theory section 10.
 #pragma once

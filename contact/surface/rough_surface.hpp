@@ -1,20 +1,21 @@
 /// @file
 /// Elastic contact of rough surfaces: what approach makes of the load and of the stiffness.
 ///
-/// Of a rough surface under a flat plate only the share h* of the area is in contact. With the approach
-/// u counted from the first touch and the stiffnesses k_N, k_T of full contact
+/// Of a rough surface under a flat plate only the share h* of the area is in contact. With the
+/// approach u counted from the first touch and the stiffnesses k_N, k_T of full contact
 ///
-///   F_N(u) = k_N δ(u),   δ = ∫ h* du,       k_t(u) = k_T h*(u)                         (1)
-///   cubic      h* = 0 | 3x² − 2x³ | 1,      δ = R (0 | x³ − x⁴/2 | x − ½),  x = u/R    (2) [B-eq 1, 2]
-///   Gaussian   h* = Φ(ζ),                   δ = s [ζΦ(ζ) + φ(ζ)],      ζ = (u − ū)/s   (3)
+///   F_N(u) = k_N δ(u),   δ = ∫ h* du,       k_t(u) = k_T h*(u)                        (1)
+///   cubic      h* = 0 | 3x² − 2x³ | 1,   δ = R (0 | x³ − x⁴/2 | x − ½),  x = u/R   (2) [B-eq 1, 2]
+///   Gaussian   h* = Φ(ζ),                δ = s [ζΦ(ζ) + φ(ζ)],      ζ = (u − ū)/s  (3)
 ///
-/// x below 0 | from 0 to 1 | above 1; Φ, φ are the normal distribution and its density, ū and s mean and
-/// standard deviation of the heights. The cubic law is a height density 6x(1 − x) of mean R/2 and
-/// variance R²/20; the Gaussian with ū = R/2, s = R/√20 matches it, and both share the asymptote
-/// F_N = k_N (u − R/2). The Gaussian load never vanishes: it falls below the smallest number at ζ = −38.
+/// x below 0 | from 0 to 1 | above 1; Φ, φ are the normal distribution and its density, ū and s
+/// mean and standard deviation of the heights. The cubic law is a height density 6x(1 − x) of mean
+/// R/2 and variance R²/20; the Gaussian with ū = R/2, s = R/√20 matches it, and both share the
+/// asymptote F_N = k_N (u − R/2). The Gaussian load never vanishes:
+/// it falls below the smallest number at ζ = −38.
 ///
-/// This header knows geometry only; δ [m] times k_N per area is a pressure, times k_N of an element a
-/// force.
+/// This header knows geometry only; δ [m] times k_N per area is a pressure, times k_N of an element
+/// a force.
 ///
 /// Source: paper B, section 2.1, eqs 1, 2; theory section 11.
 #pragma once
@@ -42,8 +43,8 @@ class RoughSurface {
   /// (3) matching the cubic law of the same R.   @param height, @throws  as for cubic().
   [[nodiscard]] static RoughSurface matching_gaussian(double height);
 
-  /// Relative accuracy of (3) at its ζ: 4e-15. ζ itself is rounded, which costs ζ² units of the last
-  /// place of δ and h* in the tail and is the conditioning of the law.
+  /// Relative accuracy of (3) at its ζ: 4e-15. ζ itself is rounded, which costs ζ² units of the
+  /// last place of δ and h* in the tail and is the conditioning of the law.
   /// @param approach  u [m], finite.
   [[nodiscard]] RoughState at(double approach) const;
   /// The u at which δ(u) = compression [m].

@@ -1,7 +1,7 @@
 /// @file
-/// Local law of the two rubbing surfaces at one point, without memory: what approach and speed make of
-/// the load, the tangential stiffness and the friction coefficient. The memory, a slider, belongs to the
-/// cycles that call this (event, sampled, planar).
+/// Local law of the two rubbing surfaces at one point, without memory: what approach and speed make
+/// of the load, the tangential stiffness and the friction coefficient. The memory, a slider,
+/// belongs to the cycles that call this (event, sampled, planar).
 ///
 ///   n = N(v),   k_p = k_u g_p(v),   k_r = k_w g_r(v),   μ = μ(σ),   |f| ≤ μ n               (1)
 ///
@@ -14,11 +14,12 @@
 ///   k_u g_p = 1/(1/(k_T h*(u)) + c_u),   k_u = 1/(1/k_T + c_u),   g_r likewise                (3)
 ///
 /// n₀' > 0 is the pressure at rest: v_rest = δ⁻¹(n₀'/k_v) + c_v n₀'. n₀' ≤ 0 is a gap: v_rest =
-/// n₀'(1/k_v + c_v), the same gap as between smooth surfaces of the same stiffness, counted to the first
-/// touch of (2) in rough_surface.hpp. R → 0 returns smooth contact.
+/// n₀'(1/k_v + c_v), the same gap as between smooth surfaces of the same stiffness, counted to the
+/// first touch of (2) in rough_surface.hpp. R → 0 returns smooth contact.
 ///
-/// Gaussian heights have no first touch. Here they end nine deviations from their mean (theory section 11):
-/// farther apart the surfaces are separated, and the load begins with 1e-20 of k_v times the deviation.
+/// Gaussian heights have no first touch. Here they end nine deviations from their mean (theory
+/// section 11): farther apart the surfaces are separated,
+/// and the load begins with 1e-20 of k_v times the deviation.
 ///
 /// Source: theory sections 2, 3, 10, 11, 14.
 #pragma once
@@ -38,8 +39,8 @@ struct SurfaceState {
   double load = 0.0;              ///< n [Pa]
   double load_by_approach = 0.0;  ///< dn/dv [N/m³]; 0 where separated
   /// `load` in contact, where separated what smooth surfaces of the same stiffness would pull [Pa]:
-  /// negative. Rough surfaces start with u³, or less: find their touch-down by kinks(), not by the size
-  /// of this.
+  /// negative. Rough surfaces start with u³, or less: find their touch-down by kinks(), not by the
+  /// size of this.
   double gap_load = 0.0;
   double stiffness_ratio = 1.0;               ///< g_p [-]
   double stiffness_ratio_by_approach = 0.0;   ///< dg_p/dv [1/m]
@@ -74,14 +75,14 @@ class SurfaceLaw {
   SurfaceLaw(const PointParameters& point, double second_stiffness);
 
   /// Any friction law, rough surfaces, bodies in series.
-  /// @param point      local constants, in the ranges of ContactPatch: stiffness of the surfaces in full
-  ///                   contact without the compliance; its friction coefficient is not used.
+  /// @param point      local constants, in the ranges of ContactPatch: stiffness of the surfaces in
+  ///                   full contact without the compliance; its friction coefficient is not used.
   /// @param second_stiffness  k_T along r [N/m³], ≥ 0.
   /// @param friction   μ(σ).
   /// @param roughness  none, or height 0: smooth.
   /// @param series     compliance of the bodies; 0 where `point` has it already.
-  /// @throws std::invalid_argument  rough surfaces without normal stiffness; 1/k + c ≤ 0 in a direction;
-  ///                   a value not finite. Names it.
+  /// @throws std::invalid_argument  rough surfaces without normal stiffness; 1/k + c ≤ 0 in a
+  ///                   direction; a value not finite. Names it.
   SurfaceLaw(const PointParameters& point, double second_stiffness, const FrictionLaw& friction,
              const std::optional<RoughSurface>& roughness = std::nullopt,
              const SeriesCompliance& series = {});

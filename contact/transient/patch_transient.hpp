@@ -1,6 +1,6 @@
 /// @file
-/// A friction patch in time: points with one tangential direction under a varying load, smooth surfaces
-/// and a constant coefficient (theory sections 2, 3):
+/// A friction patch in time: points with one tangential direction under a varying load, smooth
+/// surfaces and a constant coefficient (theory sections 2, 3):
 ///
 ///   n = max(0, n₀' + k_v v),   f = k_u (u − s),   |f| ≤ μ n,   s moves only where |f| = μ n
 ///   G = Σ_i w_i [ φ_u,i f_i + φ_v,i (n_i − n_ref,i) ],          n_ref = max(n₀', 0)
@@ -12,8 +12,8 @@
 ///   separated   −(n₀' + k_v v)
 ///   slip        n (μ = 0: slips in no direction in particular)
 ///
-/// A point with k_u = 0 carries no friction and counts as stuck wherever it is in contact; a point of
-/// weight 0 never changes state.
+/// A point with k_u = 0 carries no friction and counts as stuck wherever it is in contact; a point
+/// of weight 0 never changes state.
 #pragma once
 
 #include <vector>

@@ -3,8 +3,8 @@
 ///
 /// Supports hold all three components of a node, so a node either has three degrees of freedom or
 /// none, and matrices keep blocks of three. The free nodes are ordered along a space-filling curve
-/// (Morton, Z order): neighbours in space are near in memory, and a contiguous piece of the order is
-/// a compact piece of the body, which serves as the share of one MPI rank.
+/// (Morton, Z order): neighbours in space are near in memory, and a contiguous piece of the order
+/// is a compact piece of the body, which serves as the share of one MPI rank.
 #pragma once
 
 #include <vector>

@@ -19,8 +19,8 @@ struct FeSystem {
   double mass = 0.0;      ///< of the whole mesh, held nodes included [kg]
 };
 
-/// Sums the element matrices of all elements. Each rank integrates every element that touches a node
-/// it owns and keeps its own rows, so nothing travels between ranks.
+/// Sums the element matrices of all elements. Each rank integrates every element that touches a
+/// node it owns and keeps its own rows, so nothing travels between ranks.
 /// @param clamped  names of surfaces or node sets that are held.
 /// @throws mesh::MeshError  an unknown name; std::invalid_argument  a material out of range.
 /// @note One and several ranks agree to summation order (1e-15 relative).

@@ -28,7 +28,8 @@ std::vector<Eigen::Index> held_nodes(const Eigen::ArrayX<bool>& held) {
   return nodes;
 }
 
-/// Blocks per own row of nodes in the upper half: columns owned here (diagonal included), and elsewhere.
+/// Blocks per own row of nodes in the upper half: columns owned here (diagonal included),
+/// and elsewhere.
 struct RowCounts {
   std::vector<PetscInt> own;
   std::vector<PetscInt> other;

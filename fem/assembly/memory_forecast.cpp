@@ -93,8 +93,8 @@ class Dissection {
     return n;
   }
 
-  /// The plane across one of the axes with few nodes on it for the parts it leaves: through the middle of a blade's elements
-  /// may go the plane of its platform.
+  /// The plane across one of the axes with few nodes on it for the parts it leaves: through the
+  /// middle of a blade's elements may go the plane of its platform.
   Cut best_cut(std::span<Eigen::Index> elements) {
     constexpr std::size_t few = 100;  // the longest side will do
     if (elements.size() < few) return {longest_side(elements), 0.5};
@@ -180,7 +180,8 @@ class Dissection {
 
 constexpr double megabytes = 1e-6;
 
-/// Blocks of three in the upper half of K. A pair of nodes of one element is a pair of two others', near enough.
+/// Blocks of three in the upper half of K. A pair of nodes of one element is a pair of two others',
+/// near enough.
 double n_blocks(const mesh::Mesh& mesh) {
   constexpr double times = 0.55;
   auto n = static_cast<double>(mesh.n_nodes());

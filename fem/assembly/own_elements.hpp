@@ -1,5 +1,6 @@
 /// @file
-/// The elements a rank integrates: those that touch a node it owns, so that nothing travels between ranks.
+/// The elements a rank integrates: those that touch a node it owns,
+/// so that nothing travels between ranks.
 #pragma once
 
 #include <array>

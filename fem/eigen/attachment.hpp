@@ -1,6 +1,6 @@
 /// @file
-/// The linear algebra behind attachment shapes (equations in fem/attachment.hpp): rows of this rank only,
-/// every function collective over PETSC_COMM_WORLD.
+/// The linear algebra behind attachment shapes (equations in fem/attachment.hpp): rows of this rank
+/// only, every function collective over PETSC_COMM_WORLD.
 #pragma once
 
 #include <functional>
@@ -29,13 +29,15 @@ struct RitzShapes {
   Eigen::MatrixXd shapes;     ///< local rows × at most m
 };
 
-/// Columns of a set that are independent, by pivoted Gram–Schmidt in the energy ½ΨᵀKΨ: a column of which less
-/// than `tolerance` of its own energy norm is new is left out. Then Ritz vectors of what is left.
+/// Columns of a set that are independent, by pivoted Gram–Schmidt in the energy ½ΨᵀKΨ: a column of
+/// which less than `tolerance` of its own energy norm is new is left out.
+/// Then Ritz vectors of what is left.
 /// @param modes  M-orthonormal, local rows × n: the result is made orthogonal to them.
 [[nodiscard]] RitzShapes ritz_shapes(const FeSystem& system, const StaticShapes& set,
                                      const Eigen::MatrixXd& modes, double tolerance = 1e-6);
 
-/// Largest share of the flexibility of the last tractions that the others miss (fem/attachment.hpp).
+/// Largest share of the flexibility of the last tractions that the others miss
+/// (fem/attachment.hpp).
 /// @param flexibility  C = FᵀΨ [m³/N], (n_lower + n_last)², orthonormal tractions.
 /// @param local_stiffness  along each [N/m³]; 0: no force can arise there, which misses nothing.
 /// @return s, 0 … 1.

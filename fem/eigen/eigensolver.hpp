@@ -1,8 +1,9 @@
 /// @file
-/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) with a given solver of K − shift M.
+/// Lowest eigenpairs of Kφ = λMφ by shift-invert Krylov–Schur (SLEPc) with a given solver of K −
+/// shift M.
 ///
-/// Source: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601–614; Hernandez, Roman & Vidal, ACM Trans.
-/// Math. Softw. 31 (2005) 351–362.
+/// Source: Stewart, SIAM J. Matrix Anal. Appl. 23 (2001) 601–614; Hernandez, Roman & Vidal, ACM
+/// Trans. Math. Softw. 31 (2005) 351–362.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +29,8 @@ struct FoundPairs {
 ///
 /// @param inverse    solves with K − shift M.
 /// @param shift      [rad²/s²], below every wanted eigenvalue.
-/// @param n_wanted   ≥ 1; more are returned when more converged, fewer when the rest of the space is
-///                   smaller.
+/// @param n_wanted   ≥ 1; more are returned when more converged, fewer when the rest of the space
+///                   is smaller.
 /// @param deflation  M-orthonormal columns to search beside (known pairs), rows of this rank × k.
 /// @throws EigenError  fewer converged: both numbers and the tolerance.
 [[nodiscard]] FoundPairs lowest_pairs(const FeSystem& system, const LinearSolver& inverse,

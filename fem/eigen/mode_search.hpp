@@ -1,7 +1,7 @@
 /// @file
 /// The lowest elastic modes, none missed: a Krylov method finds them, the inertia of an LDLᵀ
-/// factorisation just above the last one counts them, and what is missing is searched beside what was
-/// found.
+/// factorisation just above the last one counts them, and what is missing is searched beside what
+/// was found.
 ///
 ///   number of λ < σ  =  number of negative pivots of K − σM        (Sylvester's law of inertia)
 ///
@@ -37,8 +37,8 @@ enum class ModeCount : std::uint8_t { by_inertia, none };
 
 /// @param rigid  M-orthonormal rigid-body modes, rows of this rank × n_rigid.
 /// @param n      elastic modes wanted, ≥ 0.
-/// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end, with
-///         both numbers.
+/// @throws EigenError  "eigen-missed-mode" if the count and the search do not agree in the end,
+///         with both numbers.
 [[nodiscard]] CountedPairs find_elastic_modes(const FeSystem& system, const LinearSolver& inverse,
                                               double shift, Eigen::Index n,
                                               const Eigen::MatrixXd& rigid,

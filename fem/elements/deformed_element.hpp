@@ -1,15 +1,16 @@
 /// @file
-/// One element at a finite displacement: its internal force and the tangent of that, total Lagrangian.
+/// One element at a finite displacement: its internal force and the tangent of that,
+/// total Lagrangian.
 ///
 ///   F = I + Σ u_i g_iᵀ,   E = ½(FᵀF − I),   S = λ tr(E) I + 2μ E                              (1)
 ///   f_i = ∫ F S g_i dV                                                                       (2)
 ///   T_ij = ∂f_i/∂u_j = ∫ [λ a_i a_jᵀ + μ a_j a_iᵀ + μ (g_i·g_j) FFᵀ + (g_i·S g_j) I] dV      (3)
 ///
 /// g = ∇N in the undeformed element, a_i = F g_i. Of (3) the first three terms are the stiffness of
-/// element_matrices.hpp in the place the element has moved to, the last is the geometric stiffness of its
-/// stresses. The material is that of St Venant and Kirchhoff: linear between S and E, so that small strains
-/// under any rotation are those of linear elasticity. Points of integration: stiffness_rule().
-/// (2) and (3) are the first and second derivatives of the energy ∫ ½ S:E dV.
+/// element_matrices.hpp in the place the element has moved to, the last is the geometric stiffness
+/// of its stresses. The material is that of St Venant and Kirchhoff: linear between S and E, so
+/// that small strains under any rotation are those of linear elasticity. Points of integration:
+/// stiffness_rule(). (2) and (3) are the first and second derivatives of the energy ∫ ½ S:E dV.
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,8 @@
 namespace microslip::fem {
 namespace {
 
-/// Calls visit(x, dA, N, nodes of the face, outward normal) at every quadrature point of the surface.
+/// Calls visit(x, dA, N, nodes of the face, outward normal) at every quadrature point of the
+/// surface.
 template <typename Visit>
 void for_each_point(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
                     const Visit& visit) {
@@ -65,7 +66,8 @@ Eigen::Matrix3d mean_plane(const Eigen::MatrixX3d& nodes, const mesh::Surface& s
   return Eigen::Matrix3d::Identity() - normal * normal.transpose();
 }
 
-/// @param is_curved  its mean plane, and not its two largest extents, tells the axes: a narrow arc is higher than wide.
+/// @param is_curved  its mean plane, and not its two largest extents, tells the axes:
+///                   a narrow arc is higher than wide.
 PatchAxes patch_axes(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, bool is_curved) {
   constexpr int degree = 8;  // as for the areas: exact on flat faces
   double area = 0.0;
@@ -116,7 +118,8 @@ Eigen::VectorXd products_at(const Eigen::Vector2d& xi, int degree) {
   return values;
 }
 
-/// ∫ P_k P_l dA. @param add  add(node, N_i dA, P, normal), at every quadrature point: for ∫ N_i P_k dA.
+/// ∫ P_k P_l dA.
+/// @param add  add(node, N_i dA, P, normal), at every quadrature point: for ∫ N_i P_k dA.
 template <typename Add>
 Eigen::MatrixXd gram_matrix(const Eigen::MatrixX3d& nodes, const mesh::Surface& surface, int degree,
                             bool is_curved, const Add& add) {
@@ -132,7 +135,8 @@ Eigen::MatrixXd gram_matrix(const Eigen::MatrixX3d& nodes, const mesh::Surface& 
   return gram;
 }
 
-/// One after the other, those that depend on lower ones left as zero: x² + y² on a cylinder is a constant.
+/// One after the other, those that depend on lower ones left as zero:
+/// x² + y² on a cylinder is a constant.
 Eigen::MatrixXd orthonormal_of_dependent(const Eigen::MatrixXd& gram,
                                          const Eigen::MatrixXd& shares) {
   Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(gram.rows(), gram.cols());  // t = combined P

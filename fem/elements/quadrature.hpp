@@ -2,15 +2,16 @@
 /// Quadrature rules on the reference elements.
 ///
 /// Tetrahedra: {ξ, η, ζ ≥ 0, ξ + η + ζ ≤ 1}, weights sum to 1/6. Triangles: {ξ, η ≥ 0, ξ + η ≤ 1},
-/// sum 1/2. Hexahedra [−1, 1]³, sum 8, and squares [−1, 1]², sum 4. Wedges: triangle × [−1, 1], sum 1.
-/// Pyramids: base [−1, 1]², apex (0, 0, 1), sum 4/3.
+/// sum 1/2. Hexahedra [−1, 1]³, sum 8, and squares [−1, 1]², sum 4. Wedges: triangle × [−1, 1], sum
+/// 1. Pyramids: base [−1, 1]², apex (0, 0, 1), sum 4/3.
 ///
 /// Sources: tetrahedra of degree 2, Hammer, Marlowe & Stroud, Math. Tables Aids Comput. 10 (1956)
 /// 130–137; of degree 5, 14 interior points, Walkington, Quadrature on simplices of arbitrary
-/// dimension (2000); triangles of degree 2 and 4, 3 and 6 points, Strang & Fix, An Analysis of the Finite
-/// Element Method (1973). Other degrees, and pyramids: products of Gauss–Jacobi rules collapsed onto the
-/// simplex, or onto the apex, their points by Golub & Welsch, Math. Comput. 23 (1969) 221–230. No table is
-/// trusted: the unit test integrates every monomial up to the stated degree.
+/// dimension (2000); triangles of degree 2 and 4, 3 and 6 points, Strang & Fix, An Analysis of the
+/// Finite Element Method (1973). Other degrees, and pyramids: products of Gauss–Jacobi rules
+/// collapsed onto the simplex, or onto the apex, their points by Golub & Welsch, Math. Comput. 23
+/// (1969) 221–230. No table is trusted: the unit test integrates every monomial up to the stated
+/// degree.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +33,8 @@ struct QuadratureRule {
 /// 14 to degree 5, (degree/2 + 1)³ above.
 [[nodiscard]] QuadratureRule tetrahedron_rule(int degree);
 
-/// Triangle rule exact to total degree `degree`: 3 points to degree 2, 6 to degree 4, (degree/2 + 1)² above.
+/// Triangle rule exact to total degree `degree`: 3 points to degree 2, 6 to degree 4,
+/// (degree/2 + 1)² above.
 [[nodiscard]] QuadratureRule triangle_rule(int degree);
 
 /// n³ Gauss points on the hexahedron, exact to degree 2n − 1 in each direction.
@@ -41,8 +43,9 @@ struct QuadratureRule {
 /// Triangle rule of the degree × n Gauss points over the height.
 [[nodiscard]] QuadratureRule wedge_rule(int degree, int n);
 
-/// n³ points inside the pyramid, exact for (1 − ζ)^k p(a, b), a = ξ/(1 − ζ), b = η/(1 − ζ), of degree
-/// 2n − 1 in each of 1 − ζ, a and b: what shape functions of pyramids and their products are.
+/// n³ points inside the pyramid, exact for (1 − ζ)^k p(a, b), a = ξ/(1 − ζ), b = η/(1 − ζ), of
+/// degree 2n − 1 in each of 1 − ζ, a and b: what shape functions of pyramids and their products
+/// are.
 [[nodiscard]] QuadratureRule pyramid_rule(int n);
 
 /// n² Gauss points on the square.

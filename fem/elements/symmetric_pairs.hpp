@@ -1,6 +1,6 @@
 /// @file
-/// Eigenpairs of small symmetric matrices, compiled once: Eigen's solver costs every file that makes
-/// one of its own ten seconds.
+/// Eigenpairs of small symmetric matrices, compiled once: Eigen's solver costs every file that
+/// makes one of its own ten seconds.
 #pragma once
 
 #include <Eigen/Core>

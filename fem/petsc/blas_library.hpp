@@ -11,8 +11,8 @@ namespace microslip::fem {
 /// @param n_ranks_here  MPI ranks on this machine, ≥ 1.
 void set_blas_threads(int n_ranks_here);
 
-/// Makes the BLAS take its working memory now. Where none is left OpenBLAS asks for it for ever: better before the
-/// address space is used up than within a factorisation.
+/// Makes the BLAS take its working memory now. Where none is left OpenBLAS asks for it for ever:
+/// better before the address space is used up than within a factorisation.
 void reserve_blas_memory();
 
 }  // namespace microslip::fem

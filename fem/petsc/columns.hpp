@@ -1,6 +1,6 @@
 /// @file
-/// Tall matrices spread over the ranks by rows: plain Eigen columns that hold the rows of this rank.
-/// All functions are collective over PETSC_COMM_WORLD.
+/// Tall matrices spread over the ranks by rows: plain Eigen columns that hold the rows of this
+/// rank. All functions are collective over PETSC_COMM_WORLD.
 #pragma once
 
 #include <Eigen/Core>

@@ -35,7 +35,8 @@ void set_options() {
   }
 }
 
-/// Largest eigenvalue of the matrix under a smoother, from below: ten steps of Lanczos from random numbers.
+/// Largest eigenvalue of the matrix under a smoother, from below:
+/// ten steps of Lanczos from random numbers.
 double largest_eigenvalue(Mat matrix, PCType smoother) {
   KspHandle steps;
   PC preconditioner = nullptr;
@@ -57,8 +58,9 @@ double largest_eigenvalue(Mat matrix, PCType smoother) {
   return largest;
 }
 
-/// On the finest level, which the number of steps depends on most, symmetric Gauss–Seidel: half the steps of Jacobi. On several
-/// ranks it sees the nodes of its own alone, and the largest eigenvalue is above 1.
+/// On the finest level, which the number of steps depends on most, symmetric Gauss–Seidel: half the
+/// steps of Jacobi. On several ranks it sees the nodes of its own alone,
+/// and the largest eigenvalue is above 1.
 void smooth_finest_level(PC levels, Mat matrix) {
   PetscInt n = 0;
   KSP smoother = nullptr;

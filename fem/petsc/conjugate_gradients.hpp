@@ -1,9 +1,10 @@
 /// @file
-/// Conjugate gradients preconditioned by algebraic multigrid (PETSc's GAMG, smoothed aggregation): where a factorisation
-/// does not fit into memory. The rigid-body motions are the near null space that coarse levels must represent; without them
-/// slender bodies take hundreds of steps.
+/// Conjugate gradients preconditioned by algebraic multigrid (PETSc's GAMG, smoothed aggregation):
+/// where a factorisation does not fit into memory. The rigid-body motions are the near null space
+/// that coarse levels must represent; without them slender bodies take hundreds of steps.
 ///
-/// Source: Vaněk, Mandel & Brezina, Computing 56 (1996) 179–196; Adams, Bayraktar, Keaveny & Papadopoulos, Proc. SC2004.
+/// Source: Vaněk, Mandel & Brezina, Computing 56 (1996) 179–196; Adams, Bayraktar, Keaveny &
+/// Papadopoulos, Proc. SC2004.
 #pragma once
 
 #include <Eigen/Core>

@@ -27,7 +27,8 @@ struct Inertia {
 class Factorisation : public LinearSolver {
  public:
   /// Orders and factorises. The matrix may change afterwards without effect.
-  /// @param memory_mb  what may be used [MB]; compared with what MUMPS expects to need after ordering.
+  /// @param memory_mb  what may be used [MB]; compared with what MUMPS expects to need after
+  ///                   ordering.
   /// @throws MemoryError  it does not fit; PetscError  another failure of MUMPS, with its code.
   Factorisation(Mat matrix, FactorKind kind, double memory_mb = available_memory_mb());
 

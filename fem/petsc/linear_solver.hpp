@@ -1,5 +1,6 @@
 /// @file
-/// Solves A X = B for one symmetric positive definite A, whichever way: a factorisation, or conjugate gradients.
+/// Solves A X = B for one symmetric positive definite A, whichever way: a factorisation,
+/// or conjugate gradients.
 #pragma once
 
 #include <Eigen/Core>

@@ -47,8 +47,8 @@ class QuietOptions {
   std::optional<std::string> before_;
 };
 
-/// MPI ends the process, and OpenBLAS never returns, where the address space is limited to less than they take
-/// (`ulimit -v`).
+/// MPI ends the process, and OpenBLAS never returns, where the address space is limited to less
+/// than they take (`ulimit -v`).
 void require_address_space() {
   constexpr std::size_t needed =
       450'000'000;  // MPI, its threads, a buffer of OpenBLAS: some 350 MB

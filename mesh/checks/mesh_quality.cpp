@@ -177,8 +177,8 @@ struct FacePoint {
   double weight;
 };
 
-/// Three Gauss points per direction, on triangles collapsed: for x·(x_ξ × x_η) on curved faces, of degree 5 per
-/// direction on quadrilaterals and 4 on triangles.
+/// Three Gauss points per direction, on triangles collapsed: for x·(x_ξ × x_η) on curved faces, of
+/// degree 5 per direction on quadrilaterals and 4 on triangles.
 std::vector<FacePoint> face_points(FaceType type) {
   constexpr std::array<double, 3> x{-0.77459666924148337704, 0.0, 0.77459666924148337704};
   constexpr std::array<double, 3> w{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};

@@ -1,6 +1,6 @@
 /// @file
-/// What makes a mesh unusable, found when it is made: inverted or flat elements, nodes that coincide but
-/// are not joined, parts that do not hang together.
+/// What makes a mesh unusable, found when it is made: inverted or flat elements, nodes that
+/// coincide but are not joined, parts that do not hang together.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,8 @@ Eigen::MatrixXd straight_places(ElementType type) {
   return places;
 }
 
-/// Σ|N_a| over the nodes on edges at most: each moves the element off its straight shape by that share.
+/// Σ|N_a| over the nodes on edges at most: each moves the element off its straight shape by that
+/// share.
 double reach_of_edge_nodes(ElementType type) {
   switch (solid(type)) {
     case Solid::tetrahedron:
@@ -64,7 +65,8 @@ double length_of_step(ElementType type, const Eigen::Vector3d& xi, const Eigen::
   return beyond ? 0.75 * to_apex / move[2] : 1.0;
 }
 
-/// Sound: ξ inside and x(ξ) = x prove it, whatever path Newton took. A point it loses is called outside.
+/// Sound: ξ inside and x(ξ) = x prove it, whatever path Newton took.
+/// A point it loses is called outside.
 bool is_inside(ElementType type, const Eigen::MatrixX3d& nodes, const Eigen::Vector3d& x) {
   constexpr int max_steps = 20;
   constexpr double converged = 1e-9;  // of the element, far below the margin

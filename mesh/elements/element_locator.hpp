@@ -1,6 +1,6 @@
 /// @file
-/// Which element holds a point: a uniform grid of boxes names the candidates, Newton's method inverts
-/// their maps x(ξ) = Σ N_a(ξ) x_a.
+/// Which element holds a point: a uniform grid of boxes names the candidates, Newton's method
+/// inverts their maps x(ξ) = Σ N_a(ξ) x_a.
 #pragma once
 
 #include <array>

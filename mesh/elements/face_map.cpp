@@ -14,8 +14,8 @@ std::int64_t tag_of(const std::vector<ElementBlock>& elements, const FaceUse& us
   return elements[use.block].tags[static_cast<std::size_t>(use.element)];
 }
 
-/// Seen from its element, corners of a face from the least node on, towards the smaller neighbour of
-/// it: +1 as listed, −1 against.
+/// Seen from its element, corners of a face from the least node on, towards the smaller neighbour
+/// of it: +1 as listed, −1 against.
 struct Cycle {
   std::array<Eigen::Index, 4> corners{};
   int sense = 1;

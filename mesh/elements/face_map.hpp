@@ -1,8 +1,8 @@
 /// @file
 /// The faces of all volume elements, each with the elements that have it.
 ///
-/// In a mesh whose elements fill a body once, a face has one element (it is on the boundary) or two,
-/// one on each side, that see it in opposite directions and share all its nodes.
+/// In a mesh whose elements fill a body once, a face has one element (it is on the boundary) or
+/// two, one on each side, that see it in opposite directions and share all its nodes.
 #pragma once
 
 #include <array>
@@ -56,8 +56,9 @@ using FaceMap = std::unordered_map<FaceKey, FaceOwners, FaceKeyHash>;
 /// Faces that one element has, in the order of the elements.
 [[nodiscard]] std::vector<FaceUse> outer_faces(const FaceMap& faces);
 
-/// @throws MeshError  faces with three or more elements, two elements on one side of a face, or neighbours
-///         that share the corners of a face but not the nodes on its edges; with element numbers.
+/// @throws MeshError  faces with three or more elements, two elements on one side of a face, or
+///         neighbours that share the corners of a face but not the nodes on its edges;
+///         with element numbers.
 void check_faces(const std::vector<ElementBlock>& elements, const FaceMap& faces);
 
 }  // namespace microslip::mesh

@@ -94,8 +94,8 @@ Shapes cube(const Eigen::Matrix<double, D, 1>& xi, const Nodes& nodes, int n, in
   return s;
 }
 
-/// Functions of the triangle times 1 ± ζ of the height; the middles of the edges between the triangles, L_i (1 − ζ²),
-/// take half of theirs from the corners at both ends.
+/// Functions of the triangle times 1 ± ζ of the height; the middles of the edges between the
+/// triangles, L_i (1 − ζ²), take half of theirs from the corners at both ends.
 ElementShapes wedge(const Eigen::Vector3d& xi, bool quadratic) {
   const Eigen::Vector2d place = xi.head<2>();
   const double z = xi[2];

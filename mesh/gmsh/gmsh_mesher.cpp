@@ -160,7 +160,8 @@ std::vector<double> singular_edges(const BladeGeometry& g) {
   return found;
 }
 
-/// gmsh writes the numbers of the model as millimetres. To stretch the finished body would make splines of its planes.
+/// gmsh writes the numbers of the model as millimetres.
+/// To stretch the finished body would make splines of its planes.
 BladeGeometry in_millimetres(BladeGeometry g) {
   for (double* length : {&g.root_width, &g.root_height, &g.root_length, &g.platform_width,
                          &g.platform_height, &g.platform_length, &g.span, &g.root_chord,

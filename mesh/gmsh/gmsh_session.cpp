@@ -50,7 +50,8 @@ Places node_places() {
   return places;
 }
 
-/// Curved elements at thin edges turn inside out between any samples: by the bound the reader refuses them with.
+/// Curved elements at thin edges turn inside out between any samples:
+/// by the bound the reader refuses them with.
 std::vector<InvertedElement> inverted_elements(const Places& places) {
   std::vector<std::size_t> tags;
   std::vector<std::size_t> nodes;
@@ -69,7 +70,8 @@ std::vector<InvertedElement> inverted_elements(const Places& places) {
   return inverted;
 }
 
-/// Mid-edge nodes to the middle of their edges: a tetrahedron with straight edges cannot be inside out.
+/// Mid-edge nodes to the middle of their edges: a tetrahedron with straight edges cannot be inside
+/// out.
 void straighten(const InvertedElement& element, Places& places) {
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const std::size_t node = element.nodes[4 + k];
@@ -80,9 +82,10 @@ void straighten(const InvertedElement& element, Places& places) {
   }
 }
 
-/// Mends elements that curving turned inside out. gmsh's optimisers keep to the curved surface but give up on
-/// some elements, each on others: what the first leaves the second takes. The few left get straight edges,
-/// which errs locally by the curvature over one element; neighbours share these edges, hence the passes.
+/// Mends elements that curving turned inside out. gmsh's optimisers keep to the curved surface but
+/// give up on some elements, each on others: what the first leaves the second takes. The few left
+/// get straight edges, which errs locally by the curvature over one element;
+/// neighbours share these edges, hence the passes.
 void untangle() {
   for (const char* method : {"HighOrder", "HighOrderElastic"}) {
     if (inverted_elements(node_places()).empty()) return;

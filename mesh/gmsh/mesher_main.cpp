@@ -1,9 +1,9 @@
 /// @file
 /// The program microslip-mesher: reads a job from standard input, does it, writes one file.
 ///   microslip-mesher OUTPUT MEMORY_MB PARENT_PID < job
-/// The first word of the job is its kind (blade, step_faces, step_mesh); lines of "key value" follow.
-/// It limits its own memory, and when its parent dies or it is asked to end, it goes and takes what it has
-/// written along: gmsh can crash, hang or eat memory on bad geometry.
+/// The first word of the job is its kind (blade, step_faces, step_mesh); lines of "key value"
+/// follow. It limits its own memory, and when its parent dies or it is asked to end, it goes and
+/// takes what it has written along: gmsh can crash, hang or eat memory on bad geometry.
 
 #include <sys/prctl.h>
 #include <sys/resource.h>

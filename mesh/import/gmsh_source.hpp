@@ -1,6 +1,6 @@
 /// @file
-/// The bytes of a .msh file as a stream of numbers, text or binary alike. Every read is checked against
-/// the end of the file; every error tells file and place.
+/// The bytes of a .msh file as a stream of numbers, text or binary alike. Every read is checked
+/// against the end of the file; every error tells file and place.
 #pragma once
 
 #include <cstdint>

@@ -123,8 +123,8 @@ std::optional<StepUnit> si_unit(const std::string& statement) {
   return StepUnit{prefix + "metre", found->second};
 }
 
-/// A unit by its statement, through those it is defined by: CONVERSION_BASED_UNIT('INCH',#7), where #7 is
-/// LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#8).
+/// A unit by its statement, through those it is defined by: CONVERSION_BASED_UNIT('INCH',#7), where
+/// #7 is LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#8).
 std::optional<StepUnit> unit_of(const Statements& statements, int number, int depth = 0) {
   constexpr int most_nested = 4;
   const std::string& statement = statements.at(number);

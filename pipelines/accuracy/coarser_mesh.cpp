@@ -25,7 +25,8 @@ double observed_ratio(double fine, double coarse, double coarsest) {
   return std::isfinite(ratio) ? std::clamp(ratio, lowest, highest) : lowest;
 }
 
-/// Modes of two meshes have the same shapes but for their signs: those that the contact and the output feel.
+/// Modes of two meshes have the same shapes but for their signs:
+/// those that the contact and the output feel.
 Eigen::MatrixXd same_signs(const ReducedModel& from, const ReducedModel& to) {
   const Eigen::Index n = from.frequency.size();
   Eigen::VectorXd correlation = from.output.cwiseProduct(to.output);

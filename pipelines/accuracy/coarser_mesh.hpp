@@ -1,10 +1,12 @@
 /// @file
 /// The error of the mesh from coarser ones: elements twice and four times as large.
 ///
-///   value(h) = exact + C h^p,     2^p = (f(4h) − f(2h)) / (f(2h) − f(h)),     error(h) = (value(2h) − value(h)) / (2^p − 1)
+///   value(h) = exact + C h^p,     2^p = (f(4h) − f(2h)) / (f(2h) − f(h))
+///   error(h) = (value(2h) − value(h)) / (2^p − 1)
 ///
-/// p is observed on the natural frequency of the first mode and kept between 1, which corners and edges of a body may
-/// cost, and the 4 of smooth solutions with quadratic elements (theory 25). Where it cannot be observed it is 1.
+/// p is observed on the natural frequency of the first mode and kept between 1, which corners and
+/// edges of a body may cost, and the 4 of smooth solutions with quadratic elements (theory 25).
+/// Where it cannot be observed it is 1.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 /// @file
-/// What accuracy costs: the highest peak of every curve on every rung of a ladder, its error against the finest rung,
-/// the error that a run would have told there, and the time.
+/// What accuracy costs: the highest peak of every curve on every rung of a ladder, its error
+/// against the finest rung, the error that a run would have told there, and the time.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,8 @@ struct TimedStructure {
   int runs = 1;                                       ///< how often they were timed
 };
 
-/// Time that repetitions may take together, so that a study ends: once it is over everything is timed once.
+/// Time that repetitions may take together, so that a study ends:
+/// once it is over everything is timed once.
 class Repetitions {
  public:
   /// @param seconds  of all of them.
@@ -50,8 +51,8 @@ class Repetitions {
 /// @return  nothing solved for kinds without a mesh. @throws as solved_structure().
 [[nodiscard]] TimedStructure timed_structure(const SceneDescription& scene, Repetitions& again);
 
-/// Curves are traced one after the other, so that times are those of one core, three times each where the time for
-/// repetitions allows it. A rung that is refused is left out.
+/// Curves are traced one after the other, so that times are those of one core, three times each
+/// where the time for repetitions allows it. A rung that is refused is left out.
 /// @param base  of the scene, for rungs that share it.
 /// @param say   a sentence for every rung.
 [[nodiscard]] std::vector<RungResult> climb(const Ladder& ladder, const TimedStructure& base,

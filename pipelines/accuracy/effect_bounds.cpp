@@ -32,8 +32,8 @@ std::string objection_of(double bound) {
 /// What a model can be solved with in place of without, settings of the scene alone apart.
 constexpr std::array<std::string_view, 2> switchable{"normal_motion", "second_direction"};
 
-/// A with / A without − 1 of a row is A without / A with − 1 of who had left it out; a peak that is lost, or nearly,
-/// may be a lower one, and changes by what it has.
+/// A with / A without − 1 of a row is A without / A with − 1 of who had left it out; a peak that is
+/// lost, or nearly, may be a lower one, and changes by what it has.
 double change_without(double by_having) {
   constexpr double lost = -0.5;
   if (std::isinf(by_having) || by_having < lost) return std::abs(by_having);

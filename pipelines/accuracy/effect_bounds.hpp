@@ -10,9 +10,9 @@
 
 namespace microslip::pipelines {
 
-/// EffectRecord::bound of effects that are left out: the largest change of a highest peak, amplitude or frequency, that
-/// having them makes. Beyond the tolerance that is an objection; within it, it answers the one of the indicator. Nothing
-/// is told where no row does.
+/// EffectRecord::bound of effects that are left out: the largest change of a highest peak,
+/// amplitude or frequency, that having them makes. Beyond the tolerance that is an objection;
+/// within it, it answers the one of the indicator. Nothing is told where no row does.
 /// @param rows  of error budgets, and of rows_left_out().
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                  std::vector<EffectRecord>& effects);
@@ -23,14 +23,16 @@ struct MissedEffect {
   double change = 0.0;  ///< relative, of a highest peak by leaving it out; infinite: as in a row
 };
 
-/// Those that a run can put back, normal motion and friction along r: left to `auto`, left out, and having them changes a
-/// highest peak by more than the tolerance. What a user switches off stays off.
+/// Those that a run can put back, normal motion and friction along r: left to `auto`, left out, and
+/// having them changes a highest peak by more than the tolerance.
+/// What a user switches off stays off.
 /// @param rows  as of tell_bounds().
 [[nodiscard]] std::vector<MissedEffect> missed_effects(const std::vector<ErrorRow>& rows,
                                                        double tolerance,
                                                        const std::vector<EffectRecord>& effects);
 
-/// Tells of effects that a run has put back that this was so: simulated, the setting the user's `auto`.
+/// Tells of effects that a run has put back that this was so: simulated,
+/// the setting the user's `auto`.
 /// @param effects  of the scene with them on.
 void tell_switched_on(const std::vector<MissedEffect>& missed, std::vector<EffectRecord>& effects);
 

@@ -103,7 +103,8 @@ bool is_unsettled(const solver::ResponseCurve& curve) {
 }
 
 /// Given harmonics have been solved with more; of chosen ones the peak knows what is left out.
-/// @param is_told  the curve was solved with chosen harmonics, or more of them are known to do nothing.
+/// @param is_told  the curve was solved with chosen harmonics,
+///                 or more of them are known to do nothing.
 void add_harmonics(CurveBudget& budget, const CurveResult& result,
                    const solver::ResponsePoint& peak, bool is_told) {
   const solver::SettledPeak& settled = result.curve.settled_peak;

@@ -1,6 +1,6 @@
 /// @file
-/// How far the numbers of a curve can be trusted: what every choice of the discretisation does to its highest peak,
-/// each told by a model that has it richer, solved from the peak of the curve.
+/// How far the numbers of a curve can be trusted: what every choice of the discretisation does to
+/// its highest peak, each told by a model that has it richer, solved from the peak of the curve.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,13 @@ struct CurveBudget {
   std::vector<std::string> unknown;  ///< sources that could not be told: the bar leaves them out
   std::vector<ErrorRow> left_out{};  ///< effects of physics (left_out.hpp): no part of the bar
   double dissipated_energy = 0.0;    ///< by friction in a period at the highest peak [J]
-  /// Energy that a period takes there over what friction takes of it: a relative change of the amplitude changes the
-  /// dissipated energy by no more than so much of it, as work of the excitation grows with the amplitude and that of
-  /// damping with its square. Empty: friction dissipates nothing, and the goal has no rows.
+  /// Energy that a period takes there over what friction takes of it: a relative change of the
+  /// amplitude changes the dissipated energy by no more than so much of it, as work of the
+  /// excitation grows with the amplitude and that of damping with its square. Empty: friction
+  /// dissipates nothing, and the goal has no rows.
   std::optional<double> energy_ratio{};
-  /// Whether the rows bound the error: not where more harmonics give another curve, which outweighs all others.
+  /// Whether the rows bound the error: not where more harmonics give another curve,
+  /// which outweighs all others.
   [[nodiscard]] bool has_bar() const;
 };
 
@@ -30,8 +32,8 @@ struct CurveBudget {
 [[nodiscard]] CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scene,
                                        const RicherModels& richer, const CurveResult& result);
 
-/// Sources that one curve could not be followed with, or had no time for, and others could: the largest effect of those
-/// stands in for its own.
+/// Sources that one curve could not be followed with, or had no time for, and others could: the
+/// largest effect of those stands in for its own.
 void borrow_unknown(std::vector<CurveBudget>& budgets);
 
 /// One line: the bar and its largest parts. Empty without rows.

@@ -10,7 +10,8 @@
 namespace microslip::pipelines {
 namespace {
 
-/// The scene with one thing changed, its harmonics as they are and not checked: what is timed is the curve.
+/// The scene with one thing changed, its harmonics as they are and not checked:
+/// what is timed is the curve.
 template <typename Change>
 Rung rung(const SceneDescription& scene, std::string value, double size, const Change& change) {
   Rung result{std::move(value), size, scene};

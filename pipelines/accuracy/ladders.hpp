@@ -1,5 +1,6 @@
 /// @file
-/// One choice of the discretisation after the other, from coarse to fine, all others as the scene has them.
+/// One choice of the discretisation after the other, from coarse to fine,
+/// all others as the scene has them.
 #pragma once
 
 #include <string>

@@ -48,7 +48,8 @@ std::vector<WithEffect> models_with(const ReducedModel& model, const SceneDescri
   return others;
 }
 
-/// The peaks of a curve, each as a curve of its own, the highest first; without one the curve, whose end is the highest.
+/// The peaks of a curve, each as a curve of its own, the highest first; without one the curve,
+/// whose end is the highest.
 std::vector<solver::ResponseCurve> single_peaks(const solver::ResponseCurve& curve) {
   std::vector<solver::ResponseCurve> peaks;
   for (const solver::ResponsePoint& point : curve.points) {
@@ -61,8 +62,8 @@ std::vector<solver::ResponseCurve> single_peaks(const solver::ResponseCurve& cur
   return peaks;
 }
 
-/// By having an effect, the largest of all peaks: of amplitude over the highest one; of frequency, of a lower peak by its
-/// share of that amplitude.
+/// By having an effect, the largest of all peaks: of amplitude over the highest one; of frequency,
+/// of a lower peak by its share of that amplitude.
 struct Changes {
   double amplitude = 0.0, frequency = 0.0;
   bool found = true;  ///< the highest peak with the effect

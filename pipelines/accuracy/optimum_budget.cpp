@@ -44,8 +44,8 @@ class Peaks {
 
 using Values = std::array<double, neighbours.size()>;
 
-/// A branch that a sweep does not meet begins or ends at the best preload: on one side of it the nearest curve that was
-/// traced whole has its highest peak on such a branch.
+/// A branch that a sweep does not meet begins or ends at the best preload: on one side of it the
+/// nearest curve that was traced whole has its highest peak on such a branch.
 bool is_beside_detached(const solver::Optimum& optimum) {
   const auto is_told = [](const solver::PeakOfParameter& one) { return one.whole_curve; };
   const auto& trace = optimum.trace;
@@ -71,8 +71,8 @@ bool are_those_followed(const Values& amplitudes, const solver::Optimum& optimum
   return true;
 }
 
-/// Where the lowest peak goes, over the best preload, less 1: from where log A falls to where it rises, each side
-/// raised by an effect of its own.
+/// Where the lowest peak goes, over the best preload, less 1: from where log A falls to where it
+/// rises, each side raised by an effect of its own.
 double shift(const Values& amplitudes, const Values& effect) {
   const auto raised = [&](std::size_t i) { return std::log1p(std::max(effect[i], -0.99)); };
   const auto slope_to = [&](std::size_t i) {

@@ -1,6 +1,6 @@
 /// @file
-/// How far a best preload can be trusted: what every choice of the discretisation does to the peaks about it, and so to
-/// where the lowest of them lies.
+/// How far a best preload can be trusted: what every choice of the discretisation does to the peaks
+/// about it, and so to where the lowest of them lies.
 #pragma once
 
 #include "pipelines/accuracy/error_budget.hpp"
@@ -9,16 +9,18 @@
 
 namespace microslip::pipelines {
 
-/// The curves at the best preload p and at 0.84 p and 1.19 p are solved and their errors told (error_budget.hpp). With a
-/// source refined the peaks are A (1 + e); their lowest point moves by
+/// The curves at the best preload p and at 0.84 p and 1.19 p are solved and their errors told
+/// (error_budget.hpp). With a source refined the peaks are A (1 + e); their lowest point moves by
 ///
-///   log(p'/p) = (log(1 + e₋) − log(1 + e₊)) / (s₊ − s₋),     s = Δlog A / Δlog p from p to its neighbours,
+///   log(p'/p) = (log(1 + e₋) − log(1 + e₊)) / (s₊ − s₋),     s = Δlog A / Δlog p to its
+///                                                            neighbours,
 ///
-/// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most to the neighbours.
-/// Relative effects, goals best_value, best_amplitude, best_frequency and, where friction dissipates there, best_energy.
+/// exact where two peaks cross at p, twice as far as it goes where one has a minimum there; at most
+/// to the neighbours. Relative effects, goals best_value, best_amplitude, best_frequency and, where
+/// friction dissipates there, best_energy.
 /// @param jobs  curves side by side, ≥ 1.
-/// @return no rows: another number than the preload is searched, nothing is found, branches that no sweep meets count
-///         about there, or time is over.
+/// @return no rows: another number than the preload is searched, nothing is found, branches that no
+///         sweep meets count about there, or time is over.
 [[nodiscard]] CurveBudget optimum_budget(const ReducedModel& model, const SceneDescription& scene,
                                          const RicherModels& richer, const solver::Optimum& optimum,
                                          int jobs);

@@ -61,12 +61,12 @@ double largest_of(const std::vector<Errors>& all, const std::string& source) {
   return largest;
 }
 
-/// The time of curves when their harmonics are chosen closer. Measured: from 5 to 0.2 % the curves of the default blade
-/// take 5.7 times as long.
+/// The time of curves when their harmonics are chosen closer. Measured: from 5 to 0.2 % the curves
+/// of the default blade take 5.7 times as long.
 double dearer(double tolerance, double closer) { return std::pow(tolerance / closer, 0.54); }
 
-/// Chosen harmonics answer for a share of the tolerance. With a budget of time, which may run out, a step on the way is
-/// worth its price.
+/// Chosen harmonics answer for a share of the tolerance. With a budget of time, which may run out,
+/// a step on the way is worth its price.
 Moves moves_of_harmonics(const SceneDescription& scene, double tolerance, double error) {
   const HarmonicSettings& given = scene.settings.harmonics;
   constexpr double anything = 1.0;
@@ -134,8 +134,9 @@ Moves moves_of_second_direction() {
            }}};
 }
 
-/// Singular stresses at re-entrant edges make the error fall as the element size there alone (theory 22). Measured on
-/// the default blade: elements of a share q of the others at these edges leave 0.2 + 0.8 q of the error.
+/// Singular stresses at re-entrant edges make the error fall as the element size there alone
+/// (theory 22). Measured on the default blade: elements of a share q of the others at these edges
+/// leave 0.2 + 0.8 q of the error.
 double left_with_edges(double share) { return 0.2 + 0.8 * share; }
 
 /// Of the time of mesh and modes.
@@ -197,8 +198,9 @@ double bar_of(const Errors& errors) {
   return bar;
 }
 
-/// Where harmonics change a peak by more than some per cent, the error of the mesh was told at a peak that moves. Measured
-/// on the default blade: 2.3 and 1.0 % with nine harmonics are 6.3 and 5.5 % with those that are needed.
+/// Where harmonics change a peak by more than some per cent, the error of the mesh was told at a
+/// peak that moves. Measured on the default blade: 2.3 and 1.0 % with nine harmonics are 6.3 and
+/// 5.5 % with those that are needed.
 double growth(const std::string& source, const Errors& errors, const Plan& plan) {
   constexpr double moves_away = 0.02;
   constexpr double factor = 3.0;
@@ -293,7 +295,8 @@ bool gains(const Plan& plan, const std::vector<Errors>& errors, double tolerance
   });
 }
 
-/// Every source that a bar has, and what can be done with it; to leave it is the first of its moves.
+/// Every source that a bar has, and what can be done with it;
+/// to leave it is the first of its moves.
 std::map<std::string, Moves> all_moves(const SceneDescription& scene,
                                        const std::vector<Errors>& errors, double tolerance) {
   constexpr double idle = 1e-3;  // of the tolerance: too little to think about

@@ -1,5 +1,6 @@
 /// @file
-/// Which choices of the discretisation are refined so that the error of every peak becomes what was asked for.
+/// Which choices of the discretisation are refined so that the error of every peak becomes what was
+/// asked for.
 #pragma once
 
 #include <optional>
@@ -24,11 +25,13 @@ struct Refinement {
 struct SpentSeconds {
   double structure = 0.0;  ///< mesh and modes
   double curves = 0.0;
-  /// Of the curves that are not exact enough yet: these alone are solved again where only harmonics change. Empty: all.
+  /// Of the curves that are not exact enough yet: these alone are solved again where only harmonics
+  /// change. Empty: all.
   std::optional<double> inexact_curves{};
 };
 
-/// The largest bar of all budgets, of amplitude or frequency; infinite where one has none, or there is none.
+/// The largest bar of all budgets, of amplitude or frequency; infinite where one has none,
+/// or there is none.
 [[nodiscard]] double largest_bar(const std::vector<CurveBudget>& budgets);
 
 /// A linear limit, or within the tolerance.
@@ -37,10 +40,12 @@ struct SpentSeconds {
 /// Sources that one of the bars leaves out, named once.
 [[nodiscard]] std::vector<std::string> not_in_bars(const std::vector<CurveBudget>& budgets);
 
-/// Of all ways to refine the sources, alone and together, the cheapest that should bring every bar below the tolerance:
-/// errors of cells fall as their number grows, of the mesh with its size, of fit and directions altogether, of harmonics
-/// to the tolerance of their choice. Where none does, the cheapest that comes as near as can be.
-/// @return empty: nothing worth a round can be refined; `left` names sources that cannot, though they matter.
+/// Of all ways to refine the sources, alone and together, the cheapest that should bring every bar
+/// below the tolerance: errors of cells fall as their number grows, of the mesh with its size, of
+/// fit and directions altogether, of harmonics to the tolerance of their choice. Where none does,
+/// the cheapest that comes as near as can be.
+/// @return empty: nothing worth a round can be refined; `left` names sources that cannot,
+///         though they matter.
 [[nodiscard]] std::optional<Refinement> refinement(const SceneDescription& scene,
                                                    const std::vector<CurveBudget>& budgets,
                                                    double tolerance, const SpentSeconds& spent,

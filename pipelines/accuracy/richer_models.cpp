@@ -29,7 +29,8 @@ Eigen::Index n_cells(const ReducedModel& model) {
   return n;
 }
 
-/// Four times as many cells: the error falls as their number grows (theory 14), and that of both is told.
+/// Four times as many cells: the error falls as their number grows (theory 14),
+/// and that of both is told.
 RicherModel with_more_cells(const ReducedModel& model, const SceneDescription& scene,
                             const SolvedStructure& structure) {
   RicherModel richer = with_patches(

@@ -1,6 +1,6 @@
 /// @file
-/// Models of one scene that differ from the one at hand in one choice of the discretisation each, to tell what
-/// that choice does to a peak.
+/// Models of one scene that differ from the one at hand in one choice of the discretisation each,
+/// to tell what that choice does to a peak.
 #pragma once
 
 #include <string>
@@ -19,8 +19,9 @@ struct RicherModel {
   ReducedModel model;
   /// Its modal coordinates from those of the model at hand; empty: the same modes.
   Eigen::MatrixXd embedding{};
-  /// Error of the model at hand over (value of this model − value at hand): 1 where this one is as good as exact,
-  /// 4/3 where errors fall fourfold from one to the other, negative for a coarser one.
+  /// Error of the model at hand over (value of this model − value at hand): 1 where this one is as
+  /// good as exact, 4/3 where errors fall fourfold from one to the other,
+  /// negative for a coarser one.
   double share = 1.0;
 };
 
@@ -30,8 +31,9 @@ struct RicherModels {
   std::string note;                  ///< why, where something failed; for the log
 };
 
-/// Instants (events located in place of sampled forces), cells (four times as many), fit (the finite elements' own shapes), basis (tractions of one degree more),
-/// second_direction (friction along r) and mesh (coarser_mesh.hpp): those the scene has.
+/// Instants (events located in place of sampled forces), cells (four times as many), fit (the
+/// finite elements' own shapes), basis (tractions of one degree more), second_direction (friction
+/// along r) and mesh (coarser_mesh.hpp): those the scene has.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
 /// @param sources    the only ones asked for; empty: all.
 [[nodiscard]] RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,

@@ -1,7 +1,7 @@
 /// @file
-/// OpenBLAS starts its threads while it is loaded, before main, and each wants address space of its own: where that
-/// is limited (`ulimit -v`) they fail, or the process hangs when it ends. So the program starts itself once more
-/// there, with one thread, before any library is initialised.
+/// OpenBLAS starts its threads while it is loaded, before main, and each wants address space of its
+/// own: where that is limited (`ulimit -v`) they fail, or the process hangs when it ends. So the
+/// program starts itself once more there, with one thread, before any library is initialised.
 
 #include <alloca.h>
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 /// @file
-/// The program `microslip`: reads the command line, calls one study, turns its end into an exit code. Started by mpirun
-/// it does so on rank 0.
+/// The program `microslip`: reads the command line, calls one study, turns its end into an exit
+/// code. Started by mpirun it does so on rank 0.
 
 #include <algorithm>
 #include <csignal>

@@ -1,6 +1,6 @@
 /// @file
-/// The columns of a table of contact points and their motions (interfaces.md section 4): constants of a
-/// point, and per signal u, v, w a mean and harmonics,
+/// The columns of a table of contact points and their motions (interfaces.md section 4): constants
+/// of a point, and per signal u, v, w a mean and harmonics,
 ///
 ///   u_mean, u_sin, u_cos, u_sin2, u_cos2, …,   v_…,   w_…
 ///

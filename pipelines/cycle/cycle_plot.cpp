@@ -42,8 +42,8 @@ Eigen::VectorXd phases_of(const Segments& segments, int n_harmonics) {
   return Eigen::Map<const Eigen::VectorXd>(phases.data(), static_cast<Eigen::Index>(phases.size()));
 }
 
-/// Of the interval that begins at `phase`. An instant at a change of state lies in both, and rounding
-/// would choose; the segments do not doubt.
+/// Of the interval that begins at `phase`. An instant at a change of state lies in both, and
+/// rounding would choose; the segments do not doubt.
 contact::ContactState state_from(const Segments& segments, double phase) {
   const double in_period = phase < contact::two_pi ? phase : 0.0;
   const auto next =

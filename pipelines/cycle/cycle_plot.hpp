@@ -1,15 +1,16 @@
 /// @file
 /// `cycle --plot DIR`: the steady cycles of a table of contact points, sampled and drawn.
 ///
-/// Per row DIR/ID.csv, and ID.svg and ID.png drawn from it by share/scripts/plot_cycle.py: friction over
-/// u, load over v, and where the point moves along r as well friction over w and the orbit f_p–f_r.
-/// The columns of the CSV are
+/// Per row DIR/ID.csv, and ID.svg and ID.png drawn from it by share/scripts/plot_cycle.py: friction
+/// over u, load over v, and where the point moves along r as well friction over w and the orbit
+/// f_p–f_r. The columns of the CSV are
 ///
 ///   phase_deg, u_m, v_m, w_m, friction_Pa, normal_Pa, friction_w_Pa, slip_m, slip_w_m, state
 ///
-/// slip is the position of the slider along p and r, state the one of the interval that begins at the
-/// row. The phases are equidistant, with every change of state put in between, from 0° to 360°: the area
-/// of the polygon is the dissipated energy up to O(h²) of smooth arcs, no corner is cut off.
+/// slip is the position of the slider along p and r, state the one of the interval that begins at
+/// the row. The phases are equidistant, with every change of state put in between, from 0° to 360°:
+/// the area of the polygon is the dissipated energy up to O(h²) of smooth arcs,
+/// no corner is cut off.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +32,8 @@ struct CyclePlot {
 };
 
 /// The samples of every row.
-/// @throws SceneError  more than largest_plotted_table rows, an id that is no file name or stands twice,
-///         and whatever cycles_as_json() refuses; with line.
+/// @throws SceneError  more than largest_plotted_table rows, an id that is no file name or stands
+///         twice, and whatever cycles_as_json() refuses; with line.
 [[nodiscard]] std::vector<CyclePlot> cycle_plots(const CsvTable& table);
 
 /// Writes the CSV files; makes the folder where it is missing.

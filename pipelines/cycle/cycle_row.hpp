@@ -1,6 +1,6 @@
 /// @file
-/// One row of a table of contact points solved (contact/point_cycle.hpp chooses how), so that every output of
-/// the command `cycle` shows the same cycle.
+/// One row of a table of contact points solved (contact/point_cycle.hpp chooses how), so that every
+/// output of the command `cycle` shows the same cycle.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ struct CycleRow {
 
 /// @param n_harmonics  of the force, ≥ 1.
 /// @param phases       of the instants wanted [rad], any.
-/// @throws SceneError  a constant out of its range, an id that is no UTF-8, forces that no double can
-///         hold; with line.
+/// @throws SceneError  a constant out of its range, an id that is no UTF-8, forces that no double
+///         can hold; with line.
 [[nodiscard]] CycleRow solve_row(const CsvTable& table, const CycleColumns& columns,
                                  std::size_t row, int n_harmonics,
                                  const Eigen::VectorXd& phases = {});

@@ -1,9 +1,10 @@
 /// @file
-/// The command `cycle`: a table of contact points and motions → their steady friction cycles as JSON
-/// (interfaces.md section 4).
+/// The command `cycle`: a table of contact points and motions → their steady friction cycles as
+/// JSON (interfaces.md section 4).
 ///
-/// Which method serves a row is said in cycle_row.hpp; a row with one harmonic carries its Jacobian, and the
-/// column tangential_stiffness_r gives a row that moves along r another stiffness there.
+/// Which method serves a row is said in cycle_row.hpp; a row with one harmonic carries its
+/// Jacobian, and the column tangential_stiffness_r gives a row that moves along r another stiffness
+/// there.
 #pragma once
 
 #include <optional>

@@ -10,14 +10,15 @@
 
 namespace microslip::pipelines {
 
-/// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes and bars), or a
-/// linear limit.
+/// What one curve is asked for: a preload, a factor on the rest loads that are given (modal scenes
+/// and bars), or a linear limit.
 struct CurveRequest {
   std::string name;   ///< stem of the CSV
   PreloadEntry load;  ///< [N], or the factor
 };
 
-/// Curves of a scene in the order they are written: the asked ones, then the limits of a modal scene.
+/// Curves of a scene in the order they are written: the asked ones,
+/// then the limits of a modal scene.
 [[nodiscard]] std::vector<CurveRequest> curve_requests(const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -9,7 +9,8 @@
 namespace microslip::pipelines {
 
 /// Damping ratio of each mode. Attachment shapes take the last ratio of a list.
-/// @param frequency  ω_n [rad/s].   @param n_attachment  so many of them, the last, are attachment shapes.
+/// @param frequency  ω_n [rad/s].
+/// @param n_attachment  so many of them, the last, are attachment shapes.
 /// @throws SceneError  a list of another length than the modes, or α ≠ 0 with a rigid-body mode.
 [[nodiscard]] Eigen::VectorXd damping_ratios(const ModesDescription& modes,
                                              const Eigen::VectorXd& frequency,

@@ -1,6 +1,7 @@
 /// @file
-/// How finely a scene is solved: what trades accuracy for time and changes nothing of what is simulated. A richer
-/// model of the same scene is the same description with other settings (effects/model_family.hpp).
+/// How finely a scene is solved: what trades accuracy for time and changes nothing of what is
+/// simulated. A richer model of the same scene is the same description with other settings
+/// (effects/model_family.hpp).
 #pragma once
 
 #include <algorithm>
@@ -56,7 +57,8 @@ struct Discretisation {
 /// Contact points of a picture.
 inline constexpr int points_of_maps = 300;
 
-/// At least so many in a patch. Those of several harmonics cost time: 96 err by 0.14 % of a peak on the default blade, n by
+/// At least so many in a patch. Those of several harmonics cost time:
+/// 96 err by 0.14 % of a peak on the default blade, n by
 /// 0.13/n, which may be a seventh of the tolerance of chosen harmonics.
 [[nodiscard]] inline int contact_points(const Discretisation& settings, std::size_t patch) {
   if (settings.patches[patch].n_points) return *settings.patches[patch].n_points;

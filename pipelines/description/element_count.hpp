@@ -1,5 +1,6 @@
 /// @file
-/// How many elements a size makes of a body: what would keep the mesher busy for nothing is told before it starts.
+/// How many elements a size makes of a body: what would keep the mesher busy for nothing is told
+/// before it starts.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ constexpr double largest_usual_element = 0.25;
 [[nodiscard]] double blade_volume(const mesh::BladeGeometry& geometry);
 
 /// What is said of a size that makes more elements than are meshed; "": it does not.
-/// @param volume  of the body [m³]. @param height  its longest side [m]: a part of it is what is usual.
+/// @param volume  of the body [m³].
+/// @param height  its longest side [m]: a part of it is what is usual.
 /// @note Regular tetrahedra of edge h: 8.5 in h³.
 [[nodiscard]] std::string too_many_elements(double element_size, double volume, double height);
 

@@ -1,6 +1,7 @@
 /// @file
-/// A quantity over a contact patch as a scene gives it: one number, an expression in p and r, a table
-/// { file = "mu.csv" } with the columns p, r [m] and value [SI], or whatever else a function of p and r says.
+/// A quantity over a contact patch as a scene gives it: one number, an expression in p and r, a
+/// table { file = "mu.csv" } with the columns p, r [m] and value [SI],
+/// or whatever else a function of p and r says.
 #pragma once
 
 #include <filesystem>
@@ -39,8 +40,8 @@ struct Field {
 /// @throws SceneError  as CsvTable; a column missing; no rows; the same position twice.
 [[nodiscard]] FieldFunction field_of_table(const std::filesystem::path& file);
 
-/// The value of a key: a number with or without its unit, an expression, { expression = "…" } or { file = "….csv" },
-/// of which the completed scene keeps the absolute path.
+/// The value of a key: a number with or without its unit, an expression, { expression = "…" } or {
+/// file = "….csv" }, of which the completed scene keeps the absolute path.
 /// @param folder  relative files start here.
 [[nodiscard]] Field read_field(SectionReader& section, std::string_view key,
                                const std::filesystem::path& folder, const char* unit);

@@ -84,8 +84,8 @@ struct MeshFileModel {
 using contact::LoadMeasure;
 using contact::TiltedArea;
 
-/// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the kinds
-/// `bar`, `chain` and `block`.
+/// Modes and contact points given directly (interfaces.md, modal scenes), or by the formulas of the
+/// kinds `bar`, `chain` and `block`.
 struct ModalModel {
   Eigen::VectorXd frequency_hz;
   Eigen::VectorXd damping_ratio;
@@ -125,7 +125,8 @@ struct ContactDescription {
   Eigen::Vector3d slip_direction = Eigen::Vector3d::UnitZ();
   Field friction;                      ///< μ over the patch, in p and r from its centroid
   std::optional<Field> preload_field;  ///< shape of the preload; none: uniform
-  /// "file:line: key" of preload = "static", the static preload in place of a preload field; empty: not given.
+  /// "file:line: key" of preload = "static", the static preload in place of a preload field; empty:
+  /// not given.
   std::string static_preload_place;
   double gap = 0.0;  ///< before the static loads act [m]; below 0: interference
   std::array<double, 2> preload_moment{0.0, 0.0};  ///< about p and r through the centroid [N m]
@@ -192,7 +193,8 @@ using MapEntry = std::variant<MapName, double>;  ///< or a frequency [Hz]
 
 /// A motion integrated in time has all harmonics; at least so many are kept of it.
 inline constexpr int least_harmonics_of_time = 15;
-/// Where harmonics are given, the highest peak is solved again with so many more (response_stage.hpp).
+/// Where harmonics are given, the highest peak is solved again with so many more
+/// (response_stage.hpp).
 inline constexpr int harmonics_of_a_check = 8;
 
 /// The one number of a scene whose best value is searched.

@@ -13,12 +13,13 @@ namespace microslip::pipelines {
 
 /// Decides what `auto` in [effects] leaves open.
 /// @param model  with its patches.
-/// @throws RefusedError  friction along r is asked for, and the stiffness there is not positive; an effect is switched off
-///                       that no method can leave out.
+/// @throws RefusedError  friction along r is asked for, and the stiffness there is not positive; an
+///                       effect is switched off that no method can leave out.
 [[nodiscard]] ContactEffects contact_effects(const ReducedModel& model,
                                              const SceneDescription& scene);
 
-/// The contact of a model under the load of a curve: what the solver, integration in time and maps ask.
+/// The contact of a model under the load of a curve: what the solver,
+/// integration in time and maps ask.
 /// @param model  with patches; borrowed.
 /// @param load   by the measure of the model: the total normal force [N] (negative: a uniform gap
 ///               −load/∬k_v dA), or a factor on the rest loads that are given.

@@ -60,7 +60,8 @@ Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
   return size;
 }
 
-/// Force and Jacobian of one point, with its share of the step, by the method that contact would choose.
+/// Force and Jacobian of one point, with its share of the step,
+/// by the method that contact would choose.
 double point_seconds(const SceneDescription& scene, const CurveEffects& effects, const Size& size) {
   const bool rough = is_rough(scene);
   const bool plain = !effects.second_direction && !rough && !is_rate_dependent(scene);

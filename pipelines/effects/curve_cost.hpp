@@ -1,6 +1,6 @@
 /// @file
-/// What curves are expected to cost, by the method of their contact points. Processor seconds of one core; medians of what
-/// scenes took (share/doc/costs.md), right to a factor of two for most.
+/// What curves are expected to cost, by the method of their contact points. Processor seconds of
+/// one core; medians of what scenes took (share/doc/costs.md), right to a factor of two for most.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"

@@ -1,7 +1,7 @@
 /// @file
-/// Dimensionless numbers that say, before anything nonlinear is solved, which effects of contact a scene calls for: from
-/// the motion of the patch in both linear limits, in the frequency range and at the resonances near by. What they are
-/// compared with stands in effect_table.hpp.
+/// Dimensionless numbers that say, before anything nonlinear is solved, which effects of contact a
+/// scene calls for: from the motion of the patch in both linear limits, in the frequency range and
+/// at the resonances near by. What they are compared with stands in effect_table.hpp.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,18 @@
 
 namespace microslip::pipelines {
 
-/// How far the linear limits drive the points under a load. Infinite where a limit has no bound, or a point carries
-/// nothing and moves.
+/// How far the linear limits drive the points under a load. Infinite where a limit has no bound, or
+/// a point carries nothing and moves.
 struct ContactReach {
-  /// Force of a point in the stuck limit over what friction holds there at the least load of the period; where the point
-  /// is open, approach in the free limit over its gap. Below 1 everywhere: contact is linear.
+  /// Force of a point in the stuck limit over what friction holds there at the least load of the
+  /// period; where the point is open, approach in the free limit over its gap. Below 1 everywhere:
+  /// contact is linear.
   double slip = 0.0;
   /// Change of the load k_v|v| over the load, or over that which would close the gap.
   double load = 0.0;
   double bias_load = 0.0;  ///< the same of the mean: static forces, and what opening adds to it
-  /// As `load`: of loaded points at resonances of the stuck, of open ones at those of the free structure, whose way from one
-  /// limit to the other leads through the range.
+  /// As `load`: of loaded points at resonances of the stuck, of open ones at those of the free
+  /// structure, whose way from one limit to the other leads through the range.
   double nearby = 0.0;
 };
 
@@ -29,12 +30,13 @@ struct ContactReach {
 [[nodiscard]] ContactReach contact_reach(const ReducedModel& model, const SceneDescription& scene,
                                          double load);
 
-/// The largest over all loads the scene asks for; loads that its contact cannot carry are left out: they are refused
-/// where they are solved for. Without value: no [response], or no load.
+/// The largest over all loads the scene asks for; loads that its contact cannot carry are left out:
+/// they are refused where they are solved for. Without value: no [response], or no load.
 [[nodiscard]] std::optional<ContactReach> contact_reach(const ReducedModel& model,
                                                         const SceneDescription& scene);
 
-/// Of the strain energy of the stuck limit, in the springs along the normal: the largest in the range.
+/// Of the strain energy of the stuck limit, in the springs along the normal:
+/// the largest in the range.
 [[nodiscard]] double normal_energy_share(const ReducedModel& model, const SceneDescription& scene);
 
 /// Where a multiple of the frequency answers most.
@@ -44,15 +46,16 @@ struct HarmonicAnswer {
   double frequency = 0.0;  ///< kω [rad/s]
 };
 
-/// Over k = 2 … 30 and the resonances ω of both limits in the range; without one, of the free limit at its ends.
+/// Over k = 2 … 30 and the resonances ω of both limits in the range; without one,
+/// of the free limit at its ends.
 [[nodiscard]] HarmonicAnswer harmonic_answer(const ReducedModel& model,
                                              const SceneDescription& scene);
 
 /// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches.
 [[nodiscard]] double friction_change(const ReducedModel& model, const SceneDescription& scene);
 
-/// Attachment shapes: relative change of the stuck frequency nearest to the range without them. Else the largest share
-/// of residual flexibility in the tangential flexibility of a point.
+/// Attachment shapes: relative change of the stuck frequency nearest to the range without them.
+/// Else the largest share of residual flexibility in the tangential flexibility of a point.
 [[nodiscard]] double residual_share(const ReducedModel& model, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

@@ -22,8 +22,9 @@ struct EffectRecord {
       seconds{};  ///< that the curves take longer with it, forecast; none: not told apart
   std::optional<double>
       bound{};  ///< of what is left out: relative change of a highest peak by having it
-  /// Of what `auto` had left out and the run has put back: what leaving it out changes a highest peak by. Infinite: the
-  /// peak with it was not found from that without. None: not switched on by a run.
+  /// Of what `auto` had left out and the run has put back: what leaving it out changes a highest
+  /// peak by. Infinite: the peak with it was not found from that without. None:
+  /// not switched on by a run.
   std::optional<double> switched_on{};
   std::string objection{};  ///< why the setting is wrong; empty: nothing says so
   std::string refusal{};    ///< why the setting cannot be obeyed; empty: it is

@@ -38,7 +38,8 @@ std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
          response_seconds(facts.scene, without).total();
 }
 
-/// Whether the table warns of leaving an effect out: where the user did, and what would be silent otherwise.
+/// Whether the table warns of leaving an effect out: where the user did,
+/// and what would be silent otherwise.
 bool is_watched(const EffectRecord& effect, const EffectFacts& facts) {
   if (effect.setting == "off" || effect.name == "higher_harmonics") return true;
   return effect.name == "coexistence" && is_single_frequency(facts.scene);

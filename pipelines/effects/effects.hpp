@@ -1,5 +1,6 @@
 /// @file
-/// Which physical effects a scene is simulated with, and why: one record per row of effect_table.hpp.
+/// Which physical effects a scene is simulated with, and why:
+/// one record per row of effect_table.hpp.
 #pragma once
 
 #include <string>
@@ -14,7 +15,8 @@
 namespace microslip::pipelines {
 
 /// Chooses what `auto` leaves open, by the indicators.
-/// @param model  with its patches; nullptr: not known yet, so that what depends on modes is undecided.
+/// @param model  with its patches; nullptr: not known yet,
+///               so that what depends on modes is undecided.
 /// @param mesh   of a scene whose model is not known, if it is read.
 [[nodiscard]] std::vector<EffectRecord> effects_of(const SceneDescription& scene,
                                                    const ReducedModel* model,

@@ -1,6 +1,6 @@
 /// @file
-/// Reduced models of one scene with one number changed: what the search for its best value goes over; and
-/// the same with another local contact stiffness.
+/// Reduced models of one scene with one number changed: what the search for its best value goes
+/// over; and the same with another local contact stiffness.
 #pragma once
 
 #include <map>
@@ -35,9 +35,11 @@ struct SolvedStructure {
                                     std::vector<std::string>& warnings);
 
 /// A richer, or leaner, model of the same scene.
-/// @param structure  of the scene: its mesh serves, and its modes where the basis is the same. nullptr as above.
+/// @param structure  of the scene: its mesh serves, and its modes where the basis is the same.
+///                   nullptr as above.
 /// @param warnings   as above.
-/// @throws std::invalid_argument  not one patch per contact, or another basis where modes are given.
+/// @throws std::invalid_argument  not one patch per contact,
+///         or another basis where modes are given.
 /// @throws SceneError, RefusedError  as model_of() and solve_structure().
 [[nodiscard]] ReducedModel model_with(const Discretisation& settings, const SceneDescription& scene,
                                       const SolvedStructure* structure,
@@ -53,8 +55,8 @@ class ModelFamily {
               std::shared_ptr<const SolvedStructure> structure);
 
   /// The model at a value. Modes are solved anew only where the number changes them.
-  /// @param stiffness_factor  of the local contact stiffness; other than 1 where the scene has it in keys
-  ///                          (contact_factors.hpp) only.
+  /// @param stiffness_factor  of the local contact stiffness; other than 1 where the scene has it
+  ///                          in keys (contact_factors.hpp) only.
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at this value.
   [[nodiscard]] const ReducedModel& at(double value, double stiffness_factor = 1.0);
   /// The model of the scene as it is but for its local contact stiffness.

@@ -1,5 +1,6 @@
 /// @file
-/// How much a patch moves along r, from the two linear limits: whether a scene calls for friction there.
+/// How much a patch moves along r, from the two linear limits:
+/// whether a scene calls for friction there.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
@@ -7,12 +8,13 @@
 
 namespace microslip::pipelines {
 
-/// Friction along r does ½ ratio² of the work of that along p: 0.05 % at the threshold of 3 %, as much as harmonics are
-/// left out for. Simulated on the default blade (1.5 %), it changes the peak by 0.013 %.
+/// Friction along r does ½ ratio² of the work of that along p: 0.05 % at the threshold of 3 %, as
+/// much as harmonics are left out for. Simulated on the default blade (1.5 %),
+/// it changes the peak by 0.013 %.
 ///
-/// Motion of the patch along r against that along p, rms over its area: the largest ratio at the resonances of
-/// the free and of the stuck structure in the frequency range, and where either limit moves the patch most.
-/// 0 where nothing moves or nothing rubs.
+/// Motion of the patch along r against that along p, rms over its area: the largest ratio at the
+/// resonances of the free and of the stuck structure in the frequency range, and where either limit
+/// moves the patch most. 0 where nothing moves or nothing rubs.
 /// @param model  with its patches.
 [[nodiscard]] double motion_ratio_along_r(const ReducedModel& model, const SceneDescription& scene);
 

@@ -1,7 +1,7 @@
 /// @file
-/// What `--resume` needs of a run that was killed or interrupted: its scene and its finished parts, each in a file
-/// of its own in RUN/checkpoint, written whole. Numbers are kept as they are in memory, so that what follows from
-/// them is the same bit for bit.
+/// What `--resume` needs of a run that was killed or interrupted: its scene and its finished parts,
+/// each in a file of its own in RUN/checkpoint, written whole. Numbers are kept as they are in
+/// memory, so that what follows from them is the same bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,8 @@ class Checkpoint {
   /// @param resumed  whether finished parts there are those of this run; else none is found.
   Checkpoint(const std::filesystem::path& run, bool resumed);
 
-  /// Forgets the parts of the run before and keeps the scene of this one; does nothing in a run that is resumed.
+  /// Forgets the parts of the run before and keeps the scene of this one;
+  /// does nothing in a run that is resumed.
   /// @throws ExhaustedError  it cannot be written.
   void begin(const std::string& scene_toml);
   /// Only the scene is left: a resumed run starts from the beginning.
@@ -42,8 +43,8 @@ class Checkpoint {
   /// The run is complete: nothing is left to resume.
   void end();
 
-  /// A finished part, "modes", "curves/NAME", …; empty: not finished. Part: StructureModes, CurveResult,
-  /// std::uint64_t.
+  /// A finished part, "modes", "curves/NAME", …; empty: not finished. Part: StructureModes,
+  /// CurveResult, std::uint64_t.
   /// @throws SceneError  written by another version or build, or damaged.
   template <typename Part>
   [[nodiscard]] std::optional<Part> find(const std::string& name) const;

@@ -1,7 +1,8 @@
 /// @file
-/// Columns and arrays of curves, modes, maps, models and cycles, once: name, unit, meaning and where the value comes from. CSV,
-/// HDF5 and VTK files are written from these tables and share/doc/columns.md is printed from them: a new column is one
-/// row in columns.cpp. Pictures of a whole mesh (write_vtk.hpp, write_faces.hpp) carry names of the scene instead.
+/// Columns and arrays of curves, modes, maps, models and cycles, once: name, unit, meaning and
+/// where the value comes from. CSV, HDF5 and VTK files are written from these tables and
+/// share/doc/columns.md is printed from them: a new column is one row in columns.cpp. Pictures of a
+/// whole mesh (write_vtk.hpp, write_faces.hpp) carry names of the scene instead.
 #pragma once
 
 #include <cstdint>
@@ -134,7 +135,8 @@ struct Dataset {
 };
 using Indices = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// maps/NAME.h5: of the whole map; of the points, with `vertex_` in front of the vertices; where they are.
+/// maps/NAME.h5: of the whole map; of the points, with `vertex_` in front of the vertices;
+/// where they are.
 [[nodiscard]] std::span<const Dataset<NamedMap, Eigen::VectorXd>> map_arrays();
 [[nodiscard]] std::span<const Dataset<contact::ContactMap, Eigen::MatrixXd>> transition_arrays();
 [[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::MatrixXd>> map_places();
@@ -143,7 +145,8 @@ using Indices = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
 [[nodiscard]] std::span<const Dataset<ReducedModel, Eigen::VectorXd>> model_arrays();
 [[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::MatrixXd>> patch_places();
 [[nodiscard]] std::span<const Dataset<contact::Patch, Eigen::VectorXd>> fit_arrays();
-/// Over the places of a patch: /contact/NAME at its points, /contact/vertex_NAME at the vertices of its cells.
+/// Over the places of a patch: /contact/NAME at its points,
+/// /contact/vertex_NAME at the vertices of its cells.
 [[nodiscard]] std::span<const Dataset<contact::PatchSamples, Eigen::VectorXd>> sample_arrays();
 [[nodiscard]] std::span<const Dataset<contact::PatchSamples, Eigen::MatrixXd>> shape_arrays();
 
@@ -161,8 +164,8 @@ struct Entry {
 inline constexpr Entry state_entry{
     "state", "1",
     "0 stick, 1 positive slip, 2 negative slip, 3 separated, 4 slip in two directions"};
-/// curves/NAME.states.csv: the frequency, then these of every mode from 1 (`_1`, `_2`, …), sine and cosine of every
-/// harmonic.
+/// curves/NAME.states.csv: the frequency, then these of every mode from 1 (`_1`, `_2`, …), sine and
+/// cosine of every harmonic.
 inline constexpr Entry mean_entry{"q_mean", "m kg^0.5", "mean of a modal coordinate"};
 inline constexpr Entry sine_entry{"q_sin", "m kg^0.5", "its sine, harmonic K"};
 inline constexpr Entry cosine_entry{"q_cos", "m kg^0.5", "its cosine, harmonic K"};

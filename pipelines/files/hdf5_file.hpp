@@ -1,6 +1,6 @@
 /// @file
-/// Arrays with units in an HDF5 file, by names such as "/contact/points". The file is made in memory
-/// and written whole, so a full disk leaves no torso.
+/// Arrays with units in an HDF5 file, by names such as "/contact/points". The file is made in
+/// memory and written whole, so a full disk leaves no torso.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace microslip::pipelines {
 using Hdf5Integers = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Hdf5Bytes = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Collects datasets; groups are created as names ask for them. One at a time lives in the process, others wait for its
-/// end: the library takes one thread at a time.
+/// Collects datasets; groups are created as names ask for them. One at a time lives in the process,
+/// others wait for its end: the library takes one thread at a time.
 class Hdf5Writer {
  public:
   Hdf5Writer();

@@ -10,8 +10,9 @@
 ///   /contact/vertices (m × 3)  cells (n × 3 or 4)  vertex_phi_u  vertex_phi_v  vertex_phi_w
 ///   /contact/vertex_NAME              m each
 ///
-/// A second patch is in /contact_2/, a third in /contact_3/, and so on; the attributes contact, contact_2, … of the file
-/// are their names then. An array the model does not have is a dataset without elements.
+/// A second patch is in /contact_2/, a third in /contact_3/, and so on; the attributes contact,
+/// contact_2, … of the file are their names then. An array the model does not have is a dataset
+/// without elements.
 #pragma once
 
 #include <filesystem>

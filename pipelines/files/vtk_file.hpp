@@ -1,6 +1,6 @@
 /// @file
-/// What the VTK writers share: arrays from Eigen, files written whole, series over phase. VTK objects
-/// do not leave the write_* files that include this.
+/// What the VTK writers share: arrays from Eigen, files written whole, series over phase. VTK
+/// objects do not leave the write_* files that include this.
 #pragma once
 
 #include <vtkFieldData.h>

@@ -15,7 +15,8 @@ namespace microslip::pipelines {
 
 /// The text of curves/NAME.csv: one row per solution point, in branch order.
 /// @param patches  shares of each patch, where there are several.
-/// @param bar      of the amplitudes, relative: `amplitude_low_m` and `amplitude_high_m` join the columns.
+/// @param bar      of the amplitudes, relative: `amplitude_low_m` and `amplitude_high_m` join the
+///                 columns.
 [[nodiscard]] std::string curve_table(const solver::ResponseCurve& curve,
                                       const std::vector<PatchShares>& patches = {},
                                       std::optional<double> bar = {});
@@ -29,7 +30,8 @@ namespace microslip::pipelines {
 void write_curve(const std::filesystem::path& folder, const CurveResult& result,
                  Eigen::Index n_modes);
 
-/// One row per mode. Members that are shorter than `frequency` leave the rest of their column empty.
+/// One row per mode. Members that are shorter than `frequency` leave the rest of their column
+/// empty.
 struct ModeTable {
   Eigen::VectorXd frequency;  ///< ω [rad/s], N
   Eigen::VectorXd
@@ -39,13 +41,14 @@ struct ModeTable {
   Eigen::Index n_attachment = 0;  ///< so many of them, the last, are attachment shapes
 };
 
-/// modes.csv: `mode,frequency_Hz,residual,damping_ratio,fit_error,kind`; kind is free or attachment.
+/// modes.csv: `mode,frequency_Hz,residual,damping_ratio,fit_error,kind`;
+/// kind is free or attachment.
 /// @throws ExhaustedError  cannot be written.
 void write_modes_csv(const std::filesystem::path& file, const ModeTable& modes);
 
-/// The trace of a best value: peak_against_preload.csv with `preload_N,frequency_Hz,amplitude_m,at,mark`, or
-/// peak_against_parameter.csv with `value` in front; `mark` = optimum on its row, flat on those of a
-/// minimum that is the same for all.
+/// The trace of a best value: peak_against_preload.csv with
+/// `preload_N,frequency_Hz,amplitude_m,at,mark`, or peak_against_parameter.csv with `value` in
+/// front; `mark` = optimum on its row, flat on those of a minimum that is the same for all.
 /// @throws ExhaustedError  cannot be written.
 void write_optimum_csv(const std::filesystem::path& folder, const OptimumRequest& request,
                        const solver::Optimum& optimum);

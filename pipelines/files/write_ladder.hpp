@@ -10,7 +10,8 @@
 
 namespace microslip::pipelines {
 
-/// A row per rung and curve: `value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,
+/// A row per rung and curve:
+/// `value,seconds,cpu_seconds,peak_amplitude_m,peak_frequency_Hz,true_error,estimated_error,
 /// order,curve,runs`; empty where it is not known. @throws ExhaustedError  cannot be written.
 void write_ladder_csv(const std::filesystem::path& file, const std::vector<RungResult>& rungs);
 

@@ -116,7 +116,8 @@ void write_series(const std::filesystem::path& folder, const contact::Patch& pat
   write_pvd(folder / (map.name + ".pvd"), steps);
 }
 
-/// Transition angles, shares of the period and fields of the period under names that begin with `stem`.
+/// Transition angles, shares of the period and fields of the period under names that begin with
+/// `stem`.
 void write_transitions(Hdf5Writer& out, const std::string& stem, const contact::ContactMap& map) {
   for (const auto& array : transition_arrays()) {
     out.matrix(stem + array.name, array.get(map), array.unit);

@@ -171,8 +171,8 @@ std::string text_or_none(const JsonEntry& entry, const char* key) {
   return entry.has(key) ? entry.text(key) : std::string();
 }
 
-/// Value, amplitude and frequency of a best peak as cells of a table, to the digits that the bar of the best value
-/// allows. @param best  it, which has that bar or none.
+/// Value, amplitude and frequency of a best peak as cells of a table, to the digits that the bar of
+/// the best value allows. @param best  it, which has that bar or none.
 std::string optimum_cells(const JsonEntry& peak, const JsonEntry& best) {
   if (!peak.has("amplitude_m")) return "– | – | – |\n";
   const bool barred = best.has("bar");

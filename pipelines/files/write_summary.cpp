@@ -113,7 +113,8 @@ Json to_json(const solver::RicherPeak& peak) {
           {"amplitude_m", found ? Json(peak.amplitude) : Json(nullptr)}};
 }
 
-/// Half widths by goal, null of an energy that friction does not dissipate; null without a budget, and where the harmonics given do not tell the curve.
+/// Half widths by goal, null of an energy that friction does not dissipate; null without a budget,
+/// and where the harmonics given do not tell the curve.
 Json bar_json(const CurveSummary& curve, const std::vector<ErrorRow>& budget) {
   Json bar = Json::object();
   if (std::ranges::find(curve.not_in_bar, "harmonics") != curve.not_in_bar.end()) return nullptr;
@@ -232,7 +233,8 @@ Json to_json(const EffectRecord& effect) {
           {"objection", effect.objection}};
 }
 
-/// Half widths of value, amplitude, frequency and dissipated energy; null where harmonics are not known, or nothing is.
+/// Half widths of value, amplitude, frequency and dissipated energy;
+/// null where harmonics are not known, or nothing is.
 Json bar_json(const OptimumSummary& summary) {
   const auto& unknown = summary.not_in_bar;
   if (std::ranges::find(unknown, "harmonics") != unknown.end()) return nullptr;

@@ -47,9 +47,9 @@ int cell_type(mesh::ElementType type) {
   throw std::invalid_argument("element type without a VTK cell");
 }
 
-/// Nodes of a cell. The first triangle of VTK's linear wedge looks outward; of all else the order is ours
-/// (mesh/element_type.hpp). VTK's headers say the same of the quadratic wedge, but its shape functions and what
-/// reads such files (meshio, gmsh) count that one as we do.
+/// Nodes of a cell. The first triangle of VTK's linear wedge looks outward; of all else the order
+/// is ours (mesh/element_type.hpp). VTK's headers say the same of the quadratic wedge, but its
+/// shape functions and what reads such files (meshio, gmsh) count that one as we do.
 std::vector<vtkIdType> cell_nodes(
     mesh::ElementType type, const Eigen::Ref<const Eigen::RowVectorX<Eigen::Index>>& element) {
   std::vector<vtkIdType> nodes(element.begin(), element.end());

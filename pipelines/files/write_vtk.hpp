@@ -18,9 +18,9 @@ namespace microslip::pipelines {
 void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
                      const fem::ModalBasis& basis);
 
-/// The motion x(θ) = Φ q(θ) over one period as `folder`/NAME.pvd with one .vtp per phase: the corner
-/// nodes of the outer faces, `displacement_m` (3 components). Time is the phase in degrees, 0 … 360;
-/// warp by `displacement_m` with a scale to see it.
+/// The motion x(θ) = Φ q(θ) over one period as `folder`/NAME.pvd with one .vtp per phase: the
+/// corner nodes of the outer faces, `displacement_m` (3 components). Time is the phase in degrees,
+/// 0 … 360; warp by `displacement_m` with a scale to see it.
 ///
 /// @param folder    created if missing.
 /// @param q         a solution [m√kg], one signal per mode of `basis`.

@@ -1,6 +1,6 @@
 /// @file
-/// Files of other codes are read by scripts of share/scripts, children with limits: a crash or a hang is an error of
-/// the file and no more.
+/// Files of other codes are read by scripts of share/scripts, children with limits: a crash or a
+/// hang is an error of the file and no more.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,8 @@ struct ConverterLimits {
 /// @param deck    a second file that is needed to understand the first; empty: none.
 /// @param output  what the script writes; its facts are written beside it.
 /// @return  the facts.
-/// @throws mesh::MeshError  no such file.  @throws SceneError  what the script says of the files; that it crashed, left
+/// @throws mesh::MeshError  no such file.  @throws SceneError  what the script says of the files;
+///         that it crashed, left
 ///         nothing, or went beyond its limits.  @throws InterruptedError
 nlohmann::json convert_file(const std::string& script, const std::filesystem::path& file,
                             const std::filesystem::path& output, const ConverterLimits& limits = {},

@@ -11,8 +11,9 @@
 namespace microslip::pipelines {
 
 /// The number of the face a choice means.
-/// A point means the nearest face, and must be on it to 0.5 % of the body; a normal the face that has it to 2 degrees
-/// and, with `near`, is the nearest of those. Of two faces nearer to each other than 0.1 % of the body none is meant.
+/// A point means the nearest face, and must be on it to 0.5 % of the body; a normal the face that
+/// has it to 2 degrees and, with `near`, is the nearest of those. Of two faces nearer to each other
+/// than 0.1 % of the body none is meant.
 /// @param place  "file:line: key", for messages.
 /// @throws SceneError  no face or several; with those that come near.
 [[nodiscard]] int chosen_face(const mesh::StepGeometry& geometry, const FaceChoice& choice,

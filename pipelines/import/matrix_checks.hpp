@@ -1,9 +1,10 @@
 /// @file
 /// Whether stiffness and mass of another code fit each other and the body they are said to be of.
 ///
-/// A body that moves as a whole is not strained: away from what is held K t = 0 for translations and rotations t, node
-/// by node. Columns of the table of nodes that were exchanged turn a rotation into a strain, whose forces stand on the
-/// surface. The mass of a translation is the same along x, y and z.
+/// A body that moves as a whole is not strained: away from what is held K t = 0 for translations
+/// and rotations t, node by node. Columns of the table of nodes that were exchanged turn a rotation
+/// into a strain, whose forces stand on the surface. The mass of a translation is the same along x,
+/// y and z.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,8 @@ struct MatrixSources {
 };
 
 /// @param matrices  on the nodes of the mesh; rows of what is held are empty.
-/// @throws SceneError  a diagonal entry that is not above 0: which; K and M exchanged; displacements that do not fit.
+/// @throws SceneError  a diagonal entry that is not above 0: which; K and M exchanged;
+///         displacements that do not fit.
 void check_matrices(const mesh::Mesh& mesh, const fem::GivenMatrices& matrices,
                     const MatrixSources& sources);
 

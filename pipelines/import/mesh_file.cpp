@@ -32,8 +32,8 @@ std::string times(const LeftOut& one) {
   return one.count > 1 ? fmt::format(" ({} of them)", one.count) : "";
 }
 
-/// What the reader made of the file. A mesh that lacks what was left out is told with it: an element of an unknown type
-/// leaves faces and parts that hang on nothing.
+/// What the reader made of the file. A mesh that lacks what was left out is told with it: an
+/// element of an unknown type leaves faces and parts that hang on nothing.
 mesh::Mesh read_converted(const fs::path& converted, double unit, const fs::path& file,
                           const std::vector<LeftOut>& left_out) {
   if (left_out.empty()) return mesh::read_gmsh(converted, unit, file.string());

@@ -1,6 +1,7 @@
 /// @file
-/// Mesh files of any format → Mesh. gmsh's are read as they are; those of other codes are converted first, by
-/// share/scripts/convert_mesh.py: a child process with limits, whose crash or hang is an error and no more.
+/// Mesh files of any format → Mesh. gmsh's are read as they are; those of other codes are converted
+/// first, by share/scripts/convert_mesh.py: a child process with limits,
+/// whose crash or hang is an error and no more.
 #pragma once
 
 #include <filesystem>
@@ -30,18 +31,21 @@ struct MeshOfFile {
 };
 
 /// @param length_unit  metres per unit of the file; none: what the file says.
-/// @throws SceneError, mesh::MeshError  a file that is not there, not of its format or damaged; a converter that
+/// @throws SceneError, mesh::MeshError  a file that is not there, not of its format or damaged;
+///         a converter that
 ///         crashed or went beyond its limits.  @throws InterruptedError
 [[nodiscard]] MeshOfFile read_mesh(const std::filesystem::path& file,
                                    std::optional<double> length_unit,
                                    const ConverterLimits& limits = {});
 
-/// @throws SceneError  without what is left out the mesh alone is another structure: the first of it.
+/// @throws SceneError  without what is left out the mesh alone is another structure:
+///         the first of it.
 void require_whole(const MeshOfFile& read);
 /// The same as sentences, where modes or matrices of the whole are given.
 [[nodiscard]] std::vector<std::string> left_out_remarks(const MeshOfFile& read);
 
-/// The mesh of a scene; its remarks tell what is left out. @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
+/// The mesh of a scene; its remarks tell what is left out.
+/// @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
 [[nodiscard]] mesh::Mesh read_mesh(const MeshFileModel& model);
 
 /// "60 x 149 x 60 m, 60 x 149 x 60 mm or 1.52 x 3.79 x 1.52 m (inches)": a size without a unit.

@@ -1,5 +1,6 @@
 /// @file
-/// What the names of a mesh stand for: the command `surfaces`, and what `init mesh FILE` chooses from.
+/// What the names of a mesh stand for: the command `surfaces`,
+/// and what `init mesh FILE` chooses from.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,8 @@ struct MeshName {
 [[nodiscard]] std::vector<MeshName> mesh_names(const mesh::Mesh& mesh);
 
 /// The table of the command `surfaces`, with its head.
-/// @param unit  metres per unit of the file, if it is known: lengths are in m then, else those of the file.
+/// @param unit  metres per unit of the file, if it is known: lengths are in m then,
+///              else those of the file.
 [[nodiscard]] std::string describe_names(const mesh::Mesh& mesh, std::optional<double> unit);
 
 }  // namespace microslip::pipelines

@@ -1,5 +1,6 @@
 /// @file
-/// `init mesh FILE`, `init modes FILE`: a scene that begins with the names, the size and the unit of a mesh.
+/// `init mesh FILE`, `init modes FILE`: a scene that begins with the names,
+/// the size and the unit of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +8,18 @@
 
 namespace microslip::pipelines {
 
-/// The template of kind "mesh", with names of the file where the template has examples: those whose words tell what
-/// they are for ("root", "fixed", "contact", "output" …), else the first that can be; the others in comments.
+/// The template of kind "mesh", with names of the file where the template has examples: those whose
+/// words tell what they are for ("root", "fixed", "contact", "output" …), else the first that can
+/// be; the others in comments.
 /// @param folder  of the scene: the file is named relative to it.
 /// @throws as read_mesh().
-/// @note read_scene takes it as it is; what nobody can know (frequencies, stiffness, forces) is to be edited.
+/// @note read_scene takes it as it is; what nobody can know (frequencies, stiffness,
+///       forces) is to be edited.
 [[nodiscard]] std::string scene_of_mesh(const std::filesystem::path& file,
                                         const std::filesystem::path& folder);
 
-/// The same of kind "modes", with the mesh that lies beside the file of the modes. Of a stiffness (.mtx) with mass.mtx and
-/// nodes.csv beside it, and the one mesh there or in the folder above.
+/// The same of kind "modes", with the mesh that lies beside the file of the modes. Of a stiffness
+/// (.mtx) with mass.mtx and nodes.csv beside it, and the one mesh there or in the folder above.
 /// @throws SceneError  no such file, or none of a mesh beside it.
 [[nodiscard]] std::string scene_of_modes(const std::filesystem::path& file,
                                          const std::filesystem::path& folder);

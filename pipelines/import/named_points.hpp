@@ -22,11 +22,13 @@ struct LocatedPoint {
 };
 
 /// @return  the points of the scene that have coordinates.
-/// @throws SceneError  a point farther from the mesh than the mesh is long: not of this blade, or in another unit.
+/// @throws SceneError  a point farther from the mesh than the mesh is long: not of this blade,
+///         or in another unit.
 [[nodiscard]] std::vector<LocatedPoint> locate_points(const mesh::Mesh& mesh,
                                                       const SceneDescription& scene);
 
-/// Gives the mesh the points of the scene as node sets, so that every name is looked up in one place.
+/// Gives the mesh the points of the scene as node sets,
+/// so that every name is looked up in one place.
 /// @throws SceneError  as above; a name that the mesh has too; another name of what is not there.
 void name_points(mesh::Mesh& mesh, const SceneDescription& scene);
 

@@ -32,7 +32,8 @@ struct StepBody {
 [[nodiscard]] std::string size_doubt(const StepBody& body);
 
 /// Meshes the body of a scene into `file`.
-/// @throws SceneError  no unit, a size that no blade has, elements too large or too many, a face that is not there;
+/// @throws SceneError  no unit, a size that no blade has, elements too large or too many,
+///         a face that is not there;
 ///         the key.  @throws mesh::MeshError, InterruptedError  as above.
 void mesh_step_model(const StepModel& model, const std::filesystem::path& file);
 

@@ -17,7 +17,8 @@ namespace {
 constexpr double tolerance = 1e-6;
 constexpr double least_damping = 1e-4;
 
-/// Square roots of compliances [s]. The harmonic that meets a resonance far above the range is small: as 1/k² of the first.
+/// Square roots of compliances [s]. The harmonic that meets a resonance far above the range is
+/// small: as 1/k² of the first.
 Eigen::VectorXd compliances(const ReducedModel& model, double low, double high) {
   Eigen::VectorXd roots(model.frequency.size());
   for (Eigen::Index n = 0; n < roots.size(); ++n) {

@@ -8,9 +8,10 @@
 
 namespace microslip::pipelines {
 
-/// The directions in which contact springs and the flexibility of the modes meet: eigenvectors of C K C, K the stuck
-/// stiffness of the patches, C² the compliance of every mode, at rest or where a harmonic of the range may meet its
-/// resonance. Those whose values add up to less than a tolerance are left out.
+/// The directions in which contact springs and the flexibility of the modes meet: eigenvectors of C
+/// K C, K the stuck stiffness of the patches, C² the compliance of every mode, at rest or where a
+/// harmonic of the range may meet its resonance. Those whose values add up to less than a tolerance
+/// are left out.
 /// @param model   with its patches and effects.
 /// @return        none: all modes are needed, or there is no contact.
 [[nodiscard]] contact::MotionCoordinates contact_coordinates(const ReducedModel& model,

@@ -1,7 +1,8 @@
 /// @file
-/// Contact data nobody knows well, multiplied: friction coefficient and local contact stiffness. What is
-/// known stays as it is: the residual flexibility of the bodies, in series with the local stiffness
-/// (theory section 14), and gaps, which are distances: a negative preload −k_v·gap grows with k_v.
+/// Contact data nobody knows well, multiplied: friction coefficient and local contact stiffness.
+/// What is known stays as it is: the residual flexibility of the bodies, in series with the local
+/// stiffness (theory section 14), and gaps, which are distances:
+/// a negative preload −k_v·gap grows with k_v.
 #pragma once
 
 #include <optional>
@@ -21,8 +22,8 @@ enum class StiffnessPlace {
 
 [[nodiscard]] StiffnessPlace stiffness_place(const SceneDescription& scene);
 
-/// The scene with contact.normal_stiffness and contact.tangential_stiffness times a factor, as far as they
-/// are numbers. StiffnessPlace::keys only.
+/// The scene with contact.normal_stiffness and contact.tangential_stiffness times a factor, as far
+/// as they are numbers. StiffnessPlace::keys only.
 /// @throws SceneError, RefusedError  the kind cannot take it.
 [[nodiscard]] SceneDescription with_stiffness_keys(const SceneDescription& scene, double factor);
 

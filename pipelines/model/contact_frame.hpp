@@ -1,6 +1,6 @@
 /// @file
-/// Axes of the contact faces of a mesh (theory section 1): those of a face as a whole, and whether its places have their
-/// own (the effect `local_frames`).
+/// Axes of the contact faces of a mesh (theory section 1): those of a face as a whole, and whether
+/// its places have their own (the effect `local_frames`).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,9 @@ namespace microslip::pipelines {
 /// Whether every place has axes of its own: as the scene says, else where the face is not plane.
 [[nodiscard]] bool has_local_frames(const mesh::Mesh& mesh, const ContactDescription& contact);
 
-/// Of the face as a whole: rows p (slip direction in the mean plane), q (its outward normal), r = p × q. Where places have
-/// axes of their own this is for coordinates along the face alone, p then any direction if the slip direction is along q.
+/// Of the face as a whole: rows p (slip direction in the mean plane), q (its outward normal), r = p
+/// × q. Where places have axes of their own this is for coordinates along the face alone, p then
+/// any direction if the slip direction is along q.
 /// @throws SceneError  slip direction along the normal of a face that is taken as plane.
 [[nodiscard]] Eigen::Matrix3d contact_frame(const mesh::Mesh& mesh,
                                             const ContactDescription& contact);
@@ -43,8 +44,9 @@ struct SteepestPlace {
 [[nodiscard]] SteepestPlace steepest_place(const mesh::Mesh& mesh,
                                            const ContactDescription& contact);
 
-/// @throws SceneError  a slip direction along the normal of a plane face, or nearly so at some place of a curved one; what
-///         the scene asks for of a face that is not plane and takes a plane: contact.fit, contact.preload_moment.
+/// @throws SceneError  a slip direction along the normal of a plane face, or nearly so at some
+///         place of a curved one; what the scene asks for of a face that is not plane and takes a
+///         plane: contact.fit, contact.preload_moment.
 void require_frames(const mesh::Mesh& mesh, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

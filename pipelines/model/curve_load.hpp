@@ -18,7 +18,8 @@ namespace microslip::pipelines {
 [[nodiscard]] std::variant<double, LimitName> load_of(const CurveRequest& request,
                                                       const ReducedModel& model);
 
-/// Width of the uniform gap that a load below 0 is [m]; none where it presses, or where loads are scales.
+/// Width of the uniform gap that a load below 0 is [m]; none where it presses,
+/// or where loads are scales.
 [[nodiscard]] std::optional<double> gap_of(const std::variant<double, LimitName>& load,
                                            const ReducedModel& model);
 

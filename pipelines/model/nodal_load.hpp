@@ -1,8 +1,8 @@
 /// @file
-/// Forces and outputs of a scene as columns over the mesh. On a surface a force is a uniform traction: node i
-/// takes its share ∫ N_i dA of the area, and an output is the mean over the area, ∫ u dA / area = Σ share_i u_i.
-/// A set of nodes that are those of whole faces is a surface, whichever of the two a format names. A point or any other
-/// set has no area: equal shares.
+/// Forces and outputs of a scene as columns over the mesh. On a surface a force is a uniform
+/// traction: node i takes its share ∫ N_i dA of the area, and an output is the mean over the area,
+/// ∫ u dA / area = Σ share_i u_i. A set of nodes that are those of whole faces is a surface,
+/// whichever of the two a format names. A point or any other set has no area: equal shares.
 #pragma once
 
 #include <string>

@@ -37,7 +37,8 @@ PlaceAxes axes_of(const mesh::FaceFrame& frame, const Eigen::MatrixX3d& normals)
   return axes;
 }
 
-/// Displacements along axes that differ from place to place. @param xyz  n_places × n_modes along x, y, z.
+/// Displacements along axes that differ from place to place.
+/// @param xyz  n_places × n_modes along x, y, z.
 Eigen::MatrixXd along(const std::array<Eigen::MatrixXd, 3>& xyz, const Eigen::MatrixX3d& axis) {
   return axis.col(0).asDiagonal() * xyz[0] + axis.col(1).asDiagonal() * xyz[1] +
          axis.col(2).asDiagonal() * xyz[2];
@@ -54,7 +55,8 @@ contact::ModalShapes shapes_at_places(const Eigen::MatrixXd& shapes,
   return {along(xyz, axes.p), along(xyz, axes.q), along(xyz, axes.r)};
 }
 
-/// Of a curved face: the displacements of the elements along the axes of each place, no field fitted in a plane.
+/// Of a curved face: the displacements of the elements along the axes of each place,
+/// no field fitted in a plane.
 void set_local_shapes(contact::Patch& patch, const SampledFace& face,
                       const Eigen::MatrixXd& shapes) {
   const auto& [mesh, surface, sampling, frame] = face;

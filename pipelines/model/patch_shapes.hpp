@@ -1,6 +1,6 @@
 /// @file
-/// How the modes move the places of a contact face: displacements of its elements, or of a field fitted to them, along the
-/// axes of the face or of every place (theory section 1).
+/// How the modes move the places of a contact face: displacements of its elements, or of a field
+/// fitted to them, along the axes of the face or of every place (theory section 1).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,8 @@ struct SampledFace {
   const mesh::FaceFrame& frame;
 };
 
-/// Shapes at the cells and vertices of a patch, and with them its own axes of places, or degree and error of the fit.
+/// Shapes at the cells and vertices of a patch, and with them its own axes of places,
+/// or degree and error of the fit.
 /// @param settings  of the fit, which a face with axes at every place does not have.
 /// @param shapes    3 n_nodes × n_modes [1/√kg].
 void set_shapes(contact::Patch& patch, const SampledFace& face, const PatchSettings& settings,

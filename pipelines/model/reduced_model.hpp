@@ -1,5 +1,6 @@
 /// @file
-/// What the response stage solves: modes, excitation, output and the patches of contact, as plain arrays.
+/// What the response stage solves: modes, excitation, output and the patches of contact,
+/// as plain arrays.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,8 @@ struct ReducedModel {
   contact::MotionCoordinates coordinates;  ///< of the patches, where forces are sampled in time
 };
 
-/// Whether the loads of its curves are normal forces in newtons, not factors on the rest loads that are given.
+/// Whether the loads of its curves are normal forces in newtons,
+/// not factors on the rest loads that are given.
 [[nodiscard]] inline bool in_newtons(const ReducedModel& model) {
   return std::ranges::all_of(model.patches, [](const contact::Patch& patch) {
     return patch.load_measure == contact::LoadMeasure::force;

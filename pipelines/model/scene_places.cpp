@@ -31,7 +31,8 @@ std::vector<Eigen::Index> nodes_of(const mesh::Mesh& mesh, PlaceRole role,
   return takes_surface ? mesh.surface(name).nodes : mesh.node_set(name);
 }
 
-/// A force that is the same at each node of a set, an output that is their mean: no faces weigh there.
+/// A force that is the same at each node of a set, an output that is their mean:
+/// no faces weigh there.
 bool lies_by_its_nodes(const mesh::Mesh& mesh, PlaceRole role, const std::string& name) {
   if (!mesh.has_faces(name)) return true;
   const bool acts =

@@ -1,5 +1,6 @@
 /// @file
-/// What of its mesh a scene uses, and where that is: supports, contacts, forces, output, static loads.
+/// What of its mesh a scene uses, and where that is: supports, contacts, forces, output,
+/// static loads.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,8 @@ struct ScenePlace {
 [[nodiscard]] std::vector<ScenePlace> scene_places(const mesh::Mesh& mesh,
                                                    const SceneDescription& scene);
 
-/// What a contact carries of a preload of the list: the mean pressure, or the gap a negative one stands for.
+/// What a contact carries of a preload of the list: the mean pressure,
+/// or the gap a negative one stands for.
 struct PatchPreload {
   std::string text;              ///< as the scene has it: "1000 N"; of a gap given as length empty
   double pressure = 0.0;         ///< mean [Pa]
@@ -45,8 +47,8 @@ struct PatchPreload {
                                                        const SceneDescription& scene,
                                                        std::size_t index);
 
-/// The unit of a STEP file; a line for each place, with nodes, area and centre; for each contact its axes and preloads; for each point given by
-/// coordinates the distance of its node.
+/// The unit of a STEP file; a line for each place, with nodes, area and centre; for each contact
+/// its axes and preloads; for each point given by coordinates the distance of its node.
 [[nodiscard]] std::vector<std::string> describe_places(const mesh::Mesh& mesh,
                                                        const SceneDescription& scene);
 

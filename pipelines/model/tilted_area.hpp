@@ -6,8 +6,8 @@
 
 namespace microslip::pipelines {
 
-/// Moments turn the contact under every preload of a scene, and a gap cannot carry them: refuses these before
-/// anything is solved.
+/// Moments turn the contact under every preload of a scene, and a gap cannot carry them: refuses
+/// these before anything is solved.
 /// @throws RefusedError  names the preload of the list, and the key that gives the moments.
 void require_pressing_loads(const SceneDescription& scene);
 

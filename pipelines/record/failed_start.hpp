@@ -1,6 +1,7 @@
 /// @file
-/// A run that fails before it has solved anything, in the folder of an earlier one: the results there stay, and
-/// summary.json tells of the run that failed. `exit_code` and `message` are its own, those of the earlier run are in `earlier`.
+/// A run that fails before it has solved anything, in the folder of an earlier one: the results
+/// there stay, and summary.json tells of the run that failed. `exit_code` and `message` are its
+/// own, those of the earlier run are in `earlier`.
 #pragma once
 
 #include <exception>
@@ -17,7 +18,8 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string summary_of_failed_start(const std::filesystem::path& summary,
                                                   ExitCode code, const std::string& message);
 
-/// The same in a folder whose run has come to its end; does nothing where there is none, or where another is writing.
+/// The same in a folder whose run has come to its end; does nothing where there is none,
+/// or where another is writing.
 void tell_failed_start(const std::filesystem::path& folder, ExitCode code,
                        const std::string& message);
 

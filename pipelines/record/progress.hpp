@@ -1,6 +1,7 @@
 /// @file
-/// What a user sees while a run goes on, and what stays of it: one live line on a terminal, plain lines
-/// otherwise; log.txt; history.csv with one line per finished point; seconds and memory per stage.
+/// What a user sees while a run goes on, and what stays of it: one live line on a terminal, plain
+/// lines otherwise; log.txt; history.csv with one line per finished point;
+/// seconds and memory per stage.
 #pragma once
 
 #include <chrono>
@@ -39,8 +40,8 @@ class Progress {
   Progress& operator=(Progress&&) = delete;
   ~Progress();
 
-  /// Starts log.txt and history.csv in a run folder, or goes on with them; what was said before is in the log as
-  /// well.
+  /// Starts log.txt and history.csv in a run folder, or goes on with them; what was said before is
+  /// in the log as well.
   /// @throws ExhaustedError  a file cannot be created.
   void keep_in(const std::filesystem::path& folder, RunStart start = RunStart::anew);
 
@@ -49,8 +50,8 @@ class Progress {
   /// A point of a curve is finished.
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
-  /// A curve is finished: lines of history.csv that it does not hold (of a sweep that was given up for
-  /// one from the other end, or cut short and made again) are taken out, the file written anew.
+  /// A curve is finished: lines of history.csv that it does not hold (of a sweep that was given up
+  /// for one from the other end, or cut short and made again) are taken out, the file written anew.
   /// @throws ExhaustedError  it cannot be.
   void settle(const std::string& curve, const std::vector<solver::ResponsePoint>& points);
   void info(const std::string& sentence);

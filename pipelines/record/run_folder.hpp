@@ -1,7 +1,7 @@
 /// @file
 /// A run folder as a place. The files of a stage are written beside those of an earlier run, in
-/// checkpoint/staged, and put in their places when the stage has ended; checkpoint/files.txt lists what runs
-/// have written here, so that nothing else is ever replaced or removed.
+/// checkpoint/staged, and put in their places when the stage has ended; checkpoint/files.txt lists
+/// what runs have written here, so that nothing else is ever replaced or removed.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +17,10 @@ enum class RunStart {
 
 class RunFolder {
  public:
-  /// Makes the folder and locks it against a second run (the lock dies with the process); leftovers of a
-  /// run that was killed are removed.
-  /// @throws SceneError      it holds a file with the name of a result, and no run: not ours to replace.
+  /// Makes the folder and locks it against a second run (the lock dies with the process); leftovers
+  /// of a run that was killed are removed.
+  /// @throws SceneError      it holds a file with the name of a result, and no run:
+  ///         not ours to replace.
   /// @throws ExhaustedError  another run holds it, or nothing can be written there.
   RunFolder(std::filesystem::path folder, RunStart start);
   ~RunFolder();
@@ -36,11 +37,12 @@ class RunFolder {
   /// Something that this run has not written stands in the place of what is staged.
   [[nodiscard]] bool would_replace() const;
 
-  /// Puts what is staged in its place. A file there that no run has written is renamed to NAME.kept; in a
-  /// folder of a version that kept no list it is taken for that run's.
+  /// Puts what is staged in its place. A file there that no run has written is renamed to
+  /// NAME.kept; in a folder of a version that kept no list it is taken for that run's.
   /// @throws ExhaustedError  a file cannot be moved.
   void publish();
-  /// Removes files of earlier runs that stand beside new ones, in curves/, maps/, …, and have no successor.
+  /// Removes files of earlier runs that stand beside new ones, in curves/, maps/, …,
+  /// and have no successor.
   void remove_superseded();
   /// Removes all files of earlier runs that have no successor.
   void remove_earlier();

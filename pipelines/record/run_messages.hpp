@@ -23,23 +23,27 @@ namespace microslip::pipelines {
 /// A line for each branch or solution that was found beside the curve.
 [[nodiscard]] std::vector<std::string> detached_text(const CurveResult& result);
 
-/// Where every solution found is unstable, detached ones included: the motion there has another period than the force, or
-/// none. Empty: nowhere.
+/// Where every solution found is unstable, detached ones included: the motion there has another
+/// period than the force, or none. Empty: nowhere.
 [[nodiscard]] std::string restless_text(const CurveResult& result);
 
-/// What the harmonics given leave out at the highest peak, if that is 2 % or more. Empty: less, or not known.
+/// What the harmonics given leave out at the highest peak, if that is 2 % or more. Empty: less,
+/// or not known.
 [[nodiscard]] std::string left_out_text(const CurveResult& result);
 
-/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that is told. Empty:
-/// all are. On rough surfaces the two counts of dissipation differ by themselves (theory section 11).
+/// Points are certified to 1e-10 unless rounding errors of nearly cancelling terms are larger; that
+/// is told. Empty: all are. On rough surfaces the two counts of dissipation differ by themselves
+/// (theory section 11).
 [[nodiscard]] std::string precision_text(const CurveSummary& curve, const ReducedModel& model);
 
-/// A best value with its peak, to the digits that its errors allow where they are told; or why there is none.
+/// A best value with its peak, to the digits that its errors allow where they are told;
+/// or why there is none.
 /// @param unit  of the value, with a space before it.
 [[nodiscard]] std::string best_text(const solver::Optimum& optimum, const std::string& unit,
                                     const CurveBudget& budget);
 
-/// The best value with other contact data: to the digits that the errors of the best value as given allow.
+/// The best value with other contact data: to the digits that the errors of the best value as given
+/// allow.
 [[nodiscard]] std::string bracket_text(const OptimumOfFactor& entry, const CurveBudget& budget);
 
 /// "peak … m at … Hz", or what stands in its place.

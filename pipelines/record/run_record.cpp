@@ -325,7 +325,8 @@ void RunRecord::keep_structure(const mesh::Mesh& mesh, fem::ModalBasis basis) {
   structure_.emplace(Structure{mesh, std::move(basis)});
 }
 
-/// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are close.
+/// A peak or fold that was seen and not solved for is only as exact as the rows of the curve are
+/// close.
 void RunRecord::warn_of_unsolved(const CurveResult& result) {
   for (const solver::SolverEvent& event : result.curve.log) {
     if (event.remedy == solver::Remedy::harmonics_kept && !result.curve.points.empty()) {
@@ -343,7 +344,8 @@ void RunRecord::warn_of_unsolved(const CurveResult& result) {
   }
 }
 
-/// What the contact carries at rest and, where a part of it is a gap, what the plain integral comes to.
+/// What the contact carries at rest and, where a part of it is a gap,
+/// what the plain integral comes to.
 void RunRecord::keep_preload(CurveSummary& summary, const ReducedModel& model, double load) {
   const contact::RestingLoad rest = contact_of(model, load).at_rest();
   summary.preload_carried = rest.carried;

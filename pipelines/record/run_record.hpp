@@ -1,7 +1,7 @@
 /// @file
-/// What a run leaves behind, kept as it goes: every finished part is on disk before the next begins, so
-/// that an error, an interrupt, a full disk or a kill costs only the part it hit. Until the run has come to its end
-/// summary.json says that it has not.
+/// What a run leaves behind, kept as it goes: every finished part is on disk before the next
+/// begins, so that an error, an interrupt, a full disk or a kill costs only the part it hit. Until
+/// the run has come to its end summary.json says that it has not.
 #pragma once
 
 #include <atomic>
@@ -29,9 +29,9 @@ namespace microslip::pipelines {
 
 class RunRecord {
  public:
-  /// Creates the run folder, its lock and log, and writes scene.toml. In the folder of an earlier run that
-  /// waits until mesh or model of this one are there: bad input costs nothing. Its results stay until those
-  /// of this one's stages take their places.
+  /// Creates the run folder, its lock and log, and writes scene.toml. In the folder of an earlier
+  /// run that waits until mesh or model of this one are there: bad input costs nothing. Its results
+  /// stay until those of this one's stages take their places.
   /// @throws SceneError, ExhaustedError  as RunFolder.
   RunRecord(const SceneDescription& scene, const RunOptions& options);
   ~RunRecord() = default;
@@ -54,8 +54,9 @@ class RunRecord {
   void keep_finished(const CurveResult& result) const;
   [[nodiscard]] Progress& progress() { return progress_; }
 
-  /// Runs the stages. An exception is written into summary.json with its exit code and thrown on. An
-  /// interrupt ends the process within a second, with summary.json written, even inside a library.
+  /// Runs the stages. An exception is written into summary.json with its exit code and thrown on.
+  /// An interrupt ends the process within a second, with summary.json written,
+  /// even inside a library.
   /// @return exit code: complete, or incomplete when a curve is.
   int run(const std::function<void()>& stages);
 
@@ -68,7 +69,8 @@ class RunRecord {
   void keep_effects(std::vector<EffectRecord> effects);
   /// model.h5; a modal scene's modes.csv as well.
   void keep_model(const ReducedModel& model);
-  /// Forgets curves and errors, and what a resumed run would start from: those of finer settings come.
+  /// Forgets curves and errors, and what a resumed run would start from:
+  /// those of finer settings come.
   void begin_again();
   /// What the budgets kept so far say about effects left out. @param tolerance  of the peaks.
   void keep_bounds(double tolerance);
@@ -83,7 +85,8 @@ class RunRecord {
   /// A point of a curve that is being solved: kept, should the process have to end within it.
   void note_point(const std::string& curve, const std::variant<double, LimitName>& load,
                   const solver::ResponsePoint& point);
-  /// Writes the curves that note_point() has points of and keep_curve() has not seen, as interrupted.
+  /// Writes the curves that note_point() has points of and keep_curve() has not seen,
+  /// as interrupted.
   void keep_unfinished();
   /// A modal scene's scale is told as the total force it means.
   void keep_curve(const CurveResult& result, const ReducedModel& model);
@@ -113,11 +116,13 @@ class RunRecord {
   void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
   void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();
-  /// The files of the stage take their places; those of an earlier run that they succeed are removed.
+  /// The files of the stage take their places; those of an earlier run that they succeed are
+  /// removed.
   void show_stage();
   /// The same within a stage, as far as nothing of an earlier run stands there.
   void show_what_is_new();
-  /// Waits until the run has ended; ends it where it answers neither an interrupt nor the end of its budget of time.
+  /// Waits until the run has ended; ends it where it answers neither an interrupt nor the end of
+  /// its budget of time.
   void end_in_time(const std::stop_token& stop);
   [[nodiscard]] std::string stage_name() const;
   [[nodiscard]] bool is_overdue() const;
@@ -125,12 +130,14 @@ class RunRecord {
   void fail(ExitCode code, const std::string& message);
   void tell_failure(ExitCode code, const std::string& message);
   [[nodiscard]] ExitCode verdict() const;
-  /// Why the accuracy asked for is not reached, or that time was over; empty: neither. Under the mutex.
+  /// Why the accuracy asked for is not reached, or that time was over; empty: neither.
+  /// Under the mutex.
   [[nodiscard]] std::string ending() const;
 
   /// Takes the folder over from an earlier run.
   void begin();
-  /// Until then its summary.json is kept aside, and put back if this one comes to nothing, which it then tells.
+  /// Until then its summary.json is kept aside, and put back if this one comes to nothing,
+  /// which it then tells.
   void put_summary_aside();
   void restore_summary(ExitCode code, const std::string& message);
 

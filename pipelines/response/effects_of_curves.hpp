@@ -1,5 +1,6 @@
 /// @file
-/// What curves, once solved, say of the effects they were simulated with: told in the table of effects.
+/// What curves, once solved, say of the effects they were simulated with:
+/// told in the table of effects.
 #pragma once
 
 #include <vector>
@@ -11,12 +12,13 @@
 
 namespace microslip::pipelines {
 
-/// What harmonics = "auto" has chosen, whether contact was proved linear, and what the search for other solutions found:
-/// nothing of these stays undecided.
+/// What harmonics = "auto" has chosen, whether contact was proved linear, and what the search for
+/// other solutions found: nothing of these stays undecided.
 void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                  std::vector<EffectRecord>& effects);
 
-/// Whether contact that was not to open, effects.separation = "off", has opened on a curve: an objection then.
+/// Whether contact that was not to open, effects.separation = "off", has opened on a curve:
+/// an objection then.
 void tell_opening(const CurveResult& curve, std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

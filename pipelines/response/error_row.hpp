@@ -1,5 +1,6 @@
 /// @file
-/// What one choice of the discretisation does to one number a user reads: a row of the error budget.
+/// What one choice of the discretisation does to one number a user reads:
+/// a row of the error budget.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,16 @@ inline constexpr const char* optimum_name = "optimum";  ///< in place of a curve
 
 enum class ErrorKind : std::uint8_t {
   estimated,
-  solved,    ///< with the richer model
-  borrowed,  ///< from the curve of the same study where it is largest: this one could not be followed
+  solved,  ///< with the richer model
+  /// From the curve of the same study where it is largest: this one could not be followed.
+  borrowed,
 };
 
 struct ErrorRow {
   std::string curve;  ///< its name, or "optimum"
   std::string goal;   ///< one of the above
-  std::string
-      source;  ///< mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver
+  /// Mesh, basis, cells, fit, harmonics, second_direction, instants, newton, eigensolver.
+  std::string source;
   double effect =
       0.0;  ///< relative, signed: what would be added with the source refined to its end
   ErrorKind kind = ErrorKind::estimated;

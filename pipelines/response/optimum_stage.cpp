@@ -23,8 +23,9 @@ namespace {
 // How the best value moves is told by few, beside one another.
 constexpr int few_harmonics = 3;
 
-/// Bodies with patches err by their meshes, which shows as some per cent of a peak that is level over as much: their
-/// searches may end sooner. Points of bars, chains and modal scenes are searched to the end.
+/// Bodies with patches err by their meshes, which shows as some per cent of a peak that is level
+/// over as much: their searches may end sooner. Points of bars,
+/// chains and modal scenes are searched to the end.
 bool ends_sooner(const SceneDescription& scene) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
   return !scene.contacts.empty() && (harmonics.chosen() || harmonics.highest > few_harmonics);

@@ -1,6 +1,6 @@
 /// @file
-/// The best value of one number of a scene: preload, friction coefficient, a thickness of the blade, …;
-/// and what the contact data nobody knows well do to it.
+/// The best value of one number of a scene: preload, friction coefficient, a thickness of the
+/// blade, …; and what the contact data nobody knows well do to it.
 #pragma once
 
 #include <memory>
@@ -32,17 +32,19 @@ class OptimumSearch {
   [[nodiscard]] std::string warning() const;
   /// @throws SceneError, RefusedError  no scene, or none that can be simulated, at a value.
   [[nodiscard]] solver::Optimum best();
-  /// A warning of what harmonics beyond those given do to what best() has found, and to its neighbours; empty: little,
-  /// not checked, or nothing found.
+  /// A warning of what harmonics beyond those given do to what best() has found, and to its
+  /// neighbours; empty: little, not checked, or nothing found.
   [[nodiscard]] std::string left_out(const solver::Optimum& optimum);
   /// Searched again with friction coefficient and local contact stiffness × 0.5 and × 2
-  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is searched. Friction
-  /// moves the best preload: the range is widened by as much, and the entry says so. Of more than three harmonics with
-  /// three, and once with both as they are, which is what the others are to be compared with.
-  /// @param jobs  searches side by side; of another number than the preload one, whatever is asked for. Of the preload it
-  ///              may run beside best().
+  /// (contact_factors.hpp), as far as the contact has them as numbers and they are not what is
+  /// searched. Friction moves the best preload: the range is widened by as much, and the entry says
+  /// so. Of more than three harmonics with three, and once with both as they are, which is what the
+  /// others are to be compared with.
+  /// @param jobs  searches side by side; of another number than the preload one, whatever is asked
+  ///              for. Of the preload it may run beside best().
   [[nodiscard]] OptimumBracket bracket(int jobs);
-  /// Whether its searches have fewer harmonics than best(), which then takes longer than all of them.
+  /// Whether its searches have fewer harmonics than best(),
+  /// which then takes longer than all of them.
   [[nodiscard]] bool bracket_by_few() const;
 
  private:

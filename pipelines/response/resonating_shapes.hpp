@@ -1,6 +1,7 @@
 /// @file
-/// Attachment shapes answer like springs, but as coordinates they have resonances, which no structure has. Contact that
-/// closes is a shock, whose harmonics reach them (theory section 22): 2 % at a peak of the default blade.
+/// Attachment shapes answer like springs, but as coordinates they have resonances, which no
+/// structure has. Contact that closes is a shock, whose harmonics reach them (theory section 22): 2
+/// % at a peak of the default blade.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +10,10 @@
 
 namespace microslip::pipelines {
 
-/// Adds a sentence to the message of a curve whose contact opens and closes, where its harmonics reach a shape.
-/// @param frequency     ω as solved with [rad/s]; the last n_attachment are those of attachment shapes.
+/// Adds a sentence to the message of a curve whose contact opens and closes,
+/// where its harmonics reach a shape.
+/// @param frequency     ω as solved with [rad/s]; the last n_attachment are those of attachment
+///                      shapes.
 /// @param highest       harmonic of the solutions; of motions integrated in time: infinite.
 void tell_shapes_resonate(const Eigen::VectorXd& frequency, Eigen::Index n_attachment,
                           double highest, solver::ResponseCurve& curve);

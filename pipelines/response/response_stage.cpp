@@ -194,8 +194,9 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene) {
 
 namespace {
 
-/// Chosen harmonics end where the modes do: beyond, a harmonic meets resonances of attachment shapes, which no structure
-/// has. The first nine are always meant: attachment shapes answer them like springs.
+/// Chosen harmonics end where the modes do: beyond, a harmonic meets resonances of attachment
+/// shapes, which no structure has. The first nine are always meant:
+/// attachment shapes answer them like springs.
 int most_meant(const ReducedModel& model, const ResponseDescription& response, int highest) {
   if (model.n_attachment == 0) return highest;
   constexpr int least = 9;
@@ -251,8 +252,8 @@ int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene)
 
 namespace {
 
-/// The highest peak of a curve traced with more harmonics about the one that the curve has: where that is too far for
-/// Newton's method.
+/// The highest peak of a curve traced with more harmonics about the one that the curve has: where
+/// that is too far for Newton's method.
 void trace_about_peak(const ReducedModel& model, double load, solver::ContinuationOptions options,
                       CurveResult& result) {
   constexpr double beside =
@@ -313,7 +314,8 @@ bool sticks_shortly(const solver::ResponsePoint& point) {
   return point.report.stick_share > 0.0 && point.report.stick_share < share;
 }
 
-/// Points that stick shortly and take so many evaluations, one after the other, that noise must be what cuts their steps.
+/// Points that stick shortly and take so many evaluations, one after the other,
+/// that noise must be what cuts their steps.
 class DearPoints {
  public:
   /// @return whether it has come to that.
@@ -348,9 +350,10 @@ bool walked_on_noise(const solver::ResponseCurve& curve) {
          }) > most_unsolved;
 }
 
-/// The curve under a load, or the point at the only frequency. Forces sampled in time are not smooth where points stick
-/// for less than the time between two instants: a branch that a few such points lead folds where no fold is, and goes
-/// on in ever shorter steps. It is traced again with every event located.
+/// The curve under a load, or the point at the only frequency. Forces sampled in time are not
+/// smooth where points stick for less than the time between two instants: a branch that a few such
+/// points lead folds where no fold is, and goes on in ever shorter steps.
+/// It is traced again with every event located.
 solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescription& scene,
                                      double load, const solver::ContinuationOptions& options,
                                      const solver::PointObserver& observe) {

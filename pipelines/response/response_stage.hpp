@@ -13,11 +13,12 @@
 
 namespace microslip::pipelines {
 
-/// A model under a load (point_parameters.hpp) as the solver takes it. Modes and excitation of the model are copied.
+/// A model under a load (point_parameters.hpp) as the solver takes it.
+/// Modes and excitation of the model are copied.
 [[nodiscard]] solver::Scene solver_scene(const ReducedModel& model, double load);
 
-/// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in full
-/// contact.
+/// For the free and the stuck limit, which know no preload: no moment tilts, rough surfaces are in
+/// full contact.
 [[nodiscard]] solver::Scene limit_scene(ReducedModel model);
 
 /// Natural frequencies with every contact point stuck [Hz], ascending, as many as the model has.
@@ -27,8 +28,8 @@ namespace microslip::pipelines {
 /// @throws RefusedError  they cannot; the message names the force they need.
 void require_loads(const ReducedModel& model, const SceneDescription& scene);
 
-/// What can be told of the curves before the first is traced: moments beside every preload are balanced, fixed steps
-/// in time are enough.
+/// What can be told of the curves before the first is traced: moments beside every preload are
+/// balanced, fixed steps in time are enough.
 /// @throws RefusedError, SceneError  as require_loads() and require_steps().
 void require_curves(const ReducedModel& model, const SceneDescription& scene);
 
@@ -36,8 +37,8 @@ void require_curves(const ReducedModel& model, const SceneDescription& scene);
 [[nodiscard]] solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                                const ReducedModel& model);
 
-/// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are chosen, there is
-/// no contact, or the check would be dear.
+/// The highest harmonic that results of a scene with given harmonics are checked with; 0: they are
+/// chosen, there is no contact, or the check would be dear.
 [[nodiscard]] int harmonics_to_check(const ReducedModel& model, const SceneDescription& scene);
 
 /// @throws SceneError    no [response], or one that speaks of a contact the scene does not have.
@@ -48,18 +49,20 @@ void require_response(const SceneDescription& scene);
 void require_held(const ReducedModel& model, const SceneDescription& scene);
 
 /// Traces one curve: a solution at one frequency when the range has no width.
-/// @param near  the curve of a poorer model with the same modes, beside whose beginning this one begins; nullptr: none.
+/// @param near  the curve of a poorer model with the same modes,
+///              beside whose beginning this one begins; nullptr: none.
 [[nodiscard]] CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
                                       const CurveRequest& request,
                                       const solver::PointObserver& observe,
                                       const solver::ResponseCurve* near = nullptr);
 
-/// Solves the highest peak with more harmonics than were given, where the contact is not proved linear: result.richer.
+/// Solves the highest peak with more harmonics than were given,
+/// where the contact is not proved linear: result.richer.
 void check_harmonics(ReducedModel model, const SceneDescription& scene, double load,
                      CurveResult& result);
 
-/// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions of
-/// the branch at given frequencies (numbered in branch order).
+/// Contact maps the scene asks for on this curve: at its highest peak, its folds, or all solutions
+/// of the branch at given frequencies (numbered in branch order).
 [[nodiscard]] std::vector<NamedMap> curve_maps(const ReducedModel& model,
                                                const SceneDescription& scene,
                                                const CurveResult& result);

@@ -69,7 +69,8 @@ struct CurveSummary {
   double largest_three_states_share = 0.0;
   std::set<int> harmonic_orders;   ///< that were unknowns at some point, beside the mean
   std::size_t most_harmonics = 0;  ///< at one point
-  /// Of the amplitude, by harmonics left out: estimated where they are chosen, solved for where they are given.
+  /// Of the amplitude, by harmonics left out: estimated where they are chosen,
+  /// solved for where they are given.
   double largest_left_out = 0.0;
   std::optional<solver::RicherPeak> richer;  ///< the peak with more harmonics than were given
   std::vector<std::string> maps;             ///< stems in maps/

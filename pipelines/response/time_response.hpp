@@ -1,6 +1,6 @@
 /// @file
-/// `method = "time"`: steady states of a scene by integration in time, swept over the range from its begin
-/// to its end, as a response curve like any other.
+/// `method = "time"`: steady states of a scene by integration in time, swept over the range from
+/// its begin to its end, as a response curve like any other.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
@@ -10,13 +10,14 @@
 
 namespace microslip::pipelines {
 
-/// The fixed steps a period is asked to have are enough at every frequency of the range: known before anything is
-/// integrated. Nothing is asked: nothing is checked.
+/// The fixed steps a period is asked to have are enough at every frequency of the range: known
+/// before anything is integrated. Nothing is asked: nothing is checked.
 /// @param scene  with `transient`.
 /// @throws SceneError  they are too few; the message has the number needed, and at which frequency.
 void require_steps(const solver::Scene& scene, const ResponseDescription& response);
 
-/// Periodic motions only become points; the others are counted in the message (diagnosis `not-periodic`).
+/// Periodic motions only become points; the others are counted in the message (diagnosis
+/// `not-periodic`).
 /// @param scene  with `transient`.
 [[nodiscard]] solver::ResponseCurve integrate_curve(const solver::Scene& scene,
                                                     const SceneDescription& description,

@@ -1,6 +1,7 @@
 /// @file
-/// Curves as exact as a scene asks for: solved, told how far they can be trusted, and solved again with what
-/// contributes most refined, until the bar of every peak is below the tolerance or the time is over.
+/// Curves as exact as a scene asks for: solved, told how far they can be trusted, and solved again
+/// with what contributes most refined, until the bar of every peak is below the tolerance or the
+/// time is over.
 #pragma once
 
 #include "pipelines/record/run_record.hpp"
@@ -8,8 +9,9 @@
 
 namespace microslip::pipelines {
 
-/// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one that was
-/// solved in time takes its place, there and in the record. Effects that turn out to matter on it are put back.
+/// Refines a solution that is kept in the record, where the scene asks for a tolerance; a finer one
+/// that was solved in time takes its place, there and in the record. Effects that turn out to
+/// matter on it are put back.
 /// @throws as model_of(), solved_structure().
 void refine_to_tolerance(Solution& solution, int jobs, RunRecord& record);
 

@@ -174,7 +174,8 @@ void ask(CheckResult& result, const What&... what) {
   for (std::string& question : questions(what...)) result.warnings.push_back(std::move(question));
 }
 
-/// Modes are solved for where that is short: `run` takes them from there, and their questions need no run.
+/// Modes are solved for where that is short: `run` takes them from there,
+/// and their questions need no run.
 bool is_short(const mesh::Mesh& mesh, const SceneDescription& scene) {
   const double degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
   if (modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes) > longest_solution) {

@@ -33,8 +33,9 @@ struct CheckResult {
   std::vector<std::string> warnings;
 };
 
-/// `check`: what would be simulated and what it would cost, what of the mesh is used, and what is unusual. Modes
-/// are asked where they are given, kept by an earlier run, or solved for in seconds; no curve is solved for.
+/// `check`: what would be simulated and what it would cost, what of the mesh is used, and what is
+/// unusual. Modes are asked where they are given, kept by an earlier run, or solved for in seconds;
+/// no curve is solved for.
 /// @param picture  of the blade with its places marked is drawn into this file; empty: none.
 /// @throws SceneError  the scene cannot be used, or has no mesh to draw.
 /// @throws as solve_structure(), require_held() and require_curves(), where modes are known.

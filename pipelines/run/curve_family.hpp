@@ -11,23 +11,24 @@
 
 namespace microslip::pipelines {
 
-/// Traces every curve of the scene on `jobs` threads and keeps each as it is finished. The curves do
-/// not know of each other: the numbers are bitwise those of one thread.
+/// Traces every curve of the scene on `jobs` threads and keeps each as it is finished. The curves
+/// do not know of each other: the numbers are bitwise those of one thread.
 /// @throws InterruptedError  after an interrupt, with the finished curves kept.
 [[nodiscard]] std::vector<CurveResult> trace_family(const ReducedModel& model,
                                                     const SceneDescription& scene, int jobs,
                                                     RunRecord& record);
 
 /// Some of them, of which nothing is kept but the progress.
-/// @param near  curves of a poorer model with the same modes, one per request, near which they begin; or none.
+/// @param near  curves of a poorer model with the same modes, one per request,
+///              near which they begin; or none.
 /// @return one per request, cut short where the time is.
 [[nodiscard]] std::vector<CurveResult> trace_unkept(
     const ReducedModel& model, const SceneDescription& scene,
     const std::vector<CurveRequest>& requests,
     const std::vector<const solver::ResponseCurve*>& near, int jobs, Progress& progress);
 
-/// Contact maps where the scene asks for them, and the motion of the blade at the peaks; those of `jobs` curves side by
-/// side.
+/// Contact maps where the scene asks for them, and the motion of the blade at the peaks; those of
+/// `jobs` curves side by side.
 void draw_maps(const ReducedModel& model, const SceneDescription& scene,
                const std::vector<CurveResult>& curves, int jobs, RunRecord& record);
 

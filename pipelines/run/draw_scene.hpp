@@ -10,8 +10,8 @@
 
 namespace microslip::pipelines {
 
-/// Skin of the mesh, clamped and contact faces, axes of the contacts, forces and output with their names
-/// (share/scripts/plot_scene.py).
+/// Skin of the mesh, clamped and contact faces, axes of the contacts, forces and output with their
+/// names (share/scripts/plot_scene.py).
 /// @param picture  .png, .svg or .pdf; its folder must exist.
 /// @return  empty, or why there is no picture.
 [[nodiscard]] std::string draw_scene(const mesh::Mesh& mesh, const SceneDescription& scene,

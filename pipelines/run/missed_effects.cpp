@@ -69,7 +69,8 @@ double largest_change(const Solution& without, const Solution& with) {
   return largest;
 }
 
-/// A peak that was not found from that without is there now: what leaving the effects out changes is known.
+/// A peak that was not found from that without is there now:
+/// what leaving the effects out changes is known.
 void tell_change(const Solution& without, Solution& with) {
   for (MissedEffect& one : with.switched_on) {
     if (std::isinf(one.change)) one.change = largest_change(without, with);

@@ -7,7 +7,8 @@
 
 namespace microslip::pipelines {
 
-/// mesh → modes; what an earlier run has finished is taken from there. nullptr: a kind that gives its modes itself.
+/// mesh → modes; what an earlier run has finished is taken from there. nullptr:
+/// a kind that gives its modes itself.
 [[nodiscard]] StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record);
 
 /// → contact: the arrays the response stage needs.

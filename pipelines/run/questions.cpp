@@ -101,7 +101,8 @@ Findings element_size_of_step(const Facts& facts) {
            fmt::format("({:g} m)", step->element_size)}};
 }
 
-/// Of every contact whose coefficient is a number or a law; of all points of a scene without a mesh the largest.
+/// Of every contact whose coefficient is a number or a law;
+/// of all points of a scene without a mesh the largest.
 Findings friction_coefficient(const Facts& facts) {
   Findings findings;
   for (const ContactDescription& contact : facts.scene.contacts) {
@@ -133,8 +134,8 @@ Findings damping_ratio(const Facts& facts) {
   return {{"modes.damping_ratio", percent * *std::ranges::max_element(*ratios)}};
 }
 
-/// Rayleigh damping is least where its two parts are the same: ζ = √(αβ); α alone damps the lowest frequency of the
-/// range least at its end, β alone at its begin.
+/// Rayleigh damping is least where its two parts are the same: ζ = √(αβ); α alone damps the lowest
+/// frequency of the range least at its end, β alone at its begin.
 Findings rayleigh_damping(const Facts& facts) {
   const auto* given = std::get_if<RayleighDamping>(&facts.scene.modes.damping);
   if (given == nullptr || !facts.scene.response) return {};
@@ -224,7 +225,8 @@ Findings slip_angle(const Facts& facts) {
   return findings;
 }
 
-/// Linear elements cannot keep their volume while they bend: the nearer ν is to 0.5 the stiffer they are.
+/// Linear elements cannot keep their volume while they bend:
+/// the nearer ν is to 0.5 the stiffer they are.
 Findings locking(const Facts& facts) {
   for (const mesh::ElementBlock& block : facts.mesh->elements()) {
     if (mesh::is_quadratic(block.type)) continue;
@@ -326,7 +328,8 @@ Findings range_beyond_modes(const Facts& facts) {
            fmt::format("of the last natural frequency, {:.6g} Hz", last)}};
 }
 
-/// Of a range that lies above the last mode altogether, though not far enough for the question before.
+/// Of a range that lies above the last mode altogether,
+/// though not far enough for the question before.
 Findings range_above_modes(const Facts& facts) {
   if (!facts.scene.response || !is_meshed(facts.scene)) return {};
   const double last = limit_frequencies(*facts.model).last;

@@ -1,5 +1,6 @@
 /// @file
-/// A scene solved again with other settings, beside what the record has of it, and put in its place.
+/// A scene solved again with other settings, beside what the record has of it,
+/// and put in its place.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +24,8 @@ struct SolvedAgain {
   [[nodiscard]] std::filesystem::path mesh_file() const { return folder->path() / "mesh.msh"; }
 };
 
-/// The scene of a step as far as its error budgets. On the same modes its curves begin near those of `before`.
+/// The scene of a step as far as its error budgets. On the same modes its curves begin near those
+/// of `before`.
 /// @param obstacle  why there is none; "" where time was over.
 /// @return empty: not done, or a curve is not complete that was.
 /// @throws InterruptedError

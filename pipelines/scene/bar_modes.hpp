@@ -2,7 +2,8 @@
 /// Longitudinal modes of a uniform bar held by a spring at its left end, in closed form.
 ///
 ///   EA u″ = ρA ü,    EA u′(0) = β u(0),    u′(L) = 0
-///   φ_n = c_n cos(z_n (1 − x/L)),    z_n tan z_n = κ = βL/(EA),    z_n in (kπ, kπ + π/2), k = n − 1
+///   φ_n = c_n cos(z_n (1 − x/L)),    z_n tan z_n = κ = βL/(EA)
+///   z_n in (kπ, kπ + π/2),    k = n − 1
 ///   ω_n = (z_n/L) √(E/ρ),    c_n² = 2/(ρAL [1 + sin(2z_n)/(2z_n)])
 ///
 /// Limits: β → ∞ is clamped (z = π/2, 3π/2, …); β = 0 is free, with a rigid-body mode z = 0,
@@ -50,8 +51,8 @@ struct BarModes {
                                          const Eigen::VectorXd& x);
 
 /// c(x) [m²/N] of the modes that are not in `modes`. It changes sign along the bar, as they do.
-/// @throws std::invalid_argument  a free bar without its rigid-body mode: what is left out would not
-///         be flexible. With it c is zero: uniform traction moves a free bar as a rigid body.
+/// @throws std::invalid_argument  a free bar without its rigid-body mode: what is left out would
+///         not be flexible. With it c is zero: uniform traction moves a free bar as a rigid body.
 [[nodiscard]] Eigen::VectorXd bar_residual_flexibility(const Bar& bar, const BarModes& modes,
                                                        const Eigen::VectorXd& x);
 

@@ -17,8 +17,8 @@ struct ChainSystem {
   Eigen::MatrixXd shapes;                ///< n × n_modes [1/√kg]
 };
 
-/// Modes of K x = ω² M x, mass-normalised, the largest entry of each positive. Frequencies that are zero
-/// to rounding are zero.
+/// Modes of K x = ω² M x, mass-normalised, the largest entry of each positive. Frequencies that are
+/// zero to rounding are zero.
 /// @param K  symmetric, positive semidefinite.  @param M  symmetric, positive definite.
 /// @throws std::invalid_argument  M is not positive definite, or K has a negative eigenvalue.
 [[nodiscard]] ChainSystem modes_of_matrices(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
@@ -30,7 +30,8 @@ struct ChainSystem {
 /// A symmetric matrix, written as a list of rows. @throws SceneError  not square, not symmetric.
 [[nodiscard]] Eigen::MatrixXd read_symmetric(const SectionReader& section, std::string_view key);
 
-/// The lowest modes, as many as `modes.count` asks for; all without it. @throws SceneError  too many.
+/// The lowest modes, as many as `modes.count` asks for; all without it.
+/// @throws SceneError  too many.
 void keep_lowest(ChainSystem& system, const SectionReader& modes);
 
 /// @param model  the section [model] of a chain.

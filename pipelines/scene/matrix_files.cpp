@@ -103,8 +103,8 @@ Eigen::Triplet<double> read_entry(Lines& lines, Eigen::Index n) {
   return {static_cast<int>(i - 1), static_cast<int>(j - 1), value};
 }
 
-/// Of a symmetric matrix one half is given: both would count each entry twice. Entries that stand twice in one half are
-/// parts of a sum, as an assembly writes them.
+/// Of a symmetric matrix one half is given: both would count each entry twice. Entries that stand
+/// twice in one half are parts of a sum, as an assembly writes them.
 void require_one_half(const Triplets& given, const std::filesystem::path& file) {
   std::vector<std::array<int, 3>> places;  // the larger number, the smaller, in which half
   places.reserve(given.size());

@@ -140,7 +140,8 @@ Eigen::MatrixXd shape_columns(const CsvTable& table, const std::string& stem, Ei
   return shapes;
 }
 
-/// 1/k = 1/k_local + c along one direction (theory section 14). @param place  of the column, for messages.
+/// 1/k = 1/k_local + c along one direction (theory section 14).
+/// @param place  of the column, for messages.
 double in_series(double local, double flexibility, const std::string& place) {
   if (local == 0.0 || flexibility == 0.0) return local;
   const double whole = 1.0 / local + flexibility;

@@ -117,7 +117,8 @@ std::string kind_of(const Reading& reading) {
   return *value;
 }
 
-/// One harmonic is meant by a scene that does not say and asks for what knows no more, or has all of them.
+/// One harmonic is meant by a scene that does not say and asks for what knows no more,
+/// or has all of them.
 void complete_harmonics(toml::table& given) {
   toml::table* response = given["response"].as_table();
   if (response == nullptr || response->contains("harmonics")) return;
@@ -288,7 +289,8 @@ std::optional<double> number_or_off(const SectionReader& s, std::string_view key
   return s.number_or_word_in(node, key, words);
 }
 
-/// @param closer_is_asked  the scene has a response.harmonic_tolerance of its own, which may be the smaller one.
+/// @param closer_is_asked  the scene has a response.harmonic_tolerance of its own,
+///                         which may be the smaller one.
 AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
                               SceneDescription& scene) {
   constexpr std::array<std::string_view, 2> budgets{"auto", "off"};

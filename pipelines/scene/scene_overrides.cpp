@@ -57,8 +57,8 @@ std::string quoted(const std::string& text) {
   return stream.str();
 }
 
-/// The value under the key "x". It is parsed even where it is plain text, so that it remembers where it
-/// came from and messages about it can say --set.
+/// The value under the key "x". It is parsed even where it is plain text, so that it remembers
+/// where it came from and messages about it can say --set.
 toml::table value_of(const std::string& text, const std::string& assignment) {
   const std::string source = "--set " + assignment;
   require_shallow_keys(text, "--set");

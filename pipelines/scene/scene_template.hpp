@@ -12,7 +12,8 @@ namespace microslip::pipelines {
 using TemplateTexts = std::map<std::string, std::string, std::less<>>;
 
 /// @param kind     blade, step, mesh, modes, modal, bar, chain or block.
-/// @param values   that stand in place of the examples, as TOML; an empty one leaves an optional key out.
+/// @param values   that stand in place of the examples, as TOML;
+///                 an empty one leaves an optional key out.
 /// @param remarks  lines more above a key.
 /// @throws SceneError  another kind.
 /// @note read_scene takes the template as it is (a mesh scene once its file is there).

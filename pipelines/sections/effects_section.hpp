@@ -1,5 +1,6 @@
 /// @file
-/// [effects]: which of them a scene switches, and settings that contradict the rest of it or each other.
+/// [effects]: which of them a scene switches, and settings that contradict the rest of it or each
+/// other.
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"

@@ -1,7 +1,8 @@
 /// @file
-/// The friction coefficient as a scene of any kind gives it: a number, an expression or a table over the patch
-/// (field.hpp), or a law, one row each in friction_section.cpp. A coefficient that depends on something new is a file
-/// that makes a FrictionDescription of the keys beside `law`, and its row there.
+/// The friction coefficient as a scene of any kind gives it: a number, an expression or a table
+/// over the patch (field.hpp), or a law, one row each in friction_section.cpp. A coefficient that
+/// depends on something new is a file that makes a FrictionDescription of the keys beside `law`,
+/// and its row there.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 /// @file
-/// Sections that only scenes with a mesh have: the blade or the mesh file, material, supports, modes, forces.
+/// Sections that only scenes with a mesh have: the blade or the mesh file, material, supports,
+/// modes, forces.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +27,9 @@ namespace microslip::pipelines {
 /// Of given modes; n_modes = 0: all there are.
 [[nodiscard]] BasisSettings read_given_basis(const SectionReader& s);
 [[nodiscard]] ModesDescription read_modes(const SectionReader& s, int n_modes);
-/// Attachment shapes need a local stiffness to stand behind: a rigid contact takes the residual stiffness instead
-/// where the scene does not say. @param s  [modes].   @return  that it did so, or nothing.
+/// Attachment shapes need a local stiffness to stand behind: a rigid contact takes the residual
+/// stiffness instead where the scene does not say. @param s  [modes].
+/// @return  that it did so, or nothing.
 /// @throws SceneError  it says attachment.
 [[nodiscard]] std::string settle_residual(SectionReader& s, BasisSettings& basis,
                                           const ContactDescription& contact);

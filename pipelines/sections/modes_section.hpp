@@ -1,6 +1,6 @@
 /// @file
-/// What the sections of several kinds share: damping ratios, and the four sections of the kinds that
-/// have formulas for their modes (bar, chain, block).
+/// What the sections of several kinds share: damping ratios, and the four sections of the kinds
+/// that have formulas for their modes (bar, chain, block).
 #pragma once
 
 #include "pipelines/description/scene_description.hpp"
@@ -15,8 +15,8 @@ struct LeanSections {
   SectionReader excitation;
 };
 
-/// `damping_ratio`: one number, a list, or { alpha = …, beta = … }. That a list fits the modes is checked
-/// where the modes are known.
+/// `damping_ratio`: one number, a list, or { alpha = …, beta = … }. That a list fits the modes is
+/// checked where the modes are known.
 /// @throws SceneError  not a number, negative, another key.
 [[nodiscard]] std::variant<std::vector<double>, RayleighDamping> read_damping(
     const SectionReader& modes);

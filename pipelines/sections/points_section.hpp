@@ -1,5 +1,6 @@
 /// @file
-/// The [points] section, and the places of a mesh that other sections name: `at` of a force or of the output.
+/// The [points] section, and the places of a mesh that other sections name:
+/// `at` of a force or of the output.
 #pragma once
 
 #include <string>
@@ -23,7 +24,8 @@ namespace microslip::pipelines {
 /// Coordinates [x, y, z] of a key [m]. @throws SceneError  it is no such list.
 [[nodiscard]] Eigen::Vector3d coordinates_in(const SectionReader& s, std::string_view key);
 
-/// The name to look for in the mesh: that of an entry of [points] that is another name of a set is the set's.
+/// The name to look for in the mesh: that of an entry of [points] that is another name of a set is
+/// the set's.
 [[nodiscard]] std::string name_in_mesh(const std::vector<PointDescription>& points,
                                        std::string name);
 

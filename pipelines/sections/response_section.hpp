@@ -1,5 +1,6 @@
 /// @file
-/// The [response] section: frequency range, method, harmonics, preloads, search for a best value, maps.
+/// The [response] section: frequency range, method, harmonics, preloads, search for a best value,
+/// maps.
 #pragma once
 
 #include <string_view>

@@ -13,7 +13,8 @@
 namespace microslip::pipelines {
 
 /// Nothing without an axis; speed 0 where there is only an axis.
-/// @throws SceneError  a speed without an axis, a speed below 0, an axis without direction; with file, line and key.
+/// @throws SceneError  a speed without an axis, a speed below 0, an axis without direction;
+///         with file, line and key.
 [[nodiscard]] std::optional<fem::Rotation> read_rotation(SectionReader s);
 
 /// Forces and pressures. @param points  receives places given by coordinates.
@@ -21,8 +22,9 @@ namespace microslip::pipelines {
 [[nodiscard]] StaticLoads read_static_loads(SectionReader s, std::vector<PointDescription>& points);
 
 /// Whether contact.preload = "static", the loads, the supports and the response fit together.
-/// @throws SceneError  static loads that nothing uses; a static preload of some contacts alone, without loads,
-///         without supports, or in modes of another code; response.preload = "static" without one.
+/// @throws SceneError  static loads that nothing uses; a static preload of some contacts alone,
+///         without loads, without supports, or in modes of another code;
+///         response.preload = "static" without one.
 void require_static_preload(const SceneDescription& scene);
 
 /// [rad/s] of "3000 rpm", "314 rad/s", "50 Hz" (turns per second); a number alone is in rad/s.

@@ -1,5 +1,6 @@
 /// @file
-/// Natural frequencies of a structure over the speed it rotates at, and the speeds at which an engine order meets one.
+/// Natural frequencies of a structure over the speed it rotates at,
+/// and the speeds at which an engine order meets one.
 #pragma once
 
 #include <functional>
@@ -20,8 +21,8 @@ struct CampbellRequest {
 
 struct CampbellDiagram {
   Eigen::VectorXd speeds;  ///< Ω [rad/s]
-  Eigen::MatrixXd
-      frequency;  ///< ω [rad/s], n_speeds × n_modes; each row ascending: modes are numbered anew at each speed
+  /// ω [rad/s], n_speeds × n_modes; each row ascending: modes are numbered anew at each speed.
+  Eigen::MatrixXd frequency;
 };
 
 /// An engine order meets a mode: ω(Ω) = kΩ.
@@ -31,11 +32,12 @@ struct Crossing {
   double speed = 0.0;     ///< Ω [rad/s]
 };
 
-/// One mesh for all speeds; each begins from the static equilibrium of the one before. Without contact.
+/// One mesh for all speeds; each begins from the static equilibrium of the one before.
+/// Without contact.
 /// @param scene  has a mesh of elements and an axis.
 /// @param tell   called with each speed and its frequencies [rad/s].
-/// @throws SceneError  the scene has no elements or no axis; fem::EigenError  see fem::Structure::rotate();
-///         InterruptedError.
+/// @throws SceneError  the scene has no elements or no axis; fem::EigenError  see
+///         fem::Structure::rotate(); InterruptedError.
 [[nodiscard]] CampbellDiagram campbell_diagram(
     const mesh::Mesh& mesh, const SceneDescription& scene, const Eigen::VectorXd& speeds,
     const std::function<void(double, const Eigen::VectorXd&)>& tell);
@@ -47,8 +49,8 @@ void take_part_in_campbell(std::string_view bytes);
 /// @throws SceneError  as campbell_diagram().
 void require_rotation(const SceneDescription& scene);
 
-/// Between neighbouring speeds ω² is taken as linear in Ω², which stiffening and softening are to first order.
-/// In order of engine order, then mode.
+/// Between neighbouring speeds ω² is taken as linear in Ω², which stiffening and softening are to
+/// first order. In order of engine order, then mode.
 [[nodiscard]] std::vector<Crossing> crossings(const CampbellDiagram& diagram,
                                               int highest_engine_order);
 

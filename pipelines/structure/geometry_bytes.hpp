@@ -8,7 +8,8 @@
 
 namespace microslip::pipelines {
 
-/// Geometry, sizes and names, and the mesher itself: two scenes with the same bytes have the same mesh.
+/// Geometry, sizes and names, and the mesher itself: two scenes with the same bytes have the same
+/// mesh.
 /// @param scene  of kind "blade" or "step".
 [[nodiscard]] std::string geometry_of(const SceneDescription& scene);
 

@@ -65,7 +65,8 @@ std::vector<Eigen::Index> columns_of(const ModesOfFile& read, const SceneDescrip
   return columns;
 }
 
-/// Two bodies may touch: which node of two in one place is that of the mesh nothing tells, unless they move as one.
+/// Two bodies may touch: which node of two in one place is that of the mesh nothing tells,
+/// unless they move as one.
 void check_places(const mesh::Mesh& mesh, const ModesOfFile& read, const Eigen::MatrixX3d& nodes,
                   const std::vector<Eigen::Index>& rows, const ModesFile& file) {
   constexpr double apart = 1e-3;  // of the largest displacement of the mode
@@ -89,9 +90,9 @@ bool is_quadratic(const mesh::Mesh& mesh) {
   });
 }
 
-/// Young's modulus that frequency and strain energy of each mode tell: E = ω² φᵀMφ / (φᵀKφ for E = 1).
-/// One of all modes, whatever they are scaled by. Linear elements of other codes are softer than ours: nothing is told
-/// of them. @param mass  φᵀMφ.
+/// Young's modulus that frequency and strain energy of each mode tell: E = ω² φᵀMφ / (φᵀKφ for E =
+/// 1). One of all modes, whatever they are scaled by. Linear elements of other codes are softer
+/// than ours: nothing is told of them. @param mass  φᵀMφ.
 void check_stiffness(const mesh::Mesh& mesh, const SceneDescription& scene,
                      const Eigen::VectorXd& mass, StructureModes& modes) {
   constexpr double poissons_ratio = 0.3;  // of another one the moduli move by some percent together
@@ -137,7 +138,8 @@ void check_stiffness(const mesh::Mesh& mesh, const SceneDescription& scene,
       "material, rotation and supports that give move it as well");
 }
 
-/// All modal masses are one number that another density makes 1 kg: "", unless a body may have that.
+/// All modal masses are one number that another density makes 1 kg: "",
+/// unless a body may have that.
 std::string other_density(const Eigen::VectorXd& mass, double density) {
   constexpr double one_number = 1.01;
   constexpr double least = 100.0;  // kg/m³

@@ -1,7 +1,7 @@
 /// @file
-/// Modes of another code → a modal basis on the mesh of the scene. share/scripts/convert_modes.py reads the file; here
-/// its nodes are found in the mesh by their places, whatever their order, and its shapes are checked against the mass
-/// that mesh and density give.
+/// Modes of another code → a modal basis on the mesh of the scene. share/scripts/convert_modes.py
+/// reads the file; here its nodes are found in the mesh by their places, whatever their order, and
+/// its shapes are checked against the mass that mesh and density give.
 #pragma once
 
 #include <filesystem>
@@ -22,14 +22,15 @@ struct ModesOfFile {
   Eigen::Index n_attachment = 0;
 };
 
-/// @param deck  of the modes: has the places of nodes that a punched file (.pch) tells by their numbers.
+/// @param deck  of the modes: has the places of nodes that a punched file (.pch) tells by their
+///              numbers.
 /// @throws SceneError  a damaged file, one without modes: what is there, where.
 [[nodiscard]] ModesOfFile read_modes_of(const std::filesystem::path& file,
                                         const std::filesystem::path& deck);
 
 /// The basis of a scene of kind "modes", and what is to be said about it.
-/// @throws SceneError  a node of the mesh without modes, fewer modes than asked for, no attachment shapes where they
-///         are asked for, shapes that are not mass-normalised.
+/// @throws SceneError  a node of the mesh without modes, fewer modes than asked for, no attachment
+///         shapes where they are asked for, shapes that are not mass-normalised.
 [[nodiscard]] StructureModes given_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
 
 }  // namespace microslip::pipelines

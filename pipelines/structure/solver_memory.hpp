@@ -1,6 +1,6 @@
 /// @file
-/// Whether memory holds the solution for modes, told before it starts: a system without memory ends programs without
-/// a word.
+/// Whether memory holds the solution for modes, told before it starts: a system without memory ends
+/// programs without a word.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace microslip::pipelines {
 
 struct SolverMemory {
   fem::SolverKind solver = fem::SolverKind::direct;
-  double direct_mb =
-      0.0;  ///< forecast, up to 40 % more than is used in the end; beside the program, which is there already
+  /// Forecast, up to 40 % more than is used in the end; beside the program, which is there already.
+  double direct_mb = 0.0;
   double iterative_mb = 0.0;  ///< the same
   fem::AvailableMemory available;
 
@@ -29,8 +29,8 @@ struct SolverMemory {
 /// What does not fit and what would; "" where the forecast is below what is available.
 [[nodiscard]] std::string memory_warning(const SolverMemory& memory);
 
-/// @throws fem::MemoryError  the forecast, less a third that it may be wrong by, is more than is available. In between the
-///         factorisation asks once more, when MUMPS knows what it needs.
+/// @throws fem::MemoryError  the forecast, less a third that it may be wrong by, is more than is
+///         available. In between the factorisation asks once more, when MUMPS knows what it needs.
 void require_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
 
 }  // namespace microslip::pipelines

@@ -6,11 +6,13 @@
 
 namespace microslip::pipelines {
 
-/// With the count that none is missed; anchored at 115 000 degrees of freedom (factorisation of a sparse
-/// three-dimensional mesh: time as n^1.5). Seconds of one core, right within a factor of two.
+/// With the count that none is missed; anchored at 115 000 degrees of freedom (factorisation of a
+/// sparse three-dimensional mesh: time as n^1.5). Seconds of one core,
+/// right within a factor of two.
 [[nodiscard]] double modes_seconds(double degrees_of_freedom, int n_modes);
 
-/// @throws ExhaustedError  half of the forecast, which it may be wrong by, is more than the budget of time leaves.
+/// @throws ExhaustedError  half of the forecast, which it may be wrong by,
+///         is more than the budget of time leaves.
 void require_time(const mesh::Mesh& mesh, int n_modes);
 
 }  // namespace microslip::pipelines

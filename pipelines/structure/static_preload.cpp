@@ -22,8 +22,8 @@
 namespace microslip::pipelines {
 namespace {
 
-/// The freedoms of all contact faces: of plane ones along the normal, of curved ones, whose points have normals of their
-/// own, along x, y and z.
+/// The freedoms of all contact faces: of plane ones along the normal, of curved ones, whose points
+/// have normals of their own, along x, y and z.
 struct FaceFreedoms {
   std::vector<Eigen::Index> nodes;
   std::vector<Eigen::RowVector3d> directions;

@@ -1,7 +1,7 @@
 /// @file
-/// The preload that static loads make (theory section 2.1): the finite elements are condensed to the normal
-/// freedoms of the contact faces, on which a contact that cannot pull is solved without friction. All contacts of
-/// a scene together: one that closes moves the others.
+/// The preload that static loads make (theory section 2.1): the finite elements are condensed to
+/// the normal freedoms of the contact faces, on which a contact that cannot pull is solved without
+/// friction. All contacts of a scene together: one that closes moves the others.
 #pragma once
 
 #include <string>
@@ -30,8 +30,8 @@ namespace microslip::pipelines {
 [[nodiscard]] contact::ElasticFace static_face(const mesh::Mesh& mesh,
                                                const SceneDescription& scene);
 
-/// Gives the patches of a model the preload that the face carries, at 1 N in all, and the model its total. Open
-/// points have gaps.
+/// Gives the patches of a model the preload that the face carries, at 1 N in all, and the model its
+/// total. Open points have gaps.
 /// @throws RefusedError  no contact is pressed; with the distances that are left.
 void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const SceneDescription& scene,
                         const contact::ElasticFace& face);

@@ -38,7 +38,8 @@
 namespace microslip::pipelines {
 namespace {
 
-/// Looks a name of the scene up in the mesh. @throws SceneError  it is not there: where it was asked for.
+/// Looks a name of the scene up in the mesh.
+/// @throws SceneError  it is not there: where it was asked for.
 template <typename LookUp>
 void require_name(const std::string& place, const LookUp& look_up) {
   try {
@@ -76,7 +77,8 @@ mesh::Mesh mesh_of(const SceneDescription& scene, const std::filesystem::path& m
   return mesh::read_gmsh(mesh_file);
 }
 
-/// The contacts as their static shapes see them. A stiffness matters where the degree is chosen by it.
+/// The contacts as their static shapes see them. A stiffness matters where the degree is chosen by
+/// it.
 TaskFace face_of(const mesh::Mesh& mesh, const ContactDescription& contact,
                  const BasisSettings& basis) {
   TaskFace face{mesh.surface(contact.surface), face_frame(mesh, contact), Eigen::Vector3d::Zero()};

@@ -12,8 +12,9 @@
 
 namespace microslip::pipelines {
 
-/// The mesh of a scene: the parametric blade or a STEP file is meshed into `mesh_file`, or the mesh an earlier run has
-/// made of the same is put there; a given mesh is read. It knows the points of the scene by name.
+/// The mesh of a scene: the parametric blade or a STEP file is meshed into `mesh_file`, or the mesh
+/// an earlier run has made of the same is put there; a given mesh is read.
+/// It knows the points of the scene by name.
 /// @throws mesh::MeshError, std::invalid_argument  see mesh_blade, mesh_step_model and read_mesh.
 /// @throws SceneError  see name_points().
 [[nodiscard]] mesh::Mesh obtain_mesh(const SceneDescription& scene,
@@ -23,19 +24,23 @@ namespace microslip::pipelines {
 [[nodiscard]] mesh::Mesh reread_mesh(const SceneDescription& scene,
                                      const std::filesystem::path& mesh_file);
 
-/// "12345 nodes, 6789 elements, volume … m³, mass … kg, bounding box …" and the names of the surfaces.
+/// "12345 nodes, 6789 elements, volume … m³, mass … kg,
+/// bounding box …" and the names of the surfaces.
 [[nodiscard]] std::string describe_mesh(const mesh::Mesh& mesh, double density);
 
 /// Checks all names of the scene against the mesh before anything is solved.
-/// @throws mesh::MeshError, SceneError  a surface or point that is not there, axes that a face does not have (require_frames).
+/// @throws mesh::MeshError, SceneError  a surface or point that is not there, axes that a face does
+///         not have (require_frames).
 void check_names(const mesh::Mesh& mesh, const SceneDescription& scene);
 
-/// Assembles and solves, of a structure that rotates about its static equilibrium; modes of another code are read
-/// instead (given_modes.hpp). What an earlier run has solved is taken from there (system/result_cache.hpp). The
-/// residual flexibility of a structure that floats is that of inertia relief.
+/// Assembles and solves, of a structure that rotates about its static equilibrium; modes of another
+/// code are read instead (given_modes.hpp). What an earlier run has solved is taken from there
+/// (system/result_cache.hpp). The residual flexibility of a structure that floats is that of
+/// inertia relief.
 [[nodiscard]] StructureModes solve_structure(const mesh::Mesh& mesh, const SceneDescription& scene);
 
-/// The same where an earlier run has kept it: nothing is solved but the statics of a static preload. Empty: it has not.
+/// The same where an earlier run has kept it: nothing is solved but the statics of a static
+/// preload. Empty: it has not.
 [[nodiscard]] std::optional<StructureModes> kept_structure(const mesh::Mesh& mesh,
                                                            const SceneDescription& scene);
 

@@ -1,6 +1,7 @@
 /// @file
-/// What is solved of a structure as plain values: everything its modes, residual flexibility and attachment shapes follow
-/// from, and nothing else. As bytes it is what ranks tell each other, and what a result is known by.
+/// What is solved of a structure as plain values: everything its modes, residual flexibility and
+/// attachment shapes follow from, and nothing else. As bytes it is what ranks tell each other, and
+/// what a result is known by.
 #pragma once
 
 #include <optional>
@@ -55,8 +56,8 @@ struct StructureTask {
       forces;  ///< whose static shapes are wanted, 3 n_nodes × m; scaled, see loads_as_shapes()
 };
 
-/// Columns of loads by their shape alone: the largest component is 1, the last digits are cut off. The same whatever the
-/// amplitude was; columns that are zero go.
+/// Columns of loads by their shape alone: the largest component is 1, the last digits are cut off.
+/// The same whatever the amplitude was; columns that are zero go.
 [[nodiscard]] Eigen::MatrixXd loads_as_shapes(const Eigen::MatrixXd& loads);
 
 /// Two tasks with the same bytes have the same solution. Of names nothing is in them.

@@ -1,6 +1,6 @@
 /// @file
-/// Values as bytes, exact, for the build that wrote them to read back: numbers, texts, lists, dense matrices, and
-/// structs whose members are told by a function members() found beside the call.
+/// Values as bytes, exact, for the build that wrote them to read back: numbers, texts, lists, dense
+/// matrices, and structs whose members are told by a function members() found beside the call.
 #pragma once
 
 #include <array>

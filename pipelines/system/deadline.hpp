@@ -10,8 +10,8 @@ void begin_deadline(double seconds);
 [[nodiscard]] double seconds_spent();
 [[nodiscard]] double seconds_left();
 
-/// The same without a tenth of the time, at least two seconds or half of a shorter one, that is left to write down what
-/// there is.
+/// The same without a tenth of the time, at least two seconds or half of a shorter one, that is
+/// left to write down what there is.
 [[nodiscard]] double seconds_to_work();
 
 /// Nothing that takes long is to be begun or gone on with: seconds_to_work() are over.

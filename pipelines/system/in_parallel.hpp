@@ -14,8 +14,9 @@
 
 namespace microslip::pipelines {
 
-/// Runs task(i) for i < n on `jobs` threads; the first exception is thrown on when all have ended. Threads that find no
-/// task left lend their cores to those still at work (contact/spare_cores.hpp).
+/// Runs task(i) for i < n on `jobs` threads; the first exception is thrown on when all have ended.
+/// Threads that find no task left lend their cores to those still at work
+/// (contact/spare_cores.hpp).
 template <typename Task>
 void in_parallel(std::size_t n, int jobs, const Task& task) {
   if (n == 0) return;

@@ -4,8 +4,9 @@
 
 namespace microslip::pipelines {
 
-/// While it lives the signals set the flag; a second one ends the process at once. Afterwards they have their default
-/// action again: what follows the work, such as the end of a library, can be ended.
+/// While it lives the signals set the flag; a second one ends the process at once. Afterwards they
+/// have their default action again: what follows the work, such as the end of a library,
+/// can be ended.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -16,7 +17,8 @@ class InterruptWatch {
   InterruptWatch& operator=(InterruptWatch&&) = delete;
 };
 
-/// While it lives no signal ends the process: its owner promises to, within a second, and writes down what there is.
+/// While it lives no signal ends the process: its owner promises to, within a second,
+/// and writes down what there is.
 class PromptEnd {
  public:
   PromptEnd();

@@ -22,7 +22,8 @@ enum class MeshFormat { gmsh, converted, unknown };
 /// What Nastran punches: .pch, in capitals or not.
 [[nodiscard]] bool is_punch_file(const std::filesystem::path& file);
 
-/// The mesh of a file of modes where none is named: the deck of that name beside it, or the file itself; empty: none is there.
+/// The mesh of a file of modes where none is named: the deck of that name beside it, or the file
+/// itself; empty: none is there.
 [[nodiscard]] std::filesystem::path mesh_beside(const std::filesystem::path& modes);
 
 /// ".msh, .inp, …", for messages.

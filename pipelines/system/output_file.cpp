@@ -80,7 +80,8 @@ void write_through(const std::filesystem::path& file, std::string_view content) 
   if (::close(descriptor) != 0) fail(file, "cannot be completed", errno);
 }
 
-/// The part of a path that is there and is no folder: the path itself, or one on the way to it. Empty: none.
+/// The part of a path that is there and is no folder: the path itself, or one on the way to it.
+/// Empty: none.
 std::filesystem::path file_on_the_way(const std::filesystem::path& path) {
   std::error_code code;
   for (std::filesystem::path part = std::filesystem::absolute(path, code); part.has_relative_path();

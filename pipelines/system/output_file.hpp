@@ -1,7 +1,7 @@
 /// @file
 /// Files that are there whole or not at all: written beside their place, then renamed into it.
-/// Every writer goes through here, so that a full disk or a folder without permission is told in one
-/// way: an ExhaustedError that names the path.
+/// Every writer goes through here, so that a full disk or a folder without permission is told in
+/// one way: an ExhaustedError that names the path.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,18 @@ namespace microslip::pipelines {
 
 /// What is asked for as a folder can be one: no file stands there, or on the way to it.
 /// @param option  that names it, for the message.
-/// @throws SceneError  a file does; the message names it. What cannot be looked at is told when it is written.
+/// @throws SceneError  a file does; the message names it.
+///         What cannot be looked at is told when it is written.
 void require_folder_name(const std::filesystem::path& folder, const std::string& option);
 
 /// What is asked for as a file can be one: no folder stands there, and no file on the way to it.
 /// @throws SceneError  otherwise.
 void require_file_name(const std::filesystem::path& file, const std::string& option);
 
-/// Writes `content` to a temporary file in the same folder and renames it to `file`. An older `file`
-/// stays as it was until the new one is complete; nothing is left behind on failure. A link is followed, and a
-/// device or pipe, such as /dev/stdout, is written to as it is: a rename would put a file in its place.
+/// Writes `content` to a temporary file in the same folder and renames it to `file`. An older
+/// `file` stays as it was until the new one is complete; nothing is left behind on failure. A link
+/// is followed, and a device or pipe, such as /dev/stdout, is written to as it is:
+/// a rename would put a file in its place.
 /// @throws ExhaustedError  the folder is missing, not writable or full; names path and reason.
 void write_whole(const std::filesystem::path& file, std::string_view content);
 

@@ -39,7 +39,8 @@ std::string value_of(const char* variable) {
   return value == nullptr ? std::string() : value;
 }
 
-/// Another process has it: false. Where files cannot be locked nobody waits, and files are written whole all the same.
+/// Another process has it: false. Where files cannot be locked nobody waits,
+/// and files are written whole all the same.
 bool lock(int descriptor, std::uint64_t number) {
   struct flock range = {};
   range.l_type = F_WRLCK;

@@ -1,10 +1,12 @@
 /// @file
-/// What earlier runs have solved, by what it followed from: a folder of files that any number of runs share.
+/// What earlier runs have solved, by what it followed from:
+/// a folder of files that any number of runs share.
 ///
-/// The name of a file is the fingerprint of all its inputs, its first line tells the program that wrote it. Files are
-/// written whole; runs that want the same result at the same time wait for the first. A file that is damaged, or
-/// of another program, is solved for again and replaced; one that cannot be written is done without. Files that
-/// were not used for longest go where all together would be larger than allowed.
+/// The name of a file is the fingerprint of all its inputs, its first line tells the program that
+/// wrote it. Files are written whole; runs that want the same result at the same time wait for the
+/// first. A file that is damaged, or of another program, is solved for again and replaced; one that
+/// cannot be written is done without. Files that were not used for longest go where all together
+/// would be larger than allowed.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +18,8 @@
 
 namespace microslip::pipelines {
 
-/// The folder: MICROSLIP_CACHE, else microslip in XDG_CACHE_HOME, else in ~/.cache. Empty: MICROSLIP_CACHE is "off", or
-/// there is no home.
+/// The folder: MICROSLIP_CACHE, else microslip in XDG_CACHE_HOME, else in ~/.cache. Empty:
+/// MICROSLIP_CACHE is "off", or there is no home.
 [[nodiscard]] std::filesystem::path cache_folder();
 
 class ResultCache {
@@ -61,7 +63,8 @@ class ResultCache {
     int lock_ = -1;
   };
 
-  /// What was kept, as an entry finds it, for who can do without: another run that is making it is not waited for.
+  /// What was kept, as an entry finds it, for who can do without:
+  /// another run that is making it is not waited for.
   [[nodiscard]] std::optional<std::string> kept(std::string_view kind,
                                                 std::string_view inputs) const;
 

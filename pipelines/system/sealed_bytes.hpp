@@ -1,5 +1,6 @@
 /// @file
-/// Bytes of an earlier run that another may read: a line that tells who wrote them, their fingerprint, and they.
+/// Bytes of an earlier run that another may read: a line that tells who wrote them,
+/// their fingerprint, and they.
 #pragma once
 
 #include <filesystem>

@@ -17,8 +17,9 @@ enum class Tiny { refused, zero };
 class CsvTable {
  public:
   /// @param name  how messages call the table, e.g. the file.
-  /// @throws SceneError  "name:line: …": no header, a name twice, a line of over 1 MB, a row of another length, a cell that
-  ///         is neither 0 nor of a size from 1e-100 to 1e100 (the column `id` may hold any text).
+  /// @throws SceneError  "name:line: …": no header, a name twice, a line of over 1 MB, a row of
+  ///         another length, a cell that is neither 0 nor of a size from 1e-100 to 1e100 (the
+  ///         column `id` may hold any text).
   static CsvTable parse(std::string_view text, const std::string& name, Tiny tiny = Tiny::refused);
   /// @throws SceneError  the file is missing or over 1 GB; otherwise as parse().
   static CsvTable read(const std::filesystem::path& file, Tiny tiny = Tiny::refused);

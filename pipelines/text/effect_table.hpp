@@ -1,10 +1,12 @@
 /// @file
-/// The effects a scene may be simulated with, one row each: key, indicator, threshold, what is lost without it. Keys of
-/// [effects] (scene_keys.cpp), contradictions (sections/effects_section), choice and reasons (effects/effects), checks after
-/// a run (accuracy/effect_bounds) and every threshold come from here.
+/// The effects a scene may be simulated with, one row each: key, indicator, threshold, what is lost
+/// without it. Keys of [effects] (scene_keys.cpp), contradictions (sections/effects_section),
+/// choice and reasons (effects/effects), checks after a run (accuracy/effect_bounds) and every
+/// threshold come from here.
 ///
-/// An indicator is dimensionless and told before a run, from the linear limits of the structure: every contact point
-/// free, every one stuck (theory section 13.2). Above its threshold the effect is called for.
+/// An indicator is dimensionless and told before a run, from the linear limits of the structure:
+/// every contact point free, every one stuck (theory section 13.2).
+/// Above its threshold the effect is called for.
 #pragma once
 
 #include <algorithm>
@@ -72,7 +74,8 @@ inline constexpr std::array effect_table{
               "a solution that no sweep meets is not seen"},
 };
 
-/// Motion of given modes along r is meant, unless it is rounding: their threshold of `second_direction`.
+/// Motion of given modes along r is meant, unless it is rounding:
+/// their threshold of `second_direction`.
 inline constexpr double least_given_motion = 1e-9;
 
 /// Change of a highest peak by an effect left out from which a run warns of it.

@@ -1,6 +1,6 @@
 /// @file
-/// Values of a JSON file that know where they stand in it, so that a damaged file is told by its place:
-/// "summary.json: curves[2].peak.frequency_Hz: expected a number, found null".
+/// Values of a JSON file that know where they stand in it, so that a damaged file is told by its
+/// place: "summary.json: curves[2].peak.frequency_Hz: expected a number, found null".
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ class JsonEntry {
   /// Whether the key is there and holds anything: files of older versions lack some.
   /// @throws SceneError  this is no object.
   [[nodiscard]] bool has(const std::string& key) const;
-  /// All below throw SceneError where the key is missing or holds something else; the message names the
-  /// place, what was expected and what was found.
+  /// All below throw SceneError where the key is missing or holds something else; the message names
+  /// the place, what was expected and what was found.
   [[nodiscard]] JsonEntry at(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key) const { return at(key).as_number(); }
   [[nodiscard]] long integer(const std::string& key) const;

@@ -6,7 +6,8 @@
 
 namespace microslip::pipelines {
 
-/// "280 ± 20": value and half width to the first digit of the half width, to two where that is a one.
+/// "280 ± 20": value and half width to the first digit of the half width,
+/// to two where that is a one.
 /// @param bar  relative half width, > 0; below 1e-12 the value alone, in full.
 [[nodiscard]] std::string with_half_width(double value, double bar);
 

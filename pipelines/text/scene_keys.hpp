@@ -38,13 +38,15 @@ struct SectionSpec {
   std::span<const KeySpec> keys;
 };
 
-/// Keys of a section by the name of its table: "material"; "model.blade" and the like where a kind has
-/// keys of its own; "face", "force", "output", "contact.chain.point" and their like the inline tables of that name;
-/// "modal.point" the columns of contact points, where "phi_u_N" stands for one of every mode.
+/// Keys of a section by the name of its table: "material"; "model.blade" and the like where a kind
+/// has keys of its own; "face", "force", "output", "contact.chain.point" and their like the inline
+/// tables of that name; "modal.point" the columns of contact points,
+/// where "phi_u_N" stands for one of every mode.
 /// @throws std::logic_error  no such section: a mistake of the program.
 [[nodiscard]] SectionSpec section_spec(std::string_view name);
 
-/// Keys of a section as scenes of a kind know it: "section.kind" where there is one, else "section".
+/// Keys of a section as scenes of a kind know it: "section.kind" where there is one,
+/// else "section".
 /// @throws std::logic_error  as above.
 [[nodiscard]] SectionSpec section_spec(std::string_view section, std::string_view kind);
 

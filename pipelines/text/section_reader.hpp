@@ -1,6 +1,6 @@
 /// @file
-/// One section of a scene against its table of keys: unknown and missing keys, types, units and ranges
-/// are told here, with file and line; what was read is written into the completed scene.
+/// One section of a scene against its table of keys: unknown and missing keys, types, units and
+/// ranges are told here, with file and line; what was read is written into the completed scene.
 #pragma once
 
 #include <functional>

@@ -17,8 +17,8 @@ constexpr std::size_t searched_length =
 /// The part of a line that may hold a key or the name of a section.
 std::string searched(std::string_view line) { return std::string(line.substr(0, searched_length)); }
 
-/// section.key that the text breaks off in, as far as its lines tell; empty in front of the first key. A guess for a
-/// message: what cannot be parsed has no keys to ask for.
+/// section.key that the text breaks off in, as far as its lines tell; empty in front of the first
+/// key. A guess for a message: what cannot be parsed has no keys to ask for.
 std::string key_at_end_of(std::string_view text) {
   static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_][\w.\- ]*?)\s*\]\]?\s*(#.*)?\r?$)");
   static const std::regex assignment(R"(^\s*([\w.\-]+)\s*=)");
@@ -58,7 +58,8 @@ std::size_t offset_of(const toml::source_position& place, std::string_view text)
   return at;
 }
 
-/// Offset behind the quoted text that begins at `begin`; its line's end where the quote is not closed.
+/// Offset behind the quoted text that begins at `begin`;
+/// its line's end where the quote is not closed.
 std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   const char mark = text[begin];
   const bool many_lines = text.substr(begin, 3) == std::string(3, mark);
@@ -71,7 +72,8 @@ std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-/// A number and the unit behind it that stand at `at` without quotes; empty: something else stands there.
+/// A number and the unit behind it that stand at `at` without quotes; empty:
+/// something else stands there.
 std::string unquoted_quantity(std::string_view text, std::size_t at) {
   static const std::regex number(R"([=\[,]\s*([-+]?[\d.][-+\d.eE]*)\s*$)");
   static const std::regex unit(R"(^\s*([A-Za-z%\x80-\xff][^,\]}#"'\n\r]*))");

@@ -9,7 +9,8 @@
 
 namespace microslip::pipelines {
 
-/// To be asked before a text is parsed: the parser descends by a call for each part of a dotted key, and its stack ends.
+/// To be asked before a text is parsed: the parser descends by a call for each part of a dotted
+/// key, and its stack ends.
 /// @throws SceneError  a key of more than 100 parts.
 void require_shallow_keys(std::string_view text, const std::string& name);
 

@@ -43,7 +43,8 @@ Unit parse_unit(const std::string& text) {
 }
 
 /// Base units and their powers, e.g. "m-1.kg.s-2", "s-1.rad", "1". Compared instead of
-/// ut_are_convertible(), which takes seconds for hertz (by the reciprocal) and radians for pure numbers.
+/// ut_are_convertible(), which takes seconds for hertz (by the reciprocal) and radians for pure
+/// numbers.
 std::string dimension_of(const Unit& unit) {
   std::array<char, 256> text{};
   const int length = ut_format(unit.get(), text.data(), text.size(), UT_ASCII | UT_DEFINITION);
@@ -57,8 +58,8 @@ std::string dimension_of(const Unit& unit) {
   return std::string(dimension.substr(0, dimension.find(" @ ")));  // degC is "K @ 273.15"
 }
 
-/// What to convert a unit to where `unit` is expected: turns and angles per time are frequencies, a turn per second
-/// is one hertz.
+/// What to convert a unit to where `unit` is expected: turns and angles per time are frequencies, a
+/// turn per second is one hertz.
 std::string counterpart(const Unit& found, const std::string& unit) {
   const bool turns = unit == "Hz" && dimension_of(found) == dimension_of(parse_unit("rad/s"));
   return turns ? "revolution/s" : unit;
@@ -85,7 +86,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Whether a decimal number stands for less than 1: of those no double holds, the ones that are nearest to 0.
+/// Whether a decimal number stands for less than 1: of those no double holds,
+/// the ones that are nearest to 0.
 bool is_below_one(std::string_view number) {
   long order = 0;  // of the first digit that is not 0: above 0 before the decimal point
   bool in_fraction = false;
@@ -108,7 +110,8 @@ bool is_below_one(std::string_view number) {
   return order + power <= 0;
 }
 
-/// Length of the number at the front of the text; 0: there is none. What is too small for a double is 0.
+/// Length of the number at the front of the text; 0: there is none.
+/// What is too small for a double is 0.
 /// @throws UnitError  a number too large for a double.
 std::size_t number_length(std::string_view text, double& value) {
   const bool plus = text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.');

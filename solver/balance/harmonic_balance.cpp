@@ -31,7 +31,8 @@ void check(const Scene& scene) {
           "damping ratios, output and excitation must be finite");
 }
 
-/// L of one harmonic, [dynamic, −viscous; viscous, dynamic] over its sine and cosine: an entry per mode.
+/// L of one harmonic, [dynamic, −viscous; viscous, dynamic] over its sine and cosine:
+/// an entry per mode.
 struct HarmonicBlock {
   Eigen::ArrayXd dynamic;
   Eigen::ArrayXd viscous;

@@ -2,8 +2,9 @@
 /// Harmonic-balance equations of a scene (theory section 13; paper A, eqs 30–38), for any set of
 /// harmonics:
 ///
-///   R(x, ω) = L(ω) x + G(x, ω) − Q = 0,     x = harmonics of q, in the order of Harmonics::vector()
-///                                               without those that the set leaves out, which are zero
+///   R(x, ω) = L(ω) x + G(x, ω) − Q = 0,     x = harmonics of q, in the order of
+///                                               Harmonics::vector() without those that the set
+///                                               leaves out, which are zero
 ///
 ///   mean        L: ω_n²
 ///   harmonic k  L: [ ω_n² − k²ω²    −2ζ_n ω_n kω  ]  on (sine, cosine) of mode n
@@ -29,11 +30,13 @@ struct BalanceEvaluation {
   double defect = 0.0;  ///< what ‖R‖ may be off by because G is not known better [N/√kg]
 };
 
-/// With the workspace of its contact: whoever may evaluate has it without const, for one thread at a time.
+/// With the workspace of its contact: whoever may evaluate has it without const,
+/// for one thread at a time.
 class HarmonicBalance {
  public:
   /// @param scene  borrowed; must outlive this.
-  /// @throws std::invalid_argument  sizes in the scene differ, a value is not finite or out of range.
+  /// @throws std::invalid_argument  sizes in the scene differ,
+  ///         a value is not finite or out of range.
   HarmonicBalance(const Scene& scene, HarmonicSet set);
 
   [[nodiscard]] Eigen::Index size() const { return excitation_.size(); }
@@ -70,8 +73,8 @@ class HarmonicBalance {
   [[nodiscard]] const Eigen::MatrixXd& stuck_stiffness() const { return stuck_stiffness_; }
   /// max(‖Q‖, ‖contact force of the stuck limit‖) [N/√kg]: what residuals are measured by.
   [[nodiscard]] double force_scale(double frequency) const;
-  /// Size of the terms that cancel in R [N/√kg]: stiffness, inertia and stuck contact under x. A point
-  /// that slips far is computed as the small difference of forces of this size.
+  /// Size of the terms that cancel in R [N/√kg]: stiffness, inertia and stuck contact under x. A
+  /// point that slips far is computed as the small difference of forces of this size.
   [[nodiscard]] double largest_terms(const Eigen::VectorXd& x, double frequency) const;
 
  private:
@@ -80,8 +83,9 @@ class HarmonicBalance {
   void add_linear_part(const Eigen::VectorXd& x, double frequency, BalanceEvaluation& result) const;
   void add_stiffness(const Eigen::MatrixXd& stiffness, double factor,
                      Eigen::MatrixXd& matrix) const;
-  /// Where nothing holds a rigid body at rest, free or with every point that could hold it slipping, its place is any: the
-  /// derivative gets a stiffness there, by which Newton's method leaves the place as it is.
+  /// Where nothing holds a rigid body at rest, free or with every point that could hold it
+  /// slipping, its place is any: the derivative gets a stiffness there, by which Newton's method
+  /// leaves the place as it is.
   void hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const;
   [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x, double frequency);
 

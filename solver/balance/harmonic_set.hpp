@@ -1,6 +1,6 @@
 /// @file
-/// Which harmonics of a motion are unknowns: the mean always, because contact shifts it, and any set of
-/// orders k ≥ 1. Harmonics left out are zero.
+/// Which harmonics of a motion are unknowns: the mean always, because contact shifts it, and any
+/// set of orders k ≥ 1. Harmonics left out are zero.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 /// @file
-/// A linear spring between the modes as a ModalForce: the free and the stuck limit of a contact walk
-/// the same way as the contact itself.
+/// A linear spring between the modes as a ModalForce: the free and the stuck limit of a contact
+/// walk the same way as the contact itself.
 #pragma once
 
 #include <algorithm>

@@ -10,8 +10,8 @@
 
 namespace microslip::solver {
 
-/// The first frequency on the way from begin to end [rad/s] at which a harmonic of the excitation meets an
-/// undamped resonance that it moves.
+/// The first frequency on the way from begin to end [rad/s] at which a harmonic of the excitation
+/// meets an undamped resonance that it moves.
 /// @param stiffness  added to the modes, n_modes × n_modes [1/s²].
 [[nodiscard]] std::optional<double> unbounded_resonance(const Scene& scene,
                                                         const Eigen::MatrixXd& stiffness,

@@ -17,7 +17,8 @@ constexpr double rounding_level = 1e-14;  // a shorter step cannot help any more
 
 class Iteration {
  public:
-  /// @param shortened  what steps of the line search are judged by; of `system`, or with its residual alone.
+  /// @param shortened  what steps of the line search are judged by; of `system`,
+  ///                   or with its residual alone.
   Iteration(const ParametricSystem& system, const ParametricSystem& shortened,
             const BranchVector& constraint, const Scaling& scaling)
       : system_(system), shortened_(shortened), constraint_(constraint), scaling_(scaling) {}
@@ -66,8 +67,8 @@ class Iteration {
     return evaluated_at(system_, std::move(at.point), scaling_);
   }
 
-  /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened step
-  /// is taken all the same, a few times, to leave the kink.
+  /// Backtracks until the residual falls. Between two regimes no length may do: then a shortened
+  /// step is taken all the same, a few times, to leave the kink.
   bool step(int iteration) {
     if (!std::isfinite(now_.residual)) return false;
     const BranchVector direction = newton_step();
@@ -92,7 +93,8 @@ class Iteration {
     return true;
   }
 
-  /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does not.
+  /// Goes on while the residual falls; near a kink a shorter step may do what the whole one does
+  /// not.
   void polish() {
     for (int i = 0; i < max_polish && now_.residual > rounding; ++i) {
       const BranchVector direction = newton_step();

@@ -1,6 +1,7 @@
 /// @file
-/// Newton's method for a residual that is only piecewise smooth, on the plane through the first iterate
-/// that a constraint row spans: the corrector of continuation, and at fixed parameter the plain solver.
+/// Newton's method for a residual that is only piecewise smooth, on the plane through the first
+/// iterate that a constraint row spans: the corrector of continuation,
+/// and at fixed parameter the plain solver.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,8 @@ namespace microslip::solver {
 using ParametricSystem =
     std::function<BalanceEvaluation(const Eigen::VectorXd& x, double parameter)>;
 
-/// A system with its residual alone, which may leave the derivatives empty and costs several times less.
+/// A system with its residual alone, which may leave the derivatives empty and costs several times
+/// less.
 struct EconomicSystem {
   ParametricSystem whole;
   ParametricSystem residual;
@@ -56,13 +58,14 @@ struct NewtonResult {
   int iterations = 0;            ///< Newton steps until the tolerance was met
   int evaluations = 0;
   bool converged = false;
-  /// Where the last Jacobian was factorised with the constraint: in the scaling and at less than 90° to the
-  /// constraint of the solve.
+  /// Where the last Jacobian was factorised with the constraint: in the scaling and at less than
+  /// 90° to the constraint of the solve.
   std::optional<Tangent> tangent;
 };
 
-/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration goes on while
-/// the residual still falls: points carry rounding error only. A coarser tolerance is meant as it stands.
+/// Steps satisfy c_x·Δx/σ_x + c_p Δp/σ_p = 0. After a tolerance below 5e-11 is met the iteration
+/// goes on while the residual still falls: points carry rounding error only.
+/// A coarser tolerance is meant as it stands.
 /// @param constraint  (c_x, c_p) in scaled variables; (0, 1) holds the parameter.
 [[nodiscard]] NewtonResult solve_newton(const ParametricSystem& system, const BranchVector& start,
                                         const BranchVector& constraint, const Scaling& scaling,
@@ -99,8 +102,8 @@ struct NewtonResult {
 [[nodiscard]] Tangent branch_tangent(const contact::LuFactors& factors,
                                      const BranchVector& previous);
 
-/// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ] the sign
-/// of `orientation`. Empty: the Jacobian is not finite or loses rank twice.
+/// Null vector of [∂R/∂x σ_x, ∂R/∂p σ_p], of length one, with the sign that gives det [∂R/∂y; tᵀ]
+/// the sign of `orientation`. Empty: the Jacobian is not finite or loses rank twice.
 [[nodiscard]] std::optional<BranchVector> null_vector(const BalanceEvaluation& at,
                                                       const Scaling& scaling, double orientation);
 

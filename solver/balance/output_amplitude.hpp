@@ -1,5 +1,6 @@
 /// @file
-/// Size of the output over a period: half its peak-to-peak value, with the derivative by the unknowns.
+/// Size of the output over a period: half its peak-to-peak value,
+/// with the derivative by the unknowns.
 #pragma once
 
 #include <Eigen/Core>

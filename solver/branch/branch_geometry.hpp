@@ -1,6 +1,6 @@
 /// @file
-/// Points, directions and curves in the space of the unknowns and the parameter, in scaled variables: what a
-/// step along a branch is measured with.
+/// Points, directions and curves in the space of the unknowns and the parameter, in scaled
+/// variables: what a step along a branch is measured with.
 #pragma once
 
 #include <vector>
@@ -41,8 +41,9 @@ struct Knot {
 /// @param width  share of the step that lies between them.
 [[nodiscard]] BranchVector cubic_between(const Knot& a, const Knot& b, double u, double width);
 
-/// Guesses for the branch at a share u of the way between two knots, all of them in one plane across the
-/// chord. Where the branch is an arc about a region of another regime, the tangents lie outside of it.
+/// Guesses for the branch at a share u of the way between two knots, all of them in one plane
+/// across the chord. Where the branch is an arc about a region of another regime,
+/// the tangents lie outside of it.
 [[nodiscard]] std::vector<BranchVector> starts_between(const Knot& a, const Knot& b, double u,
                                                        double width);
 

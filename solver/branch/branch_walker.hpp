@@ -55,9 +55,9 @@ class BranchWalker {
 
   [[nodiscard]] const WalkerPoint& now() const { return now_; }
   [[nodiscard]] const WalkerPoint& before() const { return before_; }
-  /// The branch where it passes the plane across the chord from before() to now() at a share of the way:
-  /// Newton's method from the cubic through two points of the step with their tangents, then from the
-  /// tangents and from the line between the points.
+  /// The branch where it passes the plane across the chord from before() to now() at a share of the
+  /// way: Newton's method from the cubic through two points of the step with their tangents, then
+  /// from the tangents and from the line between the points.
   /// @param a, b  of the last step, on either side of the share.
   /// @return empty: Newton's method failed from all of them.
   [[nodiscard]] std::optional<StepPoint> between(const StepPoint& a, const StepPoint& b,

@@ -204,7 +204,8 @@ class Segment {
     return contact::state_change(before, after).n_regimes > 0;
   }
 
-  /// Slope of the cubic through both ends, c₀ + c₁ u + c₂ u² over the share 0 ≤ u ≤ 1 of the way between.
+  /// Slope of the cubic through both ends, c₀ + c₁ u + c₂ u² over the share 0 ≤ u ≤ 1 of the way
+  /// between.
   struct CubicSlope {
     CubicSlope(const Node& a, const Node& b) {
       const BranchVector chord = minus(b.position, a.position);
@@ -232,8 +233,8 @@ class Segment {
     double last = 0.0;
   };
 
-  /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of the whole
-  /// segment; 0: it does not.
+  /// Where the slope of the cubic through both ends comes nearest to changing sign, as a share of
+  /// the whole segment; 0: it does not.
   [[nodiscard]] static double turning_share(const Node& a, const Node& b) {
     const CubicSlope slope(a, b);
     if (slope.c[2] == 0.0) return 0.0;
@@ -251,8 +252,8 @@ class Segment {
     double slope;
   };
 
-  /// A place where the slope has the other sign, near a share where it may: its extremum by parabolas
-  /// through three places, as long as it may still pass zero.
+  /// A place where the slope has the other sign, near a share where it may: its extremum by
+  /// parabolas through three places, as long as it may still pass zero.
   [[nodiscard]] std::optional<Node> beyond_zero(const Node& a, const Node& b, double share) {
     const double sign = a.value.slope > 0.0 ? 1.0 : -1.0;
     const double hopeless =
@@ -297,8 +298,8 @@ class Segment {
     return std::nullopt;
   }
 
-  /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois) with a bisection
-  /// after every two steps, so that a jump is found as well.
+  /// By cubics where the branch is smooth, which leave little to do; then regula falsi (Illinois)
+  /// with a bisection after every two steps, so that a jump is found as well.
   [[nodiscard]] SpecialPoint locate(Node low, Node high) {
     const bool rises = low.value.slope > 0.0;
     double low_weight = low.value.slope;

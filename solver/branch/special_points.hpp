@@ -1,14 +1,16 @@
 /// @file
-/// Peaks and folds between two accepted points of a branch, solved for on the branch itself: zeros of
+/// Peaks and folds between two accepted points of a branch, solved for on the branch itself:
+/// zeros of
 ///
 ///   da/ds     from + to −: a peak of the output's amplitude a
 ///   dω/ds     either way:  a fold
 ///
-/// s the arc length. A cubic through both ends with their slopes tells where to look for a pair of zeros
-/// that the ends do not show (a step over a peak and the valley before it). At a kink of the branch the slope
-/// jumps through zero; the kink is the peak then. A step that turns unevenly has kinks, and its cubic is not the
-/// branch: it is split at them as long as the slope may have zeros in between. What changes its sign is never
-/// passed over: where no zero can be solved for, the nearest point is given and said to be no solution.
+/// s the arc length. A cubic through both ends with their slopes tells where to look for a pair of
+/// zeros that the ends do not show (a step over a peak and the valley before it). At a kink of the
+/// branch the slope jumps through zero; the kink is the peak then. A step that turns unevenly has
+/// kinks, and its cubic is not the branch: it is split at them as long as the slope may have zeros
+/// in between. What changes its sign is never passed over: where no zero can be solved for, the
+/// nearest point is given and said to be no solution.
 #pragma once
 
 #include <vector>
@@ -22,7 +24,8 @@ struct SpecialPoint {
   double share = 0.0;  ///< of the way from before() to now()
   NewtonResult solution;
   PointMark mark = PointMark::none;
-  /// False: the slope changes its sign here, Newton's method fails in between; the nearest point there is.
+  /// False: the slope changes its sign here, Newton's method fails in between;
+  /// the nearest point there is.
   bool solved = true;
 };
 
@@ -30,9 +33,9 @@ struct SpecialPoint {
 [[nodiscard]] std::vector<SpecialPoint> peaks_between(BranchWalker& walker,
                                                       HarmonicBalance& balance);
 
-/// Peaks and folds, and where a peak and a valley lie between the two points, the valley too, unmarked: a peak is
-/// not lower than what comes before and after it. In the order of the branch. Their frequencies carry rounding error
-/// only, some 1e-13 relative.
+/// Peaks and folds, and where a peak and a valley lie between the two points, the valley too,
+/// unmarked: a peak is not lower than what comes before and after it. In the order of the branch.
+/// Their frequencies carry rounding error only, some 1e-13 relative.
 [[nodiscard]] std::vector<SpecialPoint> special_points(BranchWalker& walker,
                                                        HarmonicBalance& balance);
 

@@ -1,6 +1,6 @@
 /// @file
-/// A first solution at one frequency: Newton from a motion near by, from the linear limits, then homotopies that exchange a
-/// linear limit for the contact.
+/// A first solution at one frequency: Newton from a motion near by, from the linear limits, then
+/// homotopies that exchange a linear limit for the contact.
 #pragma once
 
 #include <optional>

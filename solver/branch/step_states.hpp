@@ -1,15 +1,17 @@
 /// @file
-/// How far a step along the branch may go before too much of the contact has changed its state: what happens
-/// between two points of a curve is then seen on it.
+/// How far a step along the branch may go before too much of the contact has changed its state:
+/// what happens between two points of a curve is then seen on it.
 ///
-///   many points   (area × period) that changes its state ≤ 20 %                                       (1)
-///   up to 32      no point changes it for more than a part of its period: one that turns its phases round
-///                 moves the whole curve, though its kind of cycle is the same at both ends
-///   up to 8       the step ends just beyond the first point whose kind of cycle changes: a kink of the branch
+///   many points   (area × period) that changes its state ≤ 20 %                                (1)
+///   up to 32      no point changes it for more than a part of its period: one that turns its
+///                 phases round moves the whole curve, though its kind of cycle is the same at both
+///                 ends
+///   up to 8       the step ends just beyond the first point whose kind of cycle changes: a kink of
+///                 the branch
 ///
-/// Where in a step that happens is read from the cubic through both ends: nothing is solved for. A step is never
-/// cut below a least length, which grows while one step after another is cut: states that chatter slow the walk
-/// down for a few steps and cannot stop it.
+/// Where in a step that happens is read from the cubic through both ends: nothing is solved for. A
+/// step is never cut below a least length, which grows while one step after another is cut: states
+/// that chatter slow the walk down for a few steps and cannot stop it.
 ///
 /// Source: theory section 16.
 #pragma once

@@ -184,7 +184,8 @@ class Search {
     return g;
   }
 
-  /// No longer on the way to a solution: the merit has not fallen to a half over the last iterations.
+  /// No longer on the way to a solution: the merit has not fallen to a half over the last
+  /// iterations.
   [[nodiscard]] static bool is_stalled(const std::vector<double>& merits) {
     constexpr std::size_t patience = 8;
     if (!std::isfinite(merits.back())) return true;

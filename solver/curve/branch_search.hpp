@@ -1,9 +1,9 @@
 /// @file
-/// Search for solutions that the sweep does not meet: isolas, and branches that coexist over the whole
-/// range. Newton's method is started from several places with the known solutions x_k divided out
-/// ("deflation"), at both ends of the range, at seven frequencies inside, at the peaks of the curve, beside
-/// its folds, and at the resonances of the free and of the stuck structure; at the one frequency where the
-/// range is one:
+/// Search for solutions that the sweep does not meet: isolas, and branches that coexist over the
+/// whole range. Newton's method is started from several places with the known solutions x_k divided
+/// out ("deflation"), at both ends of the range, at seven frequencies inside, at the peaks of the
+/// curve, beside its folds, and at the resonances of the free and of the stuck structure; at the
+/// one frequency where the range is one:
 ///
 ///   F(x) = m(x) R(x),     m = Π_k ( σ²/‖x − x_k‖² + 1 )
 ///
@@ -11,11 +11,11 @@
 ///
 ///   δ = −J⁻¹R / (1 + gᵀ J⁻¹R)
 ///
-/// What is found is followed both ways to the ends of its branch; at a single frequency it is a point.
-/// Nothing found proves nothing.
+/// What is found is followed both ways to the ends of its branch; at a single frequency it is a
+/// point. Nothing found proves nothing.
 ///
-/// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015) A2026,
-/// power 2, shift 1; starts and following are this project's.
+/// Source: the deflation operator of Farrell, Birkisson & Funke, SIAM J. Sci. Comput. 37 (2015)
+/// A2026, power 2, shift 1; starts and following are this project's.
 #pragma once
 
 #include "solver/continuation.hpp"

@@ -6,8 +6,8 @@
 ///   W_fric = π Σ_k k (A_s·G_c − A_c·G_s)        contact, from the Fourier coefficients
 ///
 /// energy imbalance |W_exc − W_damp − W_fric|, dissipation mismatch |W_fric − ∬∮ μn|ds| dA|, both
-/// relative to max(|W_exc|, W_damp + W_fric). Both are 0 where all of them vanish: to rounding of the
-/// motion times the excitation, and wherever there is none.
+/// relative to max(|W_exc|, W_damp + W_fric). Both are 0 where all of them vanish: to rounding of
+/// the motion times the excitation, and wherever there is none.
 #pragma once
 
 #include "solver/balance/newton.hpp"

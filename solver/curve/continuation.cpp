@@ -135,8 +135,8 @@ ResponseCurve trace_below(const Scene& linear, ContinuationOptions options, doub
   return curve;
 }
 
-/// The curve of a structure that no force moves, if the contact is in balance at rest: zero. A walk would follow
-/// rounding errors of the preload.
+/// The curve of a structure that no force moves, if the contact is in balance at rest: zero. A walk
+/// would follow rounding errors of the preload.
 std::optional<ResponseCurve> trace_at_rest(const Scene& scene, const ContinuationOptions& options,
                                            const PointObserver& observe) {
   if (!scene.contact || !scene.excitation.rows().isZero(0.0)) return std::nullopt;

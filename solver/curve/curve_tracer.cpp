@@ -117,8 +117,9 @@ bool CurveTracer::closed(const BranchWalker& walker, int n_steps) const {
   return distance(now, entry) < distance(now, walker.before().solution.point);
 }
 
-/// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is the smaller
-/// one, nothing bounds an undamped resonance of the free structure, and the branch climbs for ever.
+/// Friction takes a work that grows with the amplitude, as that of the excitation does: where it is
+/// the smaller one, nothing bounds an undamped resonance of the free structure,
+/// and the branch climbs for ever.
 bool CurveTracer::endless() const {
   constexpr double near = 1e-6;  // of the frequency: 5e5 times the static response
   constexpr double high = 1e4;   // times the first point
@@ -189,8 +190,8 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
   return walker;
 }
 
-/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then homotopies
-/// from the linear limits, at growing distances.
+/// The ladder above the walker's own remedies: the plain corrector at a fixed frequency, then
+/// homotopies from the linear limits, at growing distances.
 std::optional<NewtonResult> CurveTracer::restart(const BranchWalker& stalled) {
   const BranchVector& from = stalled.now().solution.point;
   NewtonOptions newton;

@@ -24,8 +24,8 @@ class CurveTracer {
 
   /// The curve; never throws for one that cannot be completed.
   [[nodiscard]] ResponseCurve run();
-  /// One branch from a solution inside the range, to where it leaves the range or closes. A closed one ends
-  /// with the diagnosis `loop`.
+  /// One branch from a solution inside the range, to where it leaves the range or closes. A closed
+  /// one ends with the diagnosis `loop`.
   /// @param set  of the unknowns of `start`.
   [[nodiscard]] ResponseCurve follow(NewtonResult start, const HarmonicSet& set);
 
@@ -49,7 +49,8 @@ class CurveTracer {
   void note_unsolved(double frequency, PointMark mark);
   /// Peaks and folds up to a share of the last step. False: as for add().
   [[nodiscard]] bool add_specials(BranchWalker& walker, double share_of_segment);
-  /// What the last step has up to an end of the range, and the point there. False: diagnosis says why.
+  /// What the last step has up to an end of the range, and the point there. False:
+  /// diagnosis says why.
   [[nodiscard]] bool reach(BranchWalker& walker, double edge);
   [[nodiscard]] static std::string at_hertz(const std::string& text, double frequency);
   void stop(Diagnosis diagnosis, const std::string& message);

@@ -1,14 +1,15 @@
 /// @file
-/// Proof that a linear limit solves the nonlinear equations over a whole frequency range, so that no
-/// nonlinear solver is needed. The linear response at a frequency is checked against the conditions of
-/// contact; between frequencies it is enclosed. With D(ω) = K − ω² + iωC and A = D⁻¹Q, on |ω − ω_m| ≤ h:
+/// Proof that a linear limit solves the nonlinear equations over a whole frequency range, so that
+/// no nonlinear solver is needed. The linear response at a frequency is checked against the
+/// conditions of contact; between frequencies it is enclosed.
+/// With D(ω) = K − ω² + iωC and A = D⁻¹Q, on |ω − ω_m| ≤ h:
 ///
 ///   A = A_m − D_m⁻¹ [D(ω) − D_m] A,      |D(ω) − D_m| ≤ e = 2ω_m h + h² + h c     (per mode)
 ///   |A − A_m| ≤ (I − G diag(e))⁻¹ G diag(e) |A_m|,      G = |D_m⁻¹|
 ///
-/// where the norm of G diag(e) is below one; else, and where the conditions are not met all over the
-/// enclosure, the interval is halved. The proof is of *a* solution; others may coexist (a gap that a
-/// strong enough vibration would close).
+/// where the norm of G diag(e) is below one; else, and where the conditions are not met all over
+/// the enclosure, the interval is halved. The proof is of *a* solution; others may coexist (a gap
+/// that a strong enough vibration would close).
 #pragma once
 
 #include "contact/modal_force.hpp"

@@ -57,8 +57,8 @@ const SettledPeak* nearest_of(const std::vector<SettledPeak>& known, double freq
   return nearest;
 }
 
-/// Relative, of a peak to what it is with more harmonics, and of that to what it should be; of the nearest in
-/// frequency. Empty: none is near.
+/// Relative, of a peak to what it is with more harmonics, and of that to what it should be; of the
+/// nearest in frequency. Empty: none is near.
 std::optional<double> distance_to(const std::vector<SettledPeak>& known, const LocalPeak& peak,
                                   double tolerance) {
   const SettledPeak* nearest = nearest_of(known, peak.point.parameter, tolerance);

@@ -1,7 +1,7 @@
 /// @file
-/// One set of harmonics for a response curve: what its highest points need (peak_harmonics.hpp), found on a curve
-/// with the least set first. Points away from the peaks have the same set; what it leaves out there is not
-/// asked.
+/// One set of harmonics for a response curve: what its highest points need (peak_harmonics.hpp),
+/// found on a curve with the least set first. Points away from the peaks have the same set; what it
+/// leaves out there is not asked.
 #pragma once
 
 #include <functional>
@@ -32,23 +32,24 @@ struct CurveHarmonics {
 
 /// @param range  with `harmonic_tolerance` > 0.
 /// @param curve  solved with `set`.
-/// @param trace  where the richer equations are not solved from the peak, the curve with a few harmonics more is, and at
-///               last with all that the peak was to have.
+/// @param trace  where the richer equations are not solved from the peak, the curve with a few
+///               harmonics more is, and at last with all that the peak was to have.
 [[nodiscard]] CurveHarmonics choose_harmonics(const Scene& scene, const ContinuationOptions& range,
                                               const HarmonicSet& set, const ResponseCurve& curve,
                                               const CurveOfSet& trace);
 
 /// What a set leaves out at the high points of its curve; the peaks of the curve keep their own.
-/// @param known  peaks with more harmonics: a peak of the curve that is one of them is compared with it, of others it
-///               is estimated.
+/// @param known  peaks with more harmonics: a peak of the curve that is one of them is compared
+///               with it, of others it is estimated.
 [[nodiscard]] CurveHarmonics check_harmonics(const Scene& scene, const ContinuationOptions& range,
                                              const HarmonicSet& set,
                                              const std::vector<SettledPeak>& known,
                                              ResponseCurve& curve);
 
-/// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced once more where
-/// its own peaks ask for more. Stopped, it is the last one that is complete.
-/// @param first  traces the curves that the choice needs; the last is the result where its set is enough.
+/// The whole way: a curve with the least set, the choice, the curve with what was chosen, traced
+/// once more where its own peaks ask for more. Stopped, it is the last one that is complete.
+/// @param first  traces the curves that the choice needs;
+///               the last is the result where its set is enough.
 /// @param trace  traces the curve that is given.
 [[nodiscard]] ResponseCurve trace_with_chosen(const Scene& scene, const ContinuationOptions& range,
                                               const CurveOfSet& first, const CurveOfSet& trace);

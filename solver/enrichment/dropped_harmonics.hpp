@@ -1,6 +1,6 @@
 /// @file
-/// What taking a harmonic out of a solved peak would do to it: the force on the rows of k that brings x^(k) to
-/// zero, with the response of all the others to it,
+/// What taking a harmonic out of a solved peak would do to it: the force on the rows of k that
+/// brings x^(k) to zero, with the response of all the others to it,
 ///
 ///   [R_q  R_ω; cᵀ] δ = [f on the rows of k; 0],     δ^(k) = −x^(k),      δA = A_q δ
 ///

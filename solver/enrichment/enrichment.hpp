@@ -1,7 +1,8 @@
 /// @file
-/// What a richer model makes of the amplitude of a peak that a coarser one has solved, by one step (theory
-/// section 24). The peak z = (q, ω) is embedded: what only the richer equations know is zero. One adjoint solve
-/// splits the change of the amplitude A by the rows of their residual R̃ there, harmonic by harmonic:
+/// What a richer model makes of the amplitude of a peak that a coarser one has solved, by one step
+/// (theory section 24). The peak z = (q, ω) is embedded: what only the richer equations know is
+/// zero. One adjoint solve splits the change of the amplitude A by the rows of their residual R̃
+/// there, harmonic by harmonic:
 ///
 ///   [ R̃_q  R̃_ω; cᵀ ]ᵀ (μ, ν) = (A_q, 0),                δA = −Σ_k μ_k · R̃_k
 ///
@@ -28,10 +29,10 @@ struct RicherShare {
 [[nodiscard]] LocalPeak embedded(const LocalPeak& peak, const HarmonicBalance& coarse,
                                  const HarmonicBalance& richer);
 
-/// Of all orders of the richer set, ascending, the mean first; one evaluation of its equations. Empty where they give
-/// nothing finite, or the peak has no amplitude.
-/// @param peak  in the unknowns of `richer`, solved in a coarser model; its tangent is that of the coarse
-///              branch.
+/// Of all orders of the richer set, ascending, the mean first; one evaluation of its equations.
+/// Empty where they give nothing finite, or the peak has no amplitude.
+/// @param peak  in the unknowns of `richer`, solved in a coarser model; its tangent is that of the
+///              coarse branch.
 [[nodiscard]] std::vector<RicherShare> richer_shares(HarmonicBalance& richer,
                                                      const LocalPeak& peak);
 

@@ -72,7 +72,8 @@ class Climb {
     return step;
   }
 
-  /// To the zero of the slope by the secant of the last two places; in a bracket never next to its ends.
+  /// To the zero of the slope by the secant of the last two places;
+  /// in a bracket never next to its ends.
   [[nodiscard]] double length() const {
     double ahead = now_.slope > 0.0 ? longest_trial : -longest_trial;
     if (before_ && before_->slope != now_.slope) {

@@ -219,8 +219,8 @@ void PeakHarmonicsChoice::prune(PeakHarmonics& result, const HarmonicSet& least)
   }
 }
 
-/// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is not told by its size.
-/// By bisection, where the most that would be a gain do.
+/// The first harmonics alone, as few as do: next to an internal resonance what one harmonic does is
+/// not told by its size. By bisection, where the most that would be a gain do.
 void PeakHarmonicsChoice::try_first_ones(PeakHarmonics& result, const PeakHarmonics& rich,
                                          const HarmonicSet& least) {
   const auto first = [&](int highest) {

@@ -3,16 +3,17 @@
 ///
 ///   estimate   all harmonics k ≤ 30 that the set lacks, by one step in the model that has them
 ///              (enrichment.hpp): their effects are added up by size, no sign may hide another
-///   add        those whose effects together pass a quarter of the tolerance, and all that may resonate:
-///              kω within a few half bandwidths of a mode, free, stuck or held as at the peak, whose response to
-///              the force already there would be more than the tolerance. They are solved for together: next
-///              to a resonance one harmonic alone tells nothing of its neighbours
+///   add        those whose effects together pass a quarter of the tolerance, and all that may
+///              resonate: kω within a few half bandwidths of a mode, free, stuck or held as at the
+///              peak, whose response to the force already there would be more than the tolerance.
+///              They are solved for together: next to a resonance one harmonic alone tells nothing
+///              of its neighbours
 ///   solve      the peak again, by Newton's method from the embedding; then estimate anew
-///   confirm    once what is left out does less than half the tolerance, the largest few of it are solved for
-///              too. Only a peak that stays where it was, to the tolerance, is believed
-///   prune      as many go again as the other half of the tolerance allows, those that do least first, the peak
-///              being solved without them: what they do together is known then, their signs included. Or the
-///              first few alone, where these are fewer
+///   confirm    once what is left out does less than half the tolerance, the largest few of it are
+///              solved for too. Only a peak that stays where it was, to the tolerance, is believed
+///   prune      as many go again as the other half of the tolerance allows, those that do least
+///              first, the peak being solved without them: what they do together is known then,
+///              their signs included. Or the first few alone, where these are fewer
 #pragma once
 
 #include <optional>
@@ -38,7 +39,8 @@ struct PeakHarmonics {
 class PeakHarmonicsChoice {
  public:
   /// @param scene  borrowed.
-  /// @param range  `harmonic_tolerance` > 0 and `n_harmonics`, the highest that may be added; borrowed.
+  /// @param range  `harmonic_tolerance` > 0 and `n_harmonics`, the highest that may be added;
+  ///               borrowed.
   /// @throws std::invalid_argument  tolerance or highest out of range.
   PeakHarmonicsChoice(const Scene& scene, const ContinuationOptions& range);
 

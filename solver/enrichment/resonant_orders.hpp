@@ -1,6 +1,6 @@
 /// @file
-/// Harmonics of a solution that may resonate: what contact does to a mode is known between its limits only,
-/// and one step from a solution without harmonic k knows one place of it.
+/// Harmonics of a solution that may resonate: what contact does to a mode is known between its
+/// limits only, and one step from a solution without harmonic k knows one place of it.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,9 @@
 
 namespace microslip::solver {
 
-/// Orders k for which kω lies within three half bandwidths of a mode ψ_j, ω_j of the structure, free, stuck, or
-/// with the contact stiffness of the solution's first harmonic, and whose resonant response
+/// Orders k for which kω lies within three half bandwidths of a mode ψ_j, ω_j of the structure,
+/// free, stuck, or with the contact stiffness of the solution's first harmonic,
+/// and whose resonant response
 ///
 ///   |ψ_j · G^(k)| / (2 ζ_j ω_j kω)  ≥  least · ‖q^(1)‖
 ///

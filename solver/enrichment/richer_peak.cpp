@@ -22,7 +22,8 @@ double energy_of(HarmonicBalance& balance, const LocalPeak& peak) {
   return period_energy(balance, peak.point.x, peak.point.parameter).friction;
 }
 
-/// The highest peak of the curve itself; without one an end of the range. What stopped somewhere has neither.
+/// The highest peak of the curve itself; without one an end of the range.
+/// What stopped somewhere has neither.
 std::optional<HighPoint> top_of(const std::vector<HighPoint>& high) {
   for (const PeakPlace place : {PeakPlace::peak, PeakPlace::range_end}) {
     for (const HighPoint& point : high) {

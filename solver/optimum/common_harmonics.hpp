@@ -1,7 +1,7 @@
 /// @file
-/// One set of harmonics for the peaks of a family of scenes. A search over a parameter compares peaks to
-/// rounding, so that a set which changes from scene to scene would show as steps; instead all have what the
-/// peaks of a few of them need.
+/// One set of harmonics for the peaks of a family of scenes. A search over a parameter compares
+/// peaks to rounding, so that a set which changes from scene to scene would show as steps; instead
+/// all have what the peaks of a few of them need.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace microslip::solver {
 
 /// @param values  of the parameter, whose peaks choose (enrichment/curve_harmonics.hpp).
 /// @param work    what that costs is added.
-/// @return `range` with the harmonics of all their peaks, and of the largest amplitude where that is at an
-///         end, given; unchanged where they are given already.
+/// @return `range` with the harmonics of all their peaks, and of the largest amplitude where that
+///         is at an end, given; unchanged where they are given already.
 [[nodiscard]] ContinuationOptions with_common_harmonics(const SceneFamily& family,
                                                         const std::vector<double>& values,
                                                         const ContinuationOptions& range,
@@ -29,8 +29,8 @@ struct LackedHarmonics {
 /// @param best   the highest peak at its value, solved for with the harmonics of `given`.
 /// @param range  chooses harmonics.
 /// @param work   what that costs is added.
-/// @return empty: with those that it chooses itself it is as high, within the tolerance of `range` or 1 %, or they are all
-///         given already, or are not found.
+/// @return empty: with those that it chooses itself it is as high, within the tolerance of `range`
+///         or 1 %, or they are all given already, or are not found.
 [[nodiscard]] std::optional<LackedHarmonics> lacked_harmonics(const SceneFamily& family,
                                                               const PeakOfParameter& best,
                                                               const ContinuationOptions& given,

@@ -28,7 +28,8 @@ struct Bracket {
   double value;
 };
 
-/// The minimum of a parabola through three points, relative to the first; infinite where they lie on a line.
+/// The minimum of a parabola through three points, relative to the first;
+/// infinite where they lie on a line.
 double parabola_step(const std::array<double, 3>& at, const std::array<double, 3>& value) {
   const double r = (at[0] - at[1]) * (value[0] - value[2]);
   const double q = (at[0] - at[2]) * (value[0] - value[1]);
@@ -38,7 +39,8 @@ double parabola_step(const std::array<double, 3>& at, const std::array<double, 3
 
 constexpr double bracket_left = 4.0;  // tolerances: what a search leaves of its bracket
 
-/// Golden section with parabolic steps (Brent 1973, chapter 5) until the bracket is below the tolerance.
+/// Golden section with parabolic steps (Brent 1973, chapter 5) until the bracket is below the
+/// tolerance.
 void minimise(const PeakFunction& f, const Bracket& bracket, double tolerance) {
   constexpr double golden = 0.3819660112501051;
   double a = bracket.a;
@@ -94,8 +96,8 @@ double on_scale(const OptimumOptions& options, double share) {
 
 using Place = std::vector<PeakOfParameter>::const_iterator;
 
-/// The values about the best one whose amplitude is at most `limit`: first and one past the last. `trace` is
-/// sorted by parameter.
+/// The values about the best one whose amplitude is at most `limit`: first and one past the last.
+/// `trace` is sorted by parameter.
 std::array<Place, 2> below(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best,
                            double limit) {
   const auto above = [limit](const PeakOfParameter& one) { return one.amplitude > limit; };
@@ -106,8 +108,8 @@ std::array<Place, 2> below(const std::vector<PeakOfParameter>& trace, const Peak
   return {left, std::find_if(centre, trace.end(), above)};
 }
 
-/// How well the minimum is determined: the interval about it that is as good to 1 %, and other minima as
-/// good to 2 %. `trace` is sorted by parameter.
+/// How well the minimum is determined: the interval about it that is as good to 1 %, and other
+/// minima as good to 2 %. `trace` is sorted by parameter.
 std::string valley(const std::vector<PeakOfParameter>& trace, const PeakOfParameter& best) {
   const auto [left, right] = below(trace, best, as_good * best.amplitude);
   std::ostringstream text;
@@ -231,8 +233,9 @@ class Search {
              on_scale(options_, relative_tolerance));
   }
 
-  /// Inner values lower than their neighbours that may hide the minimum: nearly as low as the lowest known, between
-  /// neighbours further apart than a rough search leaves them, and not searched between just these.
+  /// Inner values lower than their neighbours that may hide the minimum: nearly as low as the
+  /// lowest known, between neighbours further apart than a rough search leaves them, and not
+  /// searched between just these.
   [[nodiscard]] std::vector<Place> open_valleys(const std::vector<PeakOfParameter>& peaks) const {
     constexpr double rival = 1.1;
     std::vector<Place> valleys;
@@ -294,8 +297,8 @@ class Search {
     }
   }
 
-  /// Whether the lowest value is confirmed by its curve, and stays the lowest while the edges of its
-  /// valley are solved for.
+  /// Whether the lowest value is confirmed by its curve, and stays the lowest while the edges of
+  /// its valley are solved for.
   bool settled() {
     const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
     if (peaks.empty()) return true;
@@ -325,7 +328,8 @@ class Search {
     return {left->parameter, std::prev(right)->parameter};
   }
 
-  /// The curves of the best value and of the edges, which are confirmed one after the other, side by side.
+  /// The curves of the best value and of the edges, which are confirmed one after the other,
+  /// side by side.
   void trace_proofs(int search_starts) {
     std::vector<double> values = edges();
     values.push_back(result_.best.parameter);
@@ -363,8 +367,8 @@ class Search {
     }
   }
 
-  /// Solves for where the amplitude passes a limit, from the last value known to be lower towards the first
-  /// known to be higher; nothing to do where no value on that side is higher.
+  /// Solves for where the amplitude passes a limit, from the last value known to be lower towards
+  /// the first known to be higher; nothing to do where no value on that side is higher.
   void search_edge(double direction, double limit) {
     constexpr double enough = 2e-3;  // of the scale: an interval is told, not a number
     const std::vector<PeakOfParameter> peaks = peaks_.result().peaks;
@@ -486,7 +490,8 @@ double first_below(Iterator begin, Iterator end, double limit) {
   return inside->parameter + share * (outside->parameter - inside->parameter);
 }
 
-/// Bounds that a search with few harmonics has narrowed: to what is nearly as low, within a factor of three.
+/// Bounds that a search with few harmonics has narrowed: to what is nearly as low,
+/// within a factor of three.
 OptimumOptions about(const OptimumOptions& options, const Optimum& first) {
   constexpr double clearly_higher = 1.6;  // few harmonics err by up to a third
   constexpr double factor = 3.0;
@@ -529,8 +534,8 @@ void add_work(Optimum& sum, const PeakWork& work) {
 
 bool is_stopped(const Optimum& one) { return one.objection == out_of_time; }
 
-/// Searches again as long as the peak at the best value asks for harmonics that those of other values have not. Stopped
-/// in the middle it is what the search before has found.
+/// Searches again as long as the peak at the best value asks for harmonics that those of other
+/// values have not. Stopped in the middle it is what the search before has found.
 /// @param chosen  by other peaks; takes those in.
 Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationOptions& range,
                                   const OptimumOptions& options, ContinuationOptions& chosen,
@@ -565,8 +570,9 @@ Optimum search_with_own_harmonics(const SceneFamily& family, const ContinuationO
   }
 }
 
-/// Few harmonics tell where the best value lies; there it is searched with those given, or with those that its own peak
-/// needs where they are chosen. What few do not find is searched everywhere.
+/// Few harmonics tell where the best value lies; there it is searched with those given, or with
+/// those that its own peak needs where they are chosen.
+/// What few do not find is searched everywhere.
 Optimum search_by_few_first(const SceneFamily& family, const ContinuationOptions& range,
                             const OptimumOptions& options) {
   OptimumOptions first_options = options;

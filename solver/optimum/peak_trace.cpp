@@ -169,7 +169,8 @@ ContinuationOptions PeakFamilies::range_with(int search_starts) const {
   return range;
 }
 
-/// The curve, or the one that is known there with what a search finds beside it; its work is what was done now.
+/// The curve, or the one that is known there with what a search finds beside it;
+/// its work is what was done now.
 ResponseCurve PeakFamilies::traced(double position, const ContinuationOptions& range) const {
   const auto known = curves_.find(position);
   const Scene scene = family_(parameter(position));
@@ -262,9 +263,9 @@ bool PeakFamilies::known_elsewhere(std::size_t family, double position) const {
   return false;
 }
 
-/// A peak that the curve does not have: its branch has come off the curve somewhere since the last curve
-/// that had it. What is higher than all of the curve is a solution that counts, and stays; what is no higher, within a
-/// tolerance above rounding, goes from here alone.
+/// A peak that the curve does not have: its branch has come off the curve somewhere since the last
+/// curve that had it. What is higher than all of the curve is a solution that counts, and stays;
+/// what is no higher, within a tolerance above rounding, goes from here alone.
 /// @return  whether it goes, back to the last curve that had it.
 bool PeakFamilies::cut(Peaks& peaks, double position) {
   const std::vector<HighPoint>& solved = curves_.at(position).high;

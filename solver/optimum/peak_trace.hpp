@@ -1,21 +1,25 @@
 /// @file
-/// Peak against parameter: the largest amplitude over a frequency range of a family of scenes, carried from
-/// value to value as an unknown (local_peak.hpp) instead of being searched on a whole curve for each.
+/// Peak against parameter: the largest amplitude over a frequency range of a family of scenes,
+/// carried from value to value as an unknown (local_peak.hpp) instead of being searched on a whole
+/// curve for each.
 ///
-/// Every peak of the curves at a few values of the parameter ("checks"), and the solution at either end of
-/// the range, is followed both ways; the result is the highest of all. Peaks thus may enter and leave the
-/// range: there an end is the highest. What following alone cannot see is caught by the checks:
+/// Every peak of the curves at a few values of the parameter ("checks"), and the solution at either
+/// end of the range, is followed both ways; the result is the highest of all. Peaks thus may enter
+/// and leave the range: there an end is the highest. What following alone cannot see is caught by
+/// the checks:
 ///
-///   a peak that appears or overtakes   it stands on the curve of a check and is followed back from there
-///   a peak that enters the range       the amplitude at the end grows into it: the curve is traced whole
+///   a peak that appears or overtakes   it stands on the curve of a check and is followed back from
+///                                      there
+///   a peak that enters the range       the amplitude at the end grows into it: the curve is traced
+///                                      whole
 ///   a peak that vanishes or jumps      following stops, the curve there is traced whole
-///   a branch that comes off the curve  its peak is missing on the curve of the next check: higher than all of
-///                                      that curve it counts and is told, else all values up to the last
-///                                      agreement are traced whole
+///   a branch that comes off the curve  its peak is missing on the curve of the next check: higher
+///                                      than all of that curve it counts and is told, else all
+///                                      values up to the last agreement are traced whole
 ///
-/// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is made with every
-/// whole curve, from the first on that finds one; a peak it finds counts like one of the curve. At worst every
-/// value is traced whole, which is what a search on curves costs.
+/// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is
+/// made with every whole curve, from the first on that finds one; a peak it finds counts like one
+/// of the curve. At worst every value is traced whole, which is what a search on curves costs.
 ///
 /// Where harmonics are chosen, all peaks have those that the peaks of the checks need
 /// (common_harmonics.hpp); a curve whose highest peak needs more is named in `notes`.
@@ -60,8 +64,8 @@ struct PeakTraceOptions {
   int n_values = 30;   ///< spread evenly on the scale, both bounds included, ≥ 2
   int n_checks = 4;    ///< whole curves, spread evenly, both bounds included, ≥ 2
   ParameterScale scale = ParameterScale::logarithmic;
-  /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the highest of a curve
-  /// need not be that peak, and what is lower than it is dropped without a word.
+  /// Relative: amplitudes that close are the same. Above rounding, a peak that is as high as the
+  /// highest of a curve need not be that peak, and what is lower than it is dropped without a word.
   double amplitude_tolerance = 1e-7;
   Together together = one_by_one;  ///< curves, or peaks, that do not wait for one another
 };
@@ -89,12 +93,13 @@ class PeakFamilies {
 
   /// Follows all peaks over all values.
   void trace();
-  /// The highest of peaks and ends at any value between the bounds, followed from the nearest values; +∞
-  /// amplitude where no solution is known.
+  /// The highest of peaks and ends at any value between the bounds, followed from the nearest
+  /// values; +∞ amplitude where no solution is known.
   [[nodiscard]] PeakOfParameter highest(double parameter);
   /// Traces the curve at a value whole. True: it confirms what highest() says there; else the peaks
   /// missing are followed from here on.
-  /// @param search_starts  of a search for detached branches there, beside what the options ask for.
+  /// @param search_starts  of a search for detached branches there,
+  ///                       beside what the options ask for.
   bool confirm(double parameter, int search_starts = 0);
   /// Whether a curve was traced there, and ended before the whole range was.
   [[nodiscard]] bool is_cut_short(double parameter) const;

@@ -1,7 +1,8 @@
 /// @file
-/// What can be the largest amplitude of a response curve: its peaks, the ends of the frequency range, and
-/// points higher than their neighbours that the curve passes without having solved for a peak. The last
-/// are climbed from (local_peak.hpp); only where that finds no peak they stay as they are, unsolved.
+/// What can be the largest amplitude of a response curve: its peaks, the ends of the frequency
+/// range, and points higher than their neighbours that the curve passes without having solved for a
+/// peak. The last are climbed from (local_peak.hpp); only where that finds no peak they stay as
+/// they are, unsolved.
 #pragma once
 
 #include <vector>

@@ -62,7 +62,8 @@ LocalPeak made_peak(const HarmonicBalance& balance, const NewtonResult& at,
   return peak;
 }
 
-/// Sign of the frequencies that lie in the range, seen from one of its ends; 0: it is one frequency.
+/// Sign of the frequencies that lie in the range, seen from one of its ends; 0:
+/// it is one frequency.
 double inward(double frequency, const ContinuationOptions& range) {
   const double other = range.frequency_begin + range.frequency_end - frequency;
   return other > frequency ? 1.0 : other < frequency ? -1.0 : 0.0;

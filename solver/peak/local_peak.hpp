@@ -1,16 +1,17 @@
 /// @file
-/// One peak of a response curve as an unknown of its own, carried from scene to scene without the rest of
-/// the curve. Response and frequency are solved for together,
+/// One peak of a response curve as an unknown of its own, carried from scene to scene without the
+/// rest of the curve. Response and frequency are solved for together,
 ///
 ///   R(x, ω; p) = 0,     da/ds = 0
 ///
-/// a the output's amplitude, s the arc length of the branch: first R = 0 on the plane across the branch at
-/// the peak known for another p, then a few steps uphill until da/ds changes sign, then its zero between
-/// two points of the branch. da/ds jumps where the branch has a kink, so it is bracketed, never
-/// differentiated. Folds next to the peak do not matter: the frequency is an unknown, not a coordinate.
+/// a the output's amplitude, s the arc length of the branch: first R = 0 on the plane across the
+/// branch at the peak known for another p, then a few steps uphill until da/ds changes sign, then
+/// its zero between two points of the branch. da/ds jumps where the branch has a kink, so it is
+/// bracketed, never differentiated. Folds next to the peak do not matter: the frequency is an
+/// unknown, not a coordinate.
 ///
-/// An end of the frequency range, where the largest amplitude may stand as well, is carried the same way:
-/// R(x, ω_end; p) = 0.
+/// An end of the frequency range, where the largest amplitude may stand as well, is carried the
+/// same way: R(x, ω_end; p) = 0.
 #pragma once
 
 #include <optional>
@@ -57,8 +58,8 @@ struct PeakWork {
 /// @param from     peak of a scene near by.
 /// @param guess    expected place of the new peak.
 /// @param range    a peak outside of its frequencies is none.
-/// @return empty: no peak within half an amplitude, or half a resonance width, of the guess; it vanished,
-///         left the range, or the step between the scenes is too long.
+/// @return empty: no peak within half an amplitude, or half a resonance width, of the guess; it
+///         vanished, left the range, or the step between the scenes is too long.
 [[nodiscard]] std::optional<LocalPeak> follow_peak(HarmonicBalance& balance, const LocalPeak& from,
                                                    const BranchVector& guess,
                                                    const ContinuationOptions& range,

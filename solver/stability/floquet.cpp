@@ -32,7 +32,8 @@ TimeOptions period_options() {
   return options;
 }
 
-/// Which points leave stick within a period, how far sliders get, and which states are held how long.
+/// Which points leave stick within a period, how far sliders get,
+/// and which states are held how long.
 class SliderWatch final : public TimeObserver {
  public:
   explicit SliderWatch(std::size_t n_points) : moves(n_points, false) {}
@@ -49,7 +50,8 @@ class SliderWatch final : public TimeObserver {
     parts.back().end = segment.at(end);
   }
 
-  /// Points on a line whose slider stays where it is but for a share of its reach count as stuck throughout.
+  /// Points on a line whose slider stays where it is but for a share of its reach count as stuck
+  /// throughout.
   void forget_moves_below(double share) {
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const auto [least, most] = resting_places(i);
@@ -64,7 +66,8 @@ class SliderWatch final : public TimeObserver {
   std::vector<HeldPart> parts;
 
  private:
-  /// Least and largest slider of a point while it is stuck; infinitely far apart where it separates or never sticks.
+  /// Least and largest slider of a point while it is stuck;
+  /// infinitely far apart where it separates or never sticks.
   [[nodiscard]] std::pair<double, double> resting_places(std::size_t point) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double least = infinity;

@@ -12,7 +12,8 @@ namespace {
 using contact::ContactState;
 using contact::TransientForce;
 
-/// A function of q, its value and gradient by differences: exact for what is linear, up to rounding.
+/// A function of q, its value and gradient by differences: exact for what is linear,
+/// up to rounding.
 template <typename Function>
 Eigen::VectorXd gradient(const Function& value, const ModalMotion& at, double step) {
   Eigen::VectorXd result(at.q.size());

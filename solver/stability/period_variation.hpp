@@ -1,16 +1,19 @@
 /// @file
-/// How a motion near one that was integrated over a period ends it, to first order, where the force of held contact
-/// states is linear and no force jumps between them: friction along a line with a constant coefficient.
+/// How a motion near one that was integrated over a period ends it, to first order, where the force
+/// of held contact states is linear and no force jumps between them:
+/// friction along a line with a constant coefficient.
 ///
-///   x = (q, q̇/w, s),   x' = A_k x while the states k are held,   D(T) = … S_2 e^{A_2 Δt_2} S_1 e^{A_1 Δt_1} D(0)  (1)
+///   x = (q, q̇/w, s),   x' = A_k x,   D(T) = … S_2 e^{A_2 Δt_2} S_1 e^{A_1 Δt_1} D(0)          (1)
 ///
-/// S_k is the identity but for sliders that come to rest at the end of states k, s = σ(q):
+/// while the states k are held. S_k is the identity but for sliders that come to rest at the end of
+/// states k, s = σ(q):
 ///
-///   after slip          its rate vanishes there:            δs = ∇σ·δq                                           (2)
-///   after separation    g(q) = 0 comes at another instant:  δs = ∇σ·δq − (∇σ·q̇)(∇g·δq)/(∇g·q̇)                   (3)
+///   after slip          its rate vanishes there:     δs = ∇σ·δq                             (2)
+///   after separation    g(q) = 0 at another instant: δs = ∇σ·δq − (∇σ·q̇)(∇g·δq)/(∇g·q̇)  (3)
 ///
-/// Source: saltation matrices as in Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems
-/// (2004), section 7; the flow itself is continuous here. Follows one period where differences take two per column.
+/// Source: saltation matrices as in Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
+/// Mechanical Systems (2004), section 7; the flow itself is continuous here. Follows one period
+/// where differences take two per column.
 #pragma once
 
 #include <vector>

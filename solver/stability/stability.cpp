@@ -44,8 +44,8 @@ double sign_of_determinant(const Eigen::MatrixXd& matrix) {
   return contact::LuFactors(matrix).sign_of_determinant();
 }
 
-/// A balance reduced to some harmonics of some modes: what is left out follows without inertia or memory of its
-/// own, J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
+/// A balance reduced to some harmonics of some modes: what is left out follows without inertia or
+/// memory of its own, J_ll − J_lh J_hh⁻¹ J_hl, which keeps the zeros of the determinant.
 struct Reduced {
   std::vector<int> orders;
   std::vector<Eigen::Index> modes;
@@ -68,7 +68,8 @@ std::vector<Eigen::Index> all_modes(const Scene& scene) {
   return modes;
 }
 
-/// Modes that move by themselves: the low ones, and those near a harmonic. Others follow like springs.
+/// Modes that move by themselves: the low ones, and those near a harmonic.
+/// Others follow like springs.
 std::vector<Eigen::Index> moving_modes(const HarmonicBalance& balance, double frequency) {
   const Eigen::VectorXd& natural = balance.scene().natural_frequency;
   std::vector<Eigen::Index> modes;
@@ -188,8 +189,8 @@ double centre_of(const Eigen::VectorXcd& p, const std::vector<int>& orders, Eige
   return moment / size;
 }
 
-/// A resonance near by is a pair −d ± i(ω_r − ω), or, close to it, two real values of which one vanishes
-/// at a fold: there the other one tells the width.
+/// A resonance near by is a pair −d ± i(ω_r − ω), or, close to it, two real values of which one
+/// vanishes at a fold: there the other one tells the width.
 double nearest_resonance(const Eigen::VectorXcd& eigenvalues) {
   double oscillating = std::numeric_limits<double>::infinity();
   double real = 0.0;
@@ -203,7 +204,8 @@ double nearest_resonance(const Eigen::VectorXcd& eigenvalues) {
   return real > 0.0 ? std::min(real, oscillating) : oscillating;
 }
 
-/// Whether a matrix is symmetric without negative eigenvalues, up to rounding of the sum that made it.
+/// Whether a matrix is symmetric without negative eigenvalues,
+/// up to rounding of the sum that made it.
 bool is_spring(const Eigen::MatrixXd& stiffness) {
   constexpr double rounding = 1e-12;  // of the norm: sums over some thousand points
   const double least = rounding * stiffness.norm();
@@ -212,8 +214,8 @@ bool is_spring(const Eigen::MatrixXd& stiffness) {
   return values && values->minCoeff() >= -least;
 }
 
-/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0, for all motions of a ball: the energy of a perturbation falls until it
-/// is at rest.
+/// q̈ + C q̇ + (Ω + S) q with C, Ω > 0 and S ≥ 0, for all motions of a ball: the energy of a
+/// perturbation falls until it is at rest.
 bool is_damped_linear(const Scene& scene, const Harmonics& centre, double radius) {
   const bool damped =
       (scene.natural_frequency.array() > 0.0).all() && (scene.damping_ratio.array() > 0.0).all();

@@ -1,24 +1,25 @@
 /// @file
 /// Stability of a solution (theory section 17), as far as the Jacobian of the balance can tell it.
 ///
-/// One harmonic: its slow flow. Amplitudes vary slowly against the cycle, so that the steady-cycle force
-/// applies,
+/// One harmonic: its slow flow. Amplitudes vary slowly against the cycle, so that the steady-cycle
+/// force applies,
 ///
 ///   B̈ + C Ḃ + Ω B + G_b = Q_b,      (2ikωI + C) Ȧ^(k) + (Ω − k²ω² + ikωC) A^(k) + G^(k) = Q^(k)
 ///
-/// linearised. Stable: no eigenvalue that is slow against the cycle (|Im λ| < ω/4) grows, and det ∂R/∂x,
-/// whose sign changes at folds and simple branch points, is not negative.
+/// linearised. Stable: no eigenvalue that is slow against the cycle (|Im λ| < ω/4) grows, and det
+/// ∂R/∂x, whose sign changes at folds and simple branch points, is not negative.
 ///
 /// Several: Hill's quadratic eigenproblem (∂R/∂x + λΔ + λ²I) p = 0, Δ made of C and 2kω, whose
 /// eigenvectors p tell the 2 n_modes exponents that are no copies λ ± ikω of others: those centred
 /// on harmonic 0. Modes far above all harmonics answer
 /// quasi-statically, and where 80 states do not hold all harmonics the highest. A real
-/// exponent that grows, or a negative determinant, is unstable. The Jacobian of a hysteretic force is that
-/// for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it cannot tell, and the
-/// point is not assessed. With no exponent growing it is called stable, which pairs of a hysteretic force do
-/// not prove either: where the scene can be integrated in time, the multipliers of its period map judge them
-/// (floquet.hpp). A linear structure, without contact or with one that is known to be a spring (S = Sᵀ ≥ 0), needs
-/// none of this: with every natural frequency and damping ratio above 0 all its perturbations decay.
+/// exponent that grows, or a negative determinant, is unstable. The Jacobian of a hysteretic force
+/// is that for perturbations of the period of the motion; where a pair with Im λ ≠ 0 grows it
+/// cannot tell, and the point is not assessed. With no exponent growing it is called stable, which
+/// pairs of a hysteretic force do not prove either: where the scene can be integrated in time, the
+/// multipliers of its period map judge them (floquet.hpp). A linear structure, without contact or
+/// with one that is known to be a spring (S = Sᵀ ≥ 0), needs none of this: with every natural
+/// frequency and damping ratio above 0 all its perturbations decay.
 #pragma once
 
 #include <optional>
@@ -39,14 +40,17 @@ struct StabilityReport {
   double nearest = 0.0;
 };
 
-/// @param jacobian  of the point, or of one from which the solution was reached in a step or two (few_jacobians.hpp):
-///                  then the verdict may be that of the neighbour within 3e-4 of a fold.
-/// By the slow flow alone: what one harmonic is judged by, and the width of resonances for any number.
+/// @param jacobian  of the point, or of one from which the solution was reached in a step or two
+///                  (few_jacobians.hpp): then the verdict may be that of the neighbour within 3e-4
+///                  of a fold.
+/// By the slow flow alone: what one harmonic is judged by,
+/// and the width of resonances for any number.
 [[nodiscard]] StabilityReport slow_flow_stability(const HarmonicBalance& balance,
                                                   const Eigen::MatrixXd& jacobian, double frequency,
                                                   std::optional<double> determinant_sign = {});
 
-/// The same judged by Hill's exponents where there are several harmonics and the scene is no damped linear one.
+/// The same judged by Hill's exponents where there are several harmonics and the scene is no damped
+/// linear one.
 /// @param slow  slow_flow_stability() of the same point.
 [[nodiscard]] StabilityReport hill_stability(const HarmonicBalance& balance,
                                              const Eigen::MatrixXd& jacobian, double frequency,
@@ -54,15 +58,18 @@ struct StabilityReport {
 
 /// What a verdict may cost.
 enum class PeriodMapEffort {
-  every_point,  ///< modes, two states each, and points of friction along a line together at most 16: some 2 ms
-  few_points,  ///< 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions
+  /// Modes, two states each, and points of friction along a line together at most 16: some 2 ms.
+  every_point,
+  /// 60 states that move in the period, 100 points: 0.01 to 2 s, for peaks and single solutions.
+  few_points,
 };
 
-/// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is judged by the
-/// multipliers of the period map that are not real and positive. Within `distance` of the unit circle, and at
-/// least 1e-4, they tell nothing and the point is not assessed. Real positive ones are those of the
-/// determinant. Nothing is integrated where every point is proved stuck, or every point open, in that motion and those
-/// around it: with damping it is stable. Left as it is: one harmonic, and scenes too large for the effort.
+/// Several harmonics in a scene with `transient`: what Hill's problem does not call unstable is
+/// judged by the multipliers of the period map that are not real and positive. Within `distance` of
+/// the unit circle, and at least 1e-4, they tell nothing and the point is not assessed. Real
+/// positive ones are those of the determinant. Nothing is integrated where every point is proved
+/// stuck, or every point open, in that motion and those around it: with damping it is stable. Left
+/// as it is: one harmonic, and scenes too large for the effort.
 /// @param hill  hill_stability() of the same point.
 /// @param q     its harmonics.
 [[nodiscard]] StabilityReport stability_in_time(const HarmonicBalance& balance, const Harmonics& q,

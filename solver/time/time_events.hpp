@@ -1,9 +1,9 @@
 /// @file
-/// Event-locating integration of full order (theory section 18): while contact states are held the right
-/// side is smooth, and steps are taken by the pair of Dormand and Prince of order 5(4) (J. Comput. Appl.
-/// Math. 6 (1980) 19–26); where a state ends the step is cut, the state switched, and integration goes on.
-/// Where the force of a held state has a kink (cubic heights: all in contact) the step is taken again to end
-/// there: a step across would be of order four.
+/// Event-locating integration of full order (theory section 18): while contact states are held the
+/// right side is smooth, and steps are taken by the pair of Dormand and Prince of order 5(4) (J.
+/// Comput. Appl. Math. 6 (1980) 19–26); where a state ends the step is cut, the state switched, and
+/// integration goes on. Where the force of a held state has a kink (cubic heights: all in contact)
+/// the step is taken again to end there: a step across would be of order four.
 #pragma once
 
 #include "solver/time/time_stepper.hpp"
@@ -12,7 +12,8 @@ namespace microslip::solver {
 
 class EventStepper final : public TimeStepper {
  public:
-  /// @throws std::invalid_argument  fixed steps (infinite tolerance) beyond the bound of the method.
+  /// @throws std::invalid_argument  fixed steps (infinite tolerance) beyond the bound of the
+  ///         method.
   EventStepper(const TimeSystem& system, const TimeOptions& options);
   void advance_period(TimeState& state, TimeObserver* observer) override;
   [[nodiscard]] long n_events() const override { return n_events_; }

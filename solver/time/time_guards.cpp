@@ -45,8 +45,9 @@ struct GuardAlong {
   }
 };
 
-/// Root of g in [low, high], g(low) > 0 ≥ g(high): regula falsi with halved weights (Illinois), every third
-/// step a bisection. The result is not positive, or positive by less than a tenth of the tolerance.
+/// Root of g in [low, high], g(low) > 0 ≥ g(high): regula falsi with halved weights (Illinois),
+/// every third step a bisection. The result is not positive,
+/// or positive by less than a tenth of the tolerance.
 double bracketed_root(const GuardAlong& g, double low, double high, double g_low, double g_high) {
   for (int i = 1; i < 200; ++i) {
     if (high - low <= std::numeric_limits<double>::epsilon() * high) break;
@@ -94,8 +95,8 @@ double descend(const GuardAlong& g, double low, double high) {
 
 using Samples = std::array<double, n_samples>;
 
-/// Whether the parabola through three neighbouring samples, the middle one lowest, falls below zero; also
-/// when it nearly does, by a tenth of the drop, for a guard is not a parabola.
+/// Whether the parabola through three neighbouring samples, the middle one lowest, falls below
+/// zero; also when it nearly does, by a tenth of the drop, for a guard is not a parabola.
 bool may_dip(const Samples& g, std::size_t middle) {
   const double before = g[middle - 1] - g[middle];
   const double after = g[middle + 1] - g[middle];

@@ -1,9 +1,9 @@
 /// @file
 /// Where in a time step a contact state ends first.
 ///
-/// Guards are sampled at five instants of the step. A guard that is negative at one of them ends its
-/// state before; one that dips between two of them is followed to its minimum first. The instant is then
-/// bracketed to rounding on the polynomial of the step, where guards are smooth.
+/// Guards are sampled at five instants of the step. A guard that is negative at one of them ends
+/// its state before; one that dips between two of them is followed to its minimum first. The
+/// instant is then bracketed to rounding on the polynomial of the step, where guards are smooth.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@
 
 namespace microslip::solver {
 
-/// A guard is violated below minus this: rounding of a force that is the difference of larger terms is a
-/// few 1e-16 of them, and a state that begins where the last one ended starts within it.
+/// A guard is violated below minus this: rounding of a force that is the difference of larger terms
+/// is a few 1e-16 of them, and a state that begins where the last one ended starts within it.
 inline constexpr double guard_tolerance = 1e-13;
 
 struct TimeEvent {
@@ -30,8 +30,9 @@ struct TimeEvent {
                                                    const contact::TransientMemory& memory,
                                                    const contact::GuardScale& scale);
 
-/// Where the motion first meets a kink of the held force inside a segment, x in (0, 1); a kink that a step
-/// begins on is left behind. Sampled as the guards are, so that two crossings between samples are missed.
+/// Where the motion first meets a kink of the held force inside a segment, x in (0, 1); a kink that
+/// a step begins on is left behind. Sampled as the guards are,
+/// so that two crossings between samples are missed.
 [[nodiscard]] std::optional<double> first_kink(const contact::TransientForce& contact,
                                                const TimeSegment& segment);
 

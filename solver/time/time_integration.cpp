@@ -10,8 +10,9 @@
 namespace microslip::solver {
 namespace {
 
-/// Sizes that changes are held against are those of the period; where nothing keeps up a motion, those of the
-/// largest period so far: motion that decays to rest is small only against what it was.
+/// Sizes that changes are held against are those of the period; where nothing keeps up a motion,
+/// those of the largest period so far: motion that decays to rest is small only against what it
+/// was.
 void keep_largest(const TimeSystem& system, PeriodState& state, PeriodState& largest) {
   if (system.is_driven()) return;
   largest.displacement_size = std::max(largest.displacement_size, state.displacement_size);
@@ -38,7 +39,8 @@ PeriodState period_state(const TimeSystem& system, const TimeState& state,
 
 double ratio_of(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 
-/// @param at_rest  energy that comes and goes where nothing drives the motion [J]: works of a decay vanish with it.
+/// @param at_rest  energy that comes and goes where nothing drives the motion [J]:
+///                 works of a decay vanish with it.
 void fill_response(const TimeSystem& system, const TimeRecorder& recorder, double at_rest,
                    TimePoint& point) {
   ResponsePoint& response = point.response;

@@ -1,6 +1,6 @@
 /// @file
-/// What a motion in time does over its last periods, gathered step by step: harmonics, extremes of the
-/// output, work of every force, contact states.
+/// What a motion in time does over its last periods, gathered step by step: harmonics, extremes of
+/// the output, work of every force, contact states.
 #pragma once
 
 #include <vector>
@@ -32,7 +32,8 @@ class TimeRecorder final : public TimeObserver {
   [[nodiscard]] double half_peak_to_peak() const { return 0.5 * (highest_ - lowest_); }
   [[nodiscard]] PeriodWork work() const;
   [[nodiscard]] contact::CycleReport report() const;
-  /// Stick phases of each point per period recorded; a point that never does anything else has one in all.
+  /// Stick phases of each point per period recorded; a point that never does anything else has one
+  /// in all.
   [[nodiscard]] std::vector<int> stick_phases() const;
 
  private:

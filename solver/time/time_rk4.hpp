@@ -1,7 +1,7 @@
 /// @file
 /// Fixed-step fourth-order Runge–Kutta with slider memory committed once per step (paper B, eq. 13;
-/// theory section 18). Within a step the trial force lets the sliders of its begin give way; order 4
-/// while nothing slips, between 1 and 2 otherwise.
+/// theory section 18). Within a step the trial force lets the sliders of its begin give way; order
+/// 4 while nothing slips, between 1 and 2 otherwise.
 #pragma once
 
 #include "solver/time/time_stepper.hpp"

@@ -3,11 +3,12 @@
 ///
 ///   q(x) = q₀ + h q̇₀ x + ½ h² q̈₀ x² + A x³ + B x⁴ + C x⁵,      x = (t − t₀)/h in [0, 1]
 ///
-/// Error O(h⁶) in q, O(h⁵) in q̇, O(h⁴) in q̈. It is built from increments over the step, so that velocities
-/// keep their accuracy in steps of any shortness.
+/// Error O(h⁶) in q, O(h⁵) in q̇, O(h⁴) in q̈. It is built from increments over the step, so that
+/// velocities keep their accuracy in steps of any shortness.
 ///
-/// Internal variables of the held states are carried along as polynomials of degree four in the form of
-/// Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.6: error O(h⁵).
+/// Internal variables of the held states are carried along as polynomials of degree four in the
+/// form of Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.6:
+/// error O(h⁵).
 #pragma once
 
 #include <utility>

@@ -1,6 +1,6 @@
 /// @file
-/// One period of a scene in time, by either method. The state goes in and out; an observer sees every
-/// step.
+/// One period of a scene in time, by either method. The state goes in and out; an observer sees
+/// every step.
 #pragma once
 
 #include <memory>
@@ -76,8 +76,8 @@ class TimeStepper {
 };
 
 /// @param system  borrowed; must outlive the result.
-/// @throws std::invalid_argument  an option is out of range, or fixed steps are beyond the bound of the
-///         stuck system; the message says how many steps per period it needs.
+/// @throws std::invalid_argument  an option is out of range, or fixed steps are beyond the bound of
+///         the stuck system; the message says how many steps per period it needs.
 [[nodiscard]] std::unique_ptr<TimeStepper> make_stepper(const TimeSystem& system,
                                                         const TimeOptions& options);
 

@@ -1,5 +1,6 @@
 /// @file
-/// Equations of motion of a scene at one frequency of excitation (theory section 18; paper B, eq. 13):
+/// Equations of motion of a scene at one frequency of excitation (theory section 18; paper B, eq.
+/// 13):
 ///
 ///   q̈ = Q(θ) − C q̇ − Ω q − G,     θ = ωt,   C = 2 ζ_n ω_n,   Ω = ω_n²
 ///
@@ -18,8 +19,8 @@ using contact::ModalMotion;
 using contact::TransientMemory;
 
 /// Largest step over 1/|λ|, |λ| the largest of the stuck and of the free system, that fixed-step
-/// integration accepts (theory section 18). The limit of fourth-order Runge–Kutta itself is 2√2 for an
-/// undamped mode: a factor √2 is left.
+/// integration accepts (theory section 18). The limit of fourth-order Runge–Kutta itself is 2√2 for
+/// an undamped mode: a factor √2 is left.
 inline constexpr double largest_step_ratio = 2.0;
 
 /// @throws std::invalid_argument  the condition does not hold; the message says which.
@@ -28,8 +29,8 @@ void require_for_time(bool condition, const std::string& message);
 class TimeSystem {
  public:
   /// @param scene  borrowed; must outlive this.   @param frequency  ω [rad/s], > 0.
-  /// @throws std::invalid_argument  sizes in the scene differ, a value is not finite or out of range,
-  ///         or the scene has contact that time integration cannot see.
+  /// @throws std::invalid_argument  sizes in the scene differ, a value is not finite or out of
+  ///         range, or the scene has contact that time integration cannot see.
   TimeSystem(const Scene& scene, double frequency);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -1,13 +1,15 @@
 /// @file
-/// Error against time of every method in the tree, for each kind of point and for the rule over the patch: what
-/// stands on no front in the range a user reads (1e-2 to 1e-6 of the force) does not pay.
+/// Error against time of every method in the tree, for each kind of point and for the rule over the
+/// patch: what stands on no front in the range a user reads (1e-2 to 1e-6 of the force) does not
+/// pay.
 ///
 ///   bench_front [--quick] [--csv FILE]
 ///
-/// A patch of 24 × 16 points with ten smooth modes, and random motions that leave a part of it stuck, a part
-/// slipping and a part open. Error: ‖G − G_ref‖ over the larger of ‖G_ref‖ and the force of the stuck patch, root
-/// mean square over the motions and largest; of ∂G/∂q the same over the larger of the norms. Time: force and
-/// Jacobian, median over the motions, µs per point, of this thread. A reference is judged by another method.
+/// A patch of 24 × 16 points with ten smooth modes, and random motions that leave a part of it
+/// stuck, a part slipping and a part open. Error: ‖G − G_ref‖ over the larger of ‖G_ref‖ and the
+/// force of the stuck patch, root mean square over the motions and largest; of ∂G/∂q the same over
+/// the larger of the norms. Time: force and Jacobian, median over the motions, µs per point, of
+/// this thread. A reference is judged by another method.
 /// --quick: two motions, to see that it runs. Picture: share/scripts/plot_front.py.
 #include <algorithm>
 #include <cmath>
@@ -296,7 +298,8 @@ void compare(const Kind& kind, const Effort& effort, std::vector<Row>& rows) {
   }
 }
 
-/// The rule over the patch: centres of cells, halved again and again, alone and extrapolated from two.
+/// The rule over the patch: centres of cells, halved again and again,
+/// alone and extrapolated from two.
 void compare_cells(const Effort& effort, std::vector<Row>& rows) {
   const std::vector<Harmonics> motions = motions_of(1, effort.n_motions);
   std::vector<Trial> trials;

@@ -1,7 +1,7 @@
 /// @file
-/// A patch in lanes (contact/sampled) beside methods that find their cycles point by point: error of the modal force
-/// and of the Jacobian, relative to the larger of the norm and that of the stuck patch, against µs per awake
-/// point, ten modes, on one core:
+/// A patch in lanes (contact/sampled) beside methods that find their cycles point by point: error
+/// of the modal force and of the Jacobian, relative to the larger of the norm and that of the stuck
+/// patch, against µs per awake point, ten modes, on one core:
 ///
 ///   line   one direction, against located events    (line_events.hpp)
 ///   plane  two directions, against planar events    (planar_cycle.hpp)

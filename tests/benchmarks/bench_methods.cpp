@@ -1,13 +1,14 @@
 /// @file
-/// Cost of a patch whose points follow a method of their own (point_method_force.hpp), ten modes, force and
-/// Jacobian:
+/// Cost of a patch whose points follow a method of their own (point_method_force.hpp), ten modes,
+/// force and Jacobian:
 ///
-///   event_patch     488 points that slip, H = 1, 3, 5: ns per point, and of these `ns_of_cycle` for the cycles
-///                   of the points alone
+///   event_patch     488 points that slip, H = 1, 3, 5: ns per point, and of these `ns_of_cycle`
+///                   for the cycles of the points alone
 ///   sleeping_event  488 points, H = 5, and
-///   sleeping_planar 300 points in two tangential directions, H = 1: every `awake`-th point slips, the
-///                   others stick. `ratio` is the time of the same patch with every point evaluated over
-///                   that with sleeping points.
+///   sleeping_planar 300 points in two tangential directions, H = 1: every `awake`-th point slips,
+///   the
+///                   others stick. `ratio` is the time of the same patch with every point evaluated
+///                   over that with sleeping points.
 #include <benchmark/benchmark.h>
 
 #include <ctime>

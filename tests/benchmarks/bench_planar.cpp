@@ -1,8 +1,9 @@
 /// @file
-/// Cost of a contact point that moves in two tangential directions: traction and Jacobian of one point at
-/// the tolerance of scenes, over random states of each stratum. The spread matters as much as the mean, so
-/// that every state is timed by itself: counters give median, 99 % and worst in µs. planar_curve traces a
-/// whole curve: two modes, two points that move along p, q and r, a static load that gives them means.
+/// Cost of a contact point that moves in two tangential directions: traction and Jacobian of one
+/// point at the tolerance of scenes, over random states of each stratum. The spread matters as much
+/// as the mean, so that every state is timed by itself: counters give median, 99 % and worst in µs.
+/// planar_curve traces a whole curve: two modes, two points that move along p, q and r, a static
+/// load that gives them means.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

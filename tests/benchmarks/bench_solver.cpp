@@ -114,8 +114,8 @@ void peak_on_whole_curves(benchmark::State& state) {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The curve with harmonics chosen for it, the choice included, against the same with these given, in
-/// processor time; 100 points, preload in hundredths.
+/// The curve with harmonics chosen for it, the choice included, against the same with these given,
+/// in processor time; 100 points, preload in hundredths.
 void chosen_harmonics(benchmark::State& state) {
   solver::Scene scene = strip(100, 0.01 * static_cast<double>(state.range(0)));
   tests::use_event_cycles(scene);

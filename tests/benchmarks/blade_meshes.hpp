@@ -1,6 +1,6 @@
 /// @file
-/// Meshes of the default blade for benchmarks. The mesher is a child process: make them before PETSc is
-/// opened.
+/// Meshes of the default blade for benchmarks. The mesher is a child process: make them before
+/// PETSc is opened.
 #pragma once
 
 #include "mesh/mesh.hpp"

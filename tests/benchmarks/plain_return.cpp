@@ -28,8 +28,8 @@ MatrixXd basis_of(int instants, Index n_rows) {
   return basis;
 }
 
-/// Traction of a point at one instant, along each direction, and by the harmonics of each: direction × (direction,
-/// harmonic).
+/// Traction of a point at one instant, along each direction, and by the harmonics of each:
+/// direction × (direction, harmonic).
 struct Traction {
   Eigen::VectorXd value;
   MatrixXd change;

@@ -1,11 +1,15 @@
 /// @file
-/// A patch by alternating frequency and time, as contact is treated elsewhere: every point a spring with a return to
-/// the cone of friction at equally spaced instants, derivatives carried along, Fourier sums by the rectangle rule.
-/// Smooth surfaces and a constant coefficient of friction. What the methods of the product are measured against.
+/// A patch by alternating frequency and time, as contact is treated elsewhere: every point a spring
+/// with a return to the cone of friction at equally spaced instants, derivatives carried along,
+/// Fourier sums by the rectangle rule. Smooth surfaces and a constant coefficient of friction. What
+/// the methods of the product are measured against.
 ///
-///   n = max(0, n₀ + k_v v),   f* = f_{i−1} + k_u (x_i − x_{i−1}),   f = f* min(1, μ n/|f*|),   x = u or (u, w)
+///   n = max(0, n₀ + k_v v),   f* = f_{i−1} + k_u (x_i − x_{i−1}),   f = f* min(1, μ n/|f*|)
 ///
-/// A point that closes between two instants starts to stick where the straight line between them closes.
+/// with x = u or (u, w).
+///
+/// A point that closes between two instants starts to stick where the straight line between them
+/// closes.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
 /// @file
-/// Fuzzing of readers (libFuzzer): a damaged text is read, or refused by an error of the reader's own. Anything else, another
-/// exception, a finding of a sanitizer, too much memory or time, ends the process. share/scripts/fuzz.sh builds and runs.
+/// Fuzzing of readers (libFuzzer): a damaged text is read, or refused by an error of the reader's
+/// own. Anything else, another exception, a finding of a sanitizer, too much memory or time, ends
+/// the process. share/scripts/fuzz.sh builds and runs.
 #pragma once
 
 #include <cstddef>

@@ -38,8 +38,9 @@ using tests::marked;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// Two modes, the first tuned from below the second to above; one point of contact that both move couples them. Stuck,
-/// the two frequencies come no nearer than some 1 %; slip brings them closer and lets the peaks grow together.
+/// Two modes, the first tuned from below the second to above; one point of contact that both move
+/// couples them. Stuck, the two frequencies come no nearer than some 1 %; slip brings them closer
+/// and lets the peaks grow together.
 solver::Scene veering_scene(double tuned) {
   solver::Scene scene;
   scene.natural_frequency = Eigen::Vector2d(std::min(tuned, 1.0), std::max(tuned, 1.0));

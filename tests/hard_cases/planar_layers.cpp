@@ -1,8 +1,8 @@
-/// What is hard: a point with two tangential directions whose limit of friction changes within a small part
-/// of the period: a coefficient that falls with the speed, where the motion all but stops; contact that is
-/// lost and found again within a few hundredths of a radian; Gaussian heights under amplitudes of hundreds
-/// of them. Where: theory sections 8, 9, 10, 11. Right: every slip phase is there, forces agree with marches
-/// of many steps.
+/// What is hard: a point with two tangential directions whose limit of friction changes within a
+/// small part of the period: a coefficient that falls with the speed, where the motion all but
+/// stops; contact that is lost and found again within a few hundredths of a radian; Gaussian
+/// heights under amplitudes of hundreds of them. Where: theory sections 8, 9, 10, 11. Right: every
+/// slip phase is there, forces agree with marches of many steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,8 +90,8 @@ TEST(PlanarLayers, ContactLostForAMomentIsLost) {
   EXPECT_NEAR(traction.force.sine(1)[2], -0.00687214670, 1e-10);
 }
 
-/// Largest error of the friction of a point whose coefficient falls with the rate, relative to its force
-/// scale.
+/// Largest error of the friction of a point whose coefficient falls with the rate, relative to its
+/// force scale.
 double error_of_events(const EventCase& c, double tolerance) {
   const EventReference reference = planar_events(c, 20);
   EXPECT_TRUE(reference.settled);
@@ -148,7 +148,8 @@ std::vector<double> slip_starts(const std::vector<CycleSegment>& segments) {
   return starts;
 }
 
-/// Largest difference of the friction of a straight motion turned by an angle from that of one direction.
+/// Largest difference of the friction of a straight motion turned by an angle from that of one
+/// direction.
 double turned_difference(const SurfaceLaw& surface, const Harmonics& motion, double frequency) {
   PointTraction planar;
   PointTraction exact;

@@ -1,7 +1,8 @@
-/// What is hard: limits of a point with two tangential directions: no motion along one of them or both,
-/// contact that only just begins or ends, no preload, events that meet, amplitudes of any size.
-/// Where: theory sections 4.2, 4.5, 9. Right: finite forces that agree with the method of one direction where
-/// the motion is straight, works that balance, derivatives that are those of one side.
+/// What is hard: limits of a point with two tangential directions: no motion along one of them or
+/// both, contact that only just begins or ends, no preload, events that meet, amplitudes of any
+/// size. Where: theory sections 4.2, 4.5, 9. Right: finite forces that agree with the method of one
+/// direction where the motion is straight, works that balance,
+/// derivatives that are those of one side.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -25,9 +25,9 @@ using solver::ResponsePoint;
 using tests::frequency_range;
 using tests::marked;
 
-/// The force at which the two folds of a Duffing oscillator meet. With a = 1 − ω², b = ¾α, c = 2ζω, S = A²
-/// folds are the roots of 3b²S² + 4abS + a² + c²; a double root needs a = −√3 c, S = 2c/(√3 b), and then
-/// F² = 8c³/(3√3 b).
+/// The force at which the two folds of a Duffing oscillator meet. With a = 1 − ω², b = ¾α, c = 2ζω,
+/// S = A² folds are the roots of 3b²S² + 4abS + a² + c²; a double root needs a = −√3 c, S = 2c/(√3
+/// b), and then F² = 8c³/(3√3 b).
 double cusp_force(const tests::Duffing& duffing) {
   const double root = std::sqrt(3.0);
   const double omega = root * duffing.zeta + std::sqrt(3.0 * duffing.zeta * duffing.zeta + 1.0);

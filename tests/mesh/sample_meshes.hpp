@@ -13,8 +13,8 @@
 
 namespace microslip::mesh::tests {
 
-/// Project node at each place of a gmsh file, written down anew from gmsh's manual ("Node ordering"):
-/// the tests must not take it from the reader.
+/// Project node at each place of a gmsh file, written down anew from gmsh's manual ("Node
+/// ordering"): the tests must not take it from the reader.
 inline std::vector<int> file_order(ElementType type) {
   if (type == ElementType::tet10) return {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
   // file: edges 01 02 03 12 14 25 34 35 45; project: 01 12 20 34 45 53 03 14 25

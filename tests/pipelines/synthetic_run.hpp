@@ -1,7 +1,7 @@
 /// @file
 /// A small made-up run for the tests of the writers: a patch of quadrilateral cells that tilts and
-/// slides, one resonance with a fold. The numbers are smooth formulas, different for every entry, so
-/// that a swapped row or column shows.
+/// slides, one resonance with a fold. The numbers are smooth formulas, different for every entry,
+/// so that a swapped row or column shows.
 #pragma once
 
 #include <unistd.h>

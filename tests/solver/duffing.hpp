@@ -1,5 +1,6 @@
 /// @file
-/// A cubic spring behind the door of ModalForce: one mode, one harmonic, everything known in closed form.
+/// A cubic spring behind the door of ModalForce: one mode, one harmonic,
+/// everything known in closed form.
 ///
 ///   q̈ + 2ζq̇ + q + α q³ = F sin θ; with A = hypot(q_s, q_c) and one harmonic, without a mean,
 ///   F² = [(1 − ω² + ¾αA²) A]² + (2ζωA)²

@@ -1,5 +1,6 @@
 /// @file
-/// A force asked once, with a workspace of its own: as a test asks where nothing is to be remembered.
+/// A force asked once, with a workspace of its own: as a test asks where nothing is to be
+/// remembered.
 #pragma once
 
 #include <numeric>

@@ -51,8 +51,8 @@ ElementType element_type(Solid solid, int order) {
   return {};
 }
 
-/// What the cells of a box become: pyramids stand on the faces of a cell, tetrahedra where a neighbour has two
-/// triangles, their apex in its middle.
+/// What the cells of a box become: pyramids stand on the faces of a cell, tetrahedra where a
+/// neighbour has two triangles, their apex in its middle.
 using Cut = std::function<Solid(int)>;  // of the place of a cell along x
 
 class Builder {

@@ -1,5 +1,6 @@
 /// @file
-/// Natural frequencies and static contact from CalculiX (the program `ccx`), an independent finite-element code.
+/// Natural frequencies and static contact from CalculiX (the program `ccx`),
+/// an independent finite-element code.
 #pragma once
 
 #include <string>
@@ -16,12 +17,13 @@ namespace microslip::test {
 /// True if `ccx` is on PATH.
 [[nodiscard]] bool has_calculix();
 
-/// Frequencies [rad/s] of the lowest modes of a mesh, ascending, as CalculiX prints them (7 digits).
-/// Node order is that of Abaqus already. Works in a folder of its own below the system's temporary
-/// one and removes it.
+/// Frequencies [rad/s] of the lowest modes of a mesh, ascending, as CalculiX prints them (7
+/// digits). Node order is that of Abaqus already. Works in a folder of its own below the system's
+/// temporary one and removes it.
 /// @param clamped  names of surfaces or node sets that are held.
-/// @param rotation  with a speed: of the body in static equilibrium with its centrifugal load, large displacements
-///                  (*STATIC with NLGEOM, then *FREQUENCY with PERTURBATION, the load still on).
+/// @param rotation  with a speed: of the body in static equilibrium with its centrifugal load,
+///                  large displacements (*STATIC with NLGEOM, then *FREQUENCY with PERTURBATION,
+///                  the load still on).
 /// @throws std::runtime_error  ccx failed or printed fewer frequencies; with its last words.
 [[nodiscard]] Eigen::VectorXd calculix_frequencies(const mesh::Mesh& mesh,
                                                    const fem::Material& material,
@@ -41,7 +43,8 @@ struct CalculixContact {
   Eigen::MatrixX3d displacement;  ///< of the nodes of the surface [m]
 };
 
-/// Linear static equilibrium with contact without friction (TYPE=SURFACE TO SURFACE, PRESSURE-OVERCLOSURE=LINEAR).
+/// Linear static equilibrium with contact without friction (TYPE=SURFACE TO SURFACE,
+/// PRESSURE-OVERCLOSURE=LINEAR).
 /// @throws std::runtime_error  ccx failed or printed less than this.
 [[nodiscard]] CalculixContact calculix_contact(const mesh::Mesh& mesh,
                                                const fem::Material& material,

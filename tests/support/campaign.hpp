@@ -1,7 +1,7 @@
 /// @file
-/// Campaigns: tests over many random states or scenes. Every run of the tests takes a tenth of each, always
-/// the same one; all are taken where the environment says MICROSLIP_CAMPAIGNS=whole, as
-/// share/scripts/campaigns.sh does.
+/// Campaigns: tests over many random states or scenes. Every run of the tests takes a tenth of
+/// each, always the same one; all are taken where the environment says MICROSLIP_CAMPAIGNS=whole,
+/// as share/scripts/campaigns.sh does.
 #pragma once
 
 #include <algorithm>

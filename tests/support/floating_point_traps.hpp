@@ -1,6 +1,6 @@
 /// @file
-/// Divisions by zero, invalid operations and overflows end the tests of contact and solver where they happen
-/// (SIGFPE), instead of going on as infinities and NaN.
+/// Divisions by zero, invalid operations and overflows end the tests of contact and solver where
+/// they happen (SIGFPE), instead of going on as infinities and NaN.
 #pragma once
 
 #include <cfenv>
@@ -10,7 +10,8 @@
 
 namespace microslip::tests {
 
-/// None of them ends the program as long as this lives: what is tested is to reach infinity, or takes NaN.
+/// None of them ends the program as long as this lives: what is tested is to reach infinity,
+/// or takes NaN.
 class UntrappedFloatingPoint {
  public:
   UntrappedFloatingPoint() { std::feholdexcept(&before_); }

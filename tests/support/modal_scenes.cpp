@@ -16,7 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Modes, output and a force along sin θ through the output's own direction; contact added by the caller.
+/// Modes, output and a force along sin θ through the output's own direction;
+/// contact added by the caller.
 solver::Scene linear_scene(const Eigen::VectorXd& frequency, double damping_ratio,
                            const Eigen::VectorXd& output, const Eigen::VectorXd& force) {
   solver::Scene scene;

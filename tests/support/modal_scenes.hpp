@@ -17,12 +17,14 @@ struct PatchScene {
   int n_points = 300;
 };
 /// A patch along one edge with smooth mode shapes, in the manner of the blade of paper A: first
-/// resonances at 300 Hz and above, ζ = 0.002. @param preload  total normal force [N]; negative: a gap.
+/// resonances at 300 Hz and above, ζ = 0.002.
+/// @param preload  total normal force [N]; negative: a gap.
 [[nodiscard]] solver::Scene patch_scene(const PatchScene& size, double preload, double force = 1.0);
 
-/// Wilder than random_scene(): 1–8 modes down to 1 % apart, 1–24 points, damping 1e-5 … 0.1, contact
-/// stiffness 1e-3 … 1e3 of the structure's, preload 1e-2 … 1e3 of the force, gaps, static loads, sweeps
-/// either way. The same on every machine: no distribution of the standard library is used.
+/// Wilder than random_scene(): 1–8 modes down to 1 % apart, 1–24 points, damping 1e-5 … 0.1,
+/// contact stiffness 1e-3 … 1e3 of the structure's, preload 1e-2 … 1e3 of the force, gaps, static
+/// loads, sweeps either way. The same on every machine:
+/// no distribution of the standard library is used.
 [[nodiscard]] RandomScene wild_scene(std::uint64_t seed);
 
 /// A copy with forces, preloads and gaps multiplied by a factor.

@@ -1,6 +1,6 @@
 /// @file
-/// Random states of a contact point under motion of many harmonics, by stratum: every regime and the
-/// degenerate limits.
+/// Random states of a contact point under motion of many harmonics, by stratum: every regime and
+/// the degenerate limits.
 #pragma once
 
 #include <random>

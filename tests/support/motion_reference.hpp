@@ -1,8 +1,9 @@
 /// @file
-/// The friction cycle of one point under periodic motion with any number of harmonics, by another road
-/// than the event law: the slider is marched from rest for two periods in extended precision; the first
-/// breach of a guard is found by halving every interval on which a bound of its curvature does not rule
-/// a breach out. Knows only the laws n = max(0, n₀ + k_v v), |f| ≤ μ n, f = k_u (u − s).
+/// The friction cycle of one point under periodic motion with any number of harmonics, by another
+/// road than the event law: the slider is marched from rest for two periods in extended precision;
+/// the first breach of a guard is found by halving every interval on which a bound of its curvature
+/// does not rule a breach out. Knows only the laws n = max(0, n₀ + k_v v), |f| ≤ μ n,
+/// f = k_u (u − s).
 #pragma once
 
 #include <string>

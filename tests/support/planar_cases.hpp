@@ -1,6 +1,6 @@
 /// @file
-/// Random states of a contact point that moves in two tangential directions, by stratum: every regime, and
-/// the limits at which the search for the periodic slider is hard.
+/// Random states of a contact point that moves in two tangential directions, by stratum: every
+/// regime, and the limits at which the search for the periodic slider is hard.
 #pragma once
 
 #include <random>
@@ -22,10 +22,11 @@ struct PlanarStratum {
 [[nodiscard]] PlanarCase slipping_planar(std::mt19937_64& random);
 /// Never separated; means that drag the virgin slider, amplitudes that leave the point stuck.
 [[nodiscard]] PlanarCase dragged_planar(std::mt19937_64& random);
-/// The same with larger amplitudes: a little slip somewhere in the period, or stuck after a long way.
+/// The same with larger amplitudes: a little slip somewhere in the period,
+/// or stuck after a long way.
 [[nodiscard]] PlanarCase creeping_planar(std::mt19937_64& random);
-/// The same with the amplitude at the onset of slip, closer than 10 % and down to 1e-9 on either side:
-/// a straight or elliptic motion under constant load, of which the onset is known.
+/// The same with the amplitude at the onset of slip, closer than 10 % and down to 1e-9 on either
+/// side: a straight or elliptic motion under constant load, of which the onset is known.
 [[nodiscard]] PlanarCase onset_planar(std::mt19937_64& random);
 /// All strata, the generic one first.
 [[nodiscard]] const std::vector<PlanarStratum>& planar_strata();

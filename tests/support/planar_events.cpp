@@ -26,7 +26,8 @@ struct Now {
   State basis;
 };
 
-/// Where f of increasing argument first is above 0, between an end where it is not and one where it is.
+/// Where f of increasing argument first is above 0, between an end where it is not and one where it
+/// is.
 template <typename Function>
 Real first_above(Real low, Real high, const Function& f) {
   for (int i = 0; i < 70; ++i) {
@@ -153,7 +154,8 @@ class Cycle {
     }
   }
 
-  /// Whether contact begins in slip. If so the slider is put on the regular solution a little later.
+  /// Whether contact begins in slip. If so the slider is put on the regular solution a little
+  /// later.
   bool touch_down(Real length) {
     const Now now = at(time_);
     const Pair pull = times(k_, now.rate);

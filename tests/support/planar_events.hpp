@@ -1,14 +1,14 @@
 /// @file
-/// The planar friction cycle of one point of smooth surfaces by a third road, of full order: events are
-/// located in extended precision, slip is integrated as an equation for the slider,
+/// The planar friction cycle of one point of smooth surfaces by a third road, of full order: events
+/// are located in extended precision, slip is integrated as an equation for the slider,
 ///
-///   s' = λ e,   e = F/|F|,   F = K (x − s),   λ = (e·K x' − r') / (e·K e),   r = μ(|x'|) n          (1)
+///   s' = λ e,   e = F/|F|,   F = K (x − s),   λ = (e·K x' − r') / (e·K e),   r = μ(|x'|) n     (1)
 ///
-/// by extrapolation of the modified midpoint rule to order twelve, its Fourier integrals along with it. At
-/// touch-down in slip (1) starts a little late, on the direction of the regular solution.
+/// by extrapolation of the modified midpoint rule to order twelve, its Fourier integrals along with
+/// it. At touch-down in slip (1) starts a little late, on the direction of the regular solution.
 ///
-/// Source: theory section 9; E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential Equations I,
-/// section II.9.
+/// Source: theory section 9; E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential
+/// Equations I, section II.9.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,9 @@
 /// @file
 /// The planar friction cycle of one point by another road than the law: fixed steps in extended
-/// precision, one implicit return f = (I + λK)⁻¹ f* per step with λ by bisection, trapezoidal Fourier sums,
-/// and Richardson's extrapolation over three step sizes. Steps begin where contact does; no other event
-/// is located. Knows only n = max(0, n₀ + k_v v), or a law of its own, |f| ≤ μ n, f = K (x − s) and that s
-/// moves along f.
+/// precision, one implicit return f = (I + λK)⁻¹ f* per step with λ by bisection, trapezoidal
+/// Fourier sums, and Richardson's extrapolation over three step sizes. Steps begin where contact
+/// does; no other event is located. Knows only n = max(0, n₀ + k_v v), or a law of its own, |f| ≤ μ
+/// n, f = K (x − s) and that s moves along f.
 #pragma once
 
 #include <array>

@@ -30,7 +30,8 @@ struct SinglePoint {
 };
 [[nodiscard]] solver::Scene single_point_scene(const SinglePoint& single);
 
-/// Paper B figure 9 (theory section 20.4): three degrees of freedom, jumps at preloads of 25 to 50 N.
+/// Paper B figure 9 (theory section 20.4): three degrees of freedom,
+/// jumps at preloads of 25 to 50 N.
 [[nodiscard]] solver::Scene three_dof_scene(double preload, double force_factor = 1.0);
 
 }  // namespace microslip::tests

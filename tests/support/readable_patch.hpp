@@ -1,5 +1,6 @@
 /// @file
-/// A patch force that tells its points and mode shapes again: for tests that make another contact of a scene's.
+/// A patch force that tells its points and mode shapes again:
+/// for tests that make another contact of a scene's.
 #pragma once
 
 #include <utility>

@@ -1,6 +1,6 @@
 /// @file
-/// The tests of a program that are written in one file: each file has an entry in CTest, several share a program,
-/// which is compiled and linked once.
+/// The tests of a program that are written in one file: each file has an entry in CTest, several
+/// share a program, which is compiled and linked once.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,8 @@ inline std::string tests_of(std::string_view file) {
   return names;
 }
 
-/// Runs what `--file=NAME` chooses, everything without it; what --gtest_filter=-… leaves out stays out.
+/// Runs what `--file=NAME` chooses, everything without it;
+/// what --gtest_filter=-… leaves out stays out.
 /// @return exit code; 1 as well where no test is written in that file.
 inline int run_tests(int argc, char** argv) {
   constexpr std::string_view option = "--file=";

@@ -1,6 +1,6 @@
 /// @file
-/// Steady states of a scene by integration in time, from rest, from a solution of harmonic balance, or along a list of
-/// frequencies: a referee of points of harmonic balance.
+/// Steady states of a scene by integration in time, from rest, from a solution of harmonic balance,
+/// or along a list of frequencies: a referee of points of harmonic balance.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,8 @@ Real bisected(const F& positive, Real low, Real high) {
   return (low + high) / 2.0L;
 }
 
-/// Roots in [begin, end] of f; roots of its derivative are given, so that it is monotone in between.
+/// Roots in [begin, end] of f; roots of its derivative are given,
+/// so that it is monotone in between.
 template <typename F>
 std::vector<Real> roots_between(const F& f, const std::vector<Real>& turns) {
   std::vector<Real> found;

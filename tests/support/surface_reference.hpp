@@ -1,12 +1,14 @@
 /// @file
-/// Reference for cycles of one tangential direction with any surface law (surface_line_events.hpp): theory
-/// sections 3, 8, 10, 11 in extended precision, with its own laws and no part of the library.
+/// Reference for cycles of one tangential direction with any surface law (surface_line_events.hpp):
+/// theory sections 3, 8, 10, 11 in extended precision, with its own laws and no part of the
+/// library.
 ///
-/// The period is cut where the motion turns or nearly does, where the load has its kinks, and on both sides
-/// of all these in steps that shrink geometrically down to rounding, so that no layer of the rate or of the
-/// heights is missed. On a cut every extremum of an end of the band is bracketed by the sign of its
-/// derivative, minima of the derivative included, and found by bisection. The slider is marched over two
-/// periods from the virgin position; the second is integrated with twenty Gauss–Legendre points a cut.
+/// The period is cut where the motion turns or nearly does, where the load has its kinks, and on
+/// both sides of all these in steps that shrink geometrically down to rounding, so that no layer of
+/// the rate or of the heights is missed. On a cut every extremum of an end of the band is bracketed
+/// by the sign of its derivative, minima of the derivative included, and found by bisection. The
+/// slider is marched over two periods from the virgin position; the second is integrated with
+/// twenty Gauss–Legendre points a cut.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 /// @file
-/// Finite elements with springs between a surface and the ground, a contact that sticks everywhere, solved directly:
-/// a reference for reduced models.
+/// Finite elements with springs between a surface and the ground, a contact that sticks everywhere,
+/// solved directly: a reference for reduced models.
 #pragma once
 
 #include <string>

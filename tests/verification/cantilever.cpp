@@ -97,7 +97,8 @@ struct Bending {
   std::function<mesh::Mesh(const test::BoxGrid&)> mesh;
 };
 
-/// Frequencies on three sizes, each half the one before, the rate of their differences and where they head for.
+/// Frequencies on three sizes, each half the one before,
+/// the rate of their differences and where they head for.
 struct Convergence {
   std::array<double, 3> frequency;
   double rate;

@@ -32,7 +32,8 @@ constexpr double Hz = 2.0 * std::numbers::pi;
 constexpr double tolerance = 1e-4;
 constexpr int instants = 128;
 
-/// A contact of as many points as the program samples: each in parts that carry four fifths to six fifths of its load.
+/// A contact of as many points as the program samples: each in parts that carry four fifths to six
+/// fifths of its load.
 void divide_points(solver::Scene& scene) {
   constexpr Eigen::Index least = 48;
   const auto& patch = dynamic_cast<const tests::ReadablePatch&>(*scene.contact);

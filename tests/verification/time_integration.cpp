@@ -2,9 +2,9 @@
 // (Adams, relative tolerance 1e-12), its own root finding, and the contact law of theory section 3
 // written down here once more, point by point, without any code of contact/ or solver/.
 //
-// Both start at rest with virgin sliders; q and q̇ are compared after a few periods, at θ = 0, while
-// the transient with all its events lasts. Tolerance 1e-9 of the largest motion: both allow 1e-12
-// per step, over some thousand steps; 1e-10 is what is met.
+// Both start at rest with virgin sliders; q and q̇ are compared after a few periods, at θ = 0,
+// while the transient with all its events lasts. Tolerance 1e-9 of the largest motion: both allow
+// 1e-12 per step, over some thousand steps; 1e-10 is what is met.
 
 #include <array>
 #include <cmath>

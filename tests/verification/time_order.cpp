@@ -84,8 +84,9 @@ TEST(OrderOfConvergence, RungeKuttaIsBetweenOneAndTwoThroughSlip) {
   EXPECT_GT(rate, 0.9);
 }
 
-/// W_exc = W_damp + ∮ μ n |ds| in the steady state; what the motion still moves per period is below the
-/// periodicity tolerance, and the energy it moves with it twice that over the damping of a period, 4πζ.
+/// W_exc = W_damp + ∮ μ n |ds| in the steady state; what the motion still moves per period is below
+/// the periodicity tolerance, and the energy it moves with it twice that over the damping of a
+/// period, 4πζ.
 TEST(EnergyBalance, HoldsOverASteadyPeriod) {
   for (const double preload : {0.0, 30.0, 100.0}) {
     for (const double damping : {0.02, 0.005}) {

@@ -1,5 +1,5 @@
-/// What a patch tells must not depend on how its points are evaluated: located events, one point after the other,
-/// beside the period sampled, all points in lanes.
+/// What a patch tells must not depend on how its points are evaluated: located events, one point
+/// after the other, beside the period sampled, all points in lanes.
 #include "contact/force/pointwise_force.hpp"
 
 #include <gtest/gtest.h>

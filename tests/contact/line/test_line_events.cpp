@@ -1,4 +1,5 @@
-/// Relations every exact cycle of one tangential direction obeys, over random motions of all strata.
+/// Relations every exact cycle of one tangential direction obeys,
+/// over random motions of all strata.
 #include "contact/line/line_events.hpp"
 
 #include <gtest/gtest.h>

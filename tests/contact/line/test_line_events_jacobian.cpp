@@ -1,5 +1,5 @@
-/// The Jacobian of the event law against differences of its forces: central where the sequence of states
-/// stays the same, one-sided at the limit of full stick.
+/// The Jacobian of the event law against differences of its forces: central where the sequence of
+/// states stays the same, one-sided at the limit of full stick.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 /// The event law against the march of tests/support, in every regime and limit.
-/// Tolerance: the march is good to about 1e-17 of the force scale; the event law sums some tens of terms
-/// of that scale in double precision, each rounded at 1.1e-16 and with phases up to 4π rounded at 4e-16.
-/// The project asks for 1e-12; a missed pair of events is 1e-9 at least, unless it is shorter than that.
+/// Tolerance: the march is good to about 1e-17 of the force scale; the event law sums some tens of
+/// terms of that scale in double precision, each rounded at 1.1e-16 and with phases up to 4π
+/// rounded at 4e-16. The project asks for 1e-12; a missed pair of events is 1e-9 at least,
+/// unless it is shorter than that.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// The event-located method of any surface against the exact method of smooth ones, the planar method along a line,
-/// and differences.
+/// The event-located method of any surface against the exact method of smooth ones, the planar
+/// method along a line, and differences.
 #include "contact/line/surface_line_events.hpp"
 
 #include <gtest/gtest.h>

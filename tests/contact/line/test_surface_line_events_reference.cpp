@@ -1,9 +1,10 @@
-/// Cycles of rough and rate-dependent surfaces against the march of tests/support in extended precision:
-/// coefficients that change within 1e-12 to 1e12 of the speeds that occur, heights from a millionth to a
-/// thousand times the approach, bodies in series, in every stratum of motions.
+/// Cycles of rough and rate-dependent surfaces against the march of tests/support in extended
+/// precision: coefficients that change within 1e-12 to 1e12 of the speeds that occur, heights from
+/// a millionth to a thousand times the approach, bodies in series, in every stratum of motions.
 ///
-/// Tolerance: the march is good to about 1e-17 of the force scale. The law sums a few hundred terms of that
-/// scale in double precision with phases up to 4π rounded at 9e-16; measured 7e-15 in 3000 states. The project asks for 1e-12.
+/// Tolerance: the march is good to about 1e-17 of the force scale. The law sums a few hundred terms
+/// of that scale in double precision with phases up to 4π rounded at 9e-16; measured 7e-15 in 3000
+/// states. The project asks for 1e-12.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Π sin((θ − r)/2) over an even number of roots, by its values at 2H+1 phases in extended precision.
+/// Π sin((θ − r)/2) over an even number of roots, by its values at 2H+1 phases in extended
+/// precision.
 TrigonometricPolynomial with_roots(const std::vector<double>& roots, double factor = 1.0) {
   const int H = static_cast<int>(roots.size()) / 2;
   const int n = 2 * H + 1;

@@ -18,7 +18,8 @@ class SpareCores : public ::testing::Test {
   void TearDown() override { allow_cores(1); }
 };
 
-/// Threads that took part in tasks, each of which waits for all n to have begun or, if they never do, for `looks`.
+/// Threads that took part in tasks, each of which waits for all n to have begun or,
+/// if they never do, for `looks`.
 std::size_t threads_of(std::size_t n, int looks) {
   std::vector<std::thread::id> ids(n);
   std::atomic<std::size_t> begun{0};

@@ -87,7 +87,8 @@ TEST(ElasticRest, AStiffBodyTiltsUntilTheLoadedPointsCarryForceAndMoment) {
   }
 }
 
-/// Random elastic faces, wildly scaled: stiffness over five decades, loads that press here and lift there.
+/// Random elastic faces, wildly scaled: stiffness over five decades,
+/// loads that press here and lift there.
 TEST(ElasticRest, ForcesAreInBalanceAndOpenPointsCarryNothing) {
   std::mt19937 random(20260101);
   std::normal_distribution<double> normal;
@@ -125,8 +126,8 @@ TEST(ElasticRest, WithoutGapItGrowsAsTheLoad) {
   EXPECT_LT((rest_of({C, 7.0 * free}, layer) - 7.0 * one).norm(), 1e-12 * one.norm());
 }
 
-/// n freedoms of a half space under them, 1 mm apart: E/(1 − ν²) = 2e11 Pa, a point load at r moves it by
-/// (1 − ν²)/(πE r); under itself as a disc of its area does.
+/// n freedoms of a half space under them, 1 mm apart: E/(1 − ν²) = 2e11 Pa, a point load at r moves
+/// it by (1 − ν²)/(πE r); under itself as a disc of its area does.
 Eigen::MatrixXd half_space(Eigen::Index n) {
   constexpr double E = 2e11;
   constexpr double pi = 3.14159265358979;
@@ -141,7 +142,8 @@ Eigen::MatrixXd half_space(Eigen::Index n) {
   return C;
 }
 
-/// f_i ≥ 0 with f_i = force(i, v_i), v = v⁰ − C f: one point after the other, the others held, until nothing moves.
+/// f_i ≥ 0 with f_i = force(i, v_i), v = v⁰ − C f: one point after the other, the others held,
+/// until nothing moves.
 template <typename ForceOfRest>
 Eigen::VectorXd one_by_one(const ElasticFace& face, const ForceOfRest& force) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(face.approach.size());

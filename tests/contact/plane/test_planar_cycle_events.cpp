@@ -18,7 +18,8 @@ namespace {
 using test::EventCase;
 using test::EventReference;
 
-/// Generic states and such as never separate; every other pair with friction that depends on the rate.
+/// Generic states and such as never separate; every other pair with friction that depends on the
+/// rate.
 EventCase draw(std::mt19937_64& random, int i) {
   EventCase c{test::planar_strata()[static_cast<std::size_t>(i % 2)].draw(random)};
   std::uniform_real_distribution<double> digits(-1.0, 3.0);

@@ -93,8 +93,8 @@ TEST(PlaneEventsReference, WorkOfTheForceIsDissipatedBySlip) {
   }
 }
 
-/// Cubic heights of scale R with bodies of compliance c_u, c_w in series along p and r, and a coefficient
-/// that falls with the speed, all from their formulas (theory sections 10, 11).
+/// Cubic heights of scale R with bodies of compliance c_u, c_w in series along p and r, and a
+/// coefficient that falls with the speed, all from their formulas (theory sections 10, 11).
 struct RoughPoint {
   double height = 0.8;
   double first_compliance = 0.0;

@@ -1,5 +1,6 @@
 /// @file
-/// A patch of one point whose modes are its own motion: what the lanes make of a case of tests/support.
+/// A patch of one point whose modes are its own motion:
+/// what the lanes make of a case of tests/support.
 #pragma once
 
 #include <utility>

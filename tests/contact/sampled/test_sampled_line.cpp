@@ -1,5 +1,6 @@
-/// The patch in lanes along one direction, against located events, where these are exact, and its Jacobian
-/// against differences of its own force; smooth surfaces, whose kinks are mended, in third order and without jumps.
+/// The patch in lanes along one direction, against located events, where these are exact, and its
+/// Jacobian against differences of its own force; smooth surfaces, whose kinks are mended,
+/// in third order and without jumps.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// The patch in lanes in two tangential directions, against planar events, and its Jacobian against differences
-/// of its own force.
+/// The patch in lanes in two tangential directions, against planar events, and its Jacobian against
+/// differences of its own force.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// The cubic between two instants: exact on parabolas, C¹ from one step to the next, derivatives against differences.
+/// The cubic between two instants: exact on parabolas, C¹ from one step to the next,
+/// derivatives against differences.
 #include <gtest/gtest.h>
 
 #include <array>

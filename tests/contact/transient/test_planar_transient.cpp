@@ -108,7 +108,8 @@ TEST(PlanarTransient, HeldForceAgreesWithTheTrialForceWhereTheStateHolds) {
   }
 }
 
-/// On a line it is the patch with one direction: forces, states and guards' signs, switch by switch.
+/// On a line it is the patch with one direction: forces, states and guards' signs,
+/// switch by switch.
 TEST(PlanarTransient, OnALineItIsThePatchWithOneDirection) {
   const PointParameters point{5.0, 3.0, 0.4, 1.0};
   const PlanarTransient planar = on_a_line({point, 5.0});
@@ -141,8 +142,8 @@ TEST(PlanarTransient, OnALineItIsThePatchWithOneDirection) {
   EXPECT_GE(n_switches, 10);  // stick, slip both ways, separation
 }
 
-/// Circular motion (theory section 9): f leads u by arccos(μn/(k a)) and turns with it; the slider runs on
-/// a circle of radius √(a² − (μn/k)²).
+/// Circular motion (theory section 9): f leads u by arccos(μn/(k a)) and turns with it; the slider
+/// runs on a circle of radius √(a² − (μn/k)²).
 TEST(PlanarTransient, InCircularMotionTheForceLeadsByAnAngle) {
   const double a = 0.7;
   const double limit = 0.4;
@@ -187,8 +188,8 @@ TEST(PlanarTransient, CommitsConvergeToCircularMotionAtFirstOrder) {
   EXPECT_LT(error[1], 1e-3);
 }
 
-/// The rates of direction and slider are those of the steady cycle found by collocation: angle and slip rate
-/// against differences along it, for every kind of law.
+/// The rates of direction and slider are those of the steady cycle found by collocation: angle and
+/// slip rate against differences along it, for every kind of law.
 TEST(PlanarTransient, RatesAreThoseOfTheSteadyCycle) {
   const double omega = 1.7;
   for (const SurfaceLaw& law : {smooth_law(), smooth_law(2.0), rough_law(), rate_law()}) {

@@ -33,7 +33,8 @@ Structure solved_by(SolverKind kind, const std::vector<std::string>& clamped) {
   return {blade(), titanium, clamped, Tet10Rule::accurate, kind};
 }
 
-/// Largest distance of each shape from the same of the other basis, whatever its sign, over its size.
+/// Largest distance of each shape from the same of the other basis, whatever its sign,
+/// over its size.
 double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   double largest = 0.0;
   for (Eigen::Index j = 0; j < a.cols(); ++j) {

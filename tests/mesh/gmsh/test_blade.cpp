@@ -126,8 +126,8 @@ TEST_F(Blade, ElementsAreSmallerAtSharpEdgesWhereAskedFor) {
   EXPECT_THROW(mesh_blade(g, {0.010, 1e-5}, folder_ / "graded.msh"), MeshError);
 }
 
-/// Large elements on a thin cambered aerofoil turn inside out when they are curved, and the optimisers leave some
-/// of them so: the reader refuses such a mesh.
+/// Large elements on a thin cambered aerofoil turn inside out when they are curved, and the
+/// optimisers leave some of them so: the reader refuses such a mesh.
 TEST_F(Blade, ElementsAtThinEdgesAreUntangled) {
   BladeGeometry g;
   g.tip_thickness = 0.8e-3;

@@ -55,8 +55,8 @@ std::map<ElementType, Eigen::Index> counts(const Mesh& mesh) {
   return found;
 }
 
-/// A quarter of a cylinder, radii 1 and 2, height 1, of triangles extruded along the axis; `foot` z = 0 and
-/// `outside`, r = 2, are named.
+/// A quarter of a cylinder, radii 1 and 2, height 1, of triangles extruded along the axis; `foot` z
+/// = 0 and `outside`, r = 2, are named.
 void mesh_sector(double size, int order) {
   gmsh::clear();
   gmsh::model::add("sector");

@@ -484,7 +484,8 @@ TEST_F(Program, LeavesOutWhatItIsToldTo) {
   expect("run scene.toml -o out --without curves", 1, {"curves", "plots"});
 }
 
-/// The scene written into the run folder is a scene: run again, it gives the same curve bit for bit.
+/// The scene written into the run folder is a scene: run again,
+/// it gives the same curve bit for bit.
 TEST_F(Program, RunsTheSceneOfARunFolderToTheSameCurve) {
   write(path("scene.toml"), scene_text);
   ASSERT_EQ(run("run scene.toml -o one --set modal.damping_ratio='0.7 %'").code, 0);
@@ -521,7 +522,8 @@ TEST_F(Program, ARunReplacesAnEarlierOneWholeAndNothingElse) {
   EXPECT_EQ(Json::parse(content_of(path("out/summary.json")))["exit_code"], 0);
 }
 
-/// A run that is refused after the folder was looked at leaves the results before as they were, and tells its own end.
+/// A run that is refused after the folder was looked at leaves the results before as they were,
+/// and tells its own end.
 TEST_F(Program, ABadRunCostsNothingOfTheOneBefore) {
   write(path("scene.toml"), scene_text);
   expect("run scene.toml -q -o out", 0, {});

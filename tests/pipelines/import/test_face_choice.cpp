@@ -9,7 +9,8 @@
 namespace microslip::pipelines::test_face_choice {
 namespace {
 
-/// Sides of the box [0, 1] x [0, 2] x [0, 1] m, numbers 1 to 6: x = 0, x = 1, y = 0, y = 2, z = 0, z = 1.
+/// Sides of the box [0, 1] x [0, 2] x [0, 1] m, numbers 1 to 6: x = 0, x = 1, y = 0, y = 2, z = 0,
+/// z = 1.
 mesh::StepGeometry box() {
   mesh::StepGeometry geometry;
   geometry.volume = 2.0;

@@ -120,7 +120,8 @@ std::string list_of(const Eigen::VectorXd& values) {
   return fmt::format("[{:.17g}]", fmt::join(values.begin(), values.end(), ", "));
 }
 
-/// The model as a modal scene: what model.h5 holds, as numbers. @param local  stiffness without residual.
+/// The model as a modal scene: what model.h5 holds, as numbers.
+/// @param local  stiffness without residual.
 std::string modal_scene(const ReducedModel& model, double load, const std::filesystem::path& folder,
                         double local) {
   std::string table = "weight,tangential_stiffness,normal_stiffness,friction_coefficient,preload";

@@ -10,7 +10,8 @@
 namespace microslip::pipelines::test_resonating_shapes {
 namespace {
 
-/// Two modes and two shapes, the lower at ten times the excitation and a half, at points that are so far open.
+/// Two modes and two shapes, the lower at ten times the excitation and a half,
+/// at points that are so far open.
 std::string told(double highest, const std::vector<double>& open_shares,
                  Eigen::Index n_attachment = 2) {
   const Eigen::Vector4d frequency(1.0, 40.0, 105.0, 300.0);

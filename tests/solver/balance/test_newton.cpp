@@ -82,8 +82,8 @@ TEST(BranchWalker, GoesRoundACircle) {
   EXPECT_GE(turned, 2.0 * M_PI);
 }
 
-/// A branch that turns back sharply at x = 1: p = x below, p = 1 − 3 (x − 1) above. In the parameter it is a
-/// fold without a vertical tangent, as where slip begins.
+/// A branch that turns back sharply at x = 1: p = x below, p = 1 − 3 (x − 1) above. In the
+/// parameter it is a fold without a vertical tangent, as where slip begins.
 TEST(BranchWalker, TurnsBackAtASharpKink) {
   const ParametricSystem kink = [](const Eigen::VectorXd& x, double p) {
     return x[0] <= 1.0 ? scalar(p - x[0], -1.0, 1.0)

@@ -28,7 +28,8 @@ using tests::marked;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// One harmonic of an elastic Coulomb slider (k, q = μ n₀) under a sin θ: force h in quadrature, stiffness κ.
+/// One harmonic of an elastic Coulomb slider (k, q = μ n₀) under a sin θ: force h in quadrature,
+/// stiffness κ.
 struct Slider {
   double stiffness, limit;
   [[nodiscard]] double quadrature(double a) const {
@@ -43,7 +44,8 @@ struct Slider {
   }
 };
 
-/// A point on (α − ω²)²A² + (2ζω₀ωA + φh)² = F², α = ω₀² + φ²κ, at which the derivative by ω is zero.
+/// A point on (α − ω²)²A² + (2ζω₀ωA + φh)² = F², α = ω₀² + φ²κ,
+/// at which the derivative by ω is zero.
 void expect_peak_of_slider(const tests::SinglePoint& single, const ResponsePoint& peak) {
   const double A = peak.amplitude;
   const double omega = peak.frequency;
@@ -88,8 +90,8 @@ TEST(SpecialPoints, FindsThePeakWhereTheContactIsAllButStuck) {
   }
 }
 
-/// Four modes, three points: below its first resonance the branch folds back and, where the second point
-/// stops slipping throughout, once more within a thousandth of a hertz.
+/// Four modes, three points: below its first resonance the branch folds back and, where the second
+/// point stops slipping throughout, once more within a thousandth of a hertz.
 Scene scene_with_four_folds() {
   Scene scene;
   scene.natural_frequency = two_pi * Eigen::Vector4d(14.427918663063945, 19.964768968754143,

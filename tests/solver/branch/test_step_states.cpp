@@ -24,7 +24,8 @@ contact::ContactStates states_at(const Scene& scene, const ResponsePoint& point)
   return tests::states(*scene.contact, point.q, point.frequency);
 }
 
-/// A mode on 200 soft points that begin to slip at amplitudes from 9.99 to 10.01: the branch hardly turns there.
+/// A mode on 200 soft points that begin to slip at amplitudes from 9.99 to 10.01:
+/// the branch hardly turns there.
 Scene soft_patch() {
   tests::SinglePoint single;
   Scene scene = tests::single_point_scene(single);

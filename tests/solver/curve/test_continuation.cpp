@@ -239,8 +239,8 @@ TEST(Continuation, RefusesFrequenciesThatAreNone) {
       std::invalid_argument);
 }
 
-/// Frequencies where ω(A) turns beyond the peak, ascending: a scan of dω²/dA of the closed form, then
-/// bisection. ω² = p + √(p² − k² + (F/A)²) with k = 1 + ¾αA², p = k − 2ζ².
+/// Frequencies where ω(A) turns beyond the peak, ascending: a scan of dω²/dA of the closed form,
+/// then bisection. ω² = p + √(p² − k² + (F/A)²) with k = 1 + ¾αA², p = k − 2ζ².
 std::vector<double> closed_form_folds(const Duffing& d, double highest) {
   const double drop = 2.0 * d.zeta * d.zeta;
   const auto k = [&](double A) { return 1.0 + 0.75 * d.alpha * A * A; };

@@ -1,6 +1,7 @@
 /// @file
-/// A cubic spring between a point of a structure of any number of modes and the ground, in any number of
-/// harmonics: α u³ with u = φ · q. Products of trigonometric polynomials are sampled often enough to be exact.
+/// A cubic spring between a point of a structure of any number of modes and the ground, in any
+/// number of harmonics: α u³ with u = φ · q. Products of trigonometric polynomials are sampled
+/// often enough to be exact.
 #pragma once
 
 #include <cmath>

@@ -62,8 +62,8 @@ OptimumOptions preloads(double lower, double upper) {
   return options;
 }
 
-/// The optimum over a range against curves at many preloads: inside the bounds, at the lower one, or flat
-/// where the point sticks.
+/// The optimum over a range against curves at many preloads: inside the bounds, at the lower one,
+/// or flat where the point sticks.
 void expect_least_of_curves(const ContinuationOptions& options) {
   SCOPED_TRACE(std::to_string(options.frequency_begin) + " to " +
                std::to_string(options.frequency_end));
@@ -168,8 +168,8 @@ TEST(MinimisePeak, FindsAPreloadThatNoNeighbourBeats) {
                      [](const auto& a, const auto& b) { return a.parameter < b.parameter; }));
 }
 
-/// Straight lines between knots over ln(parameter): two valleys between the scan values 4 and 6, the deeper
-/// one on the side of the scan value 5 that the first golden section leaves.
+/// Straight lines between knots over ln(parameter): two valleys between the scan values 4 and 6,
+/// the deeper one on the side of the scan value 5 that the first golden section leaves.
 double two_valleys(double parameter) {
   constexpr std::array<std::array<double, 2>, 10> knots{{{0.0, 2.0},
                                                          {4.0, 1.05},

@@ -24,7 +24,8 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr Eigen::Index most = 40;
 
-/// Theory section 20.4 with 15 N: a curve without folds whose motion parts from period one near 27.6 Hz.
+/// Theory section 20.4 with 15 N: a curve without folds whose motion parts from period one near
+/// 27.6 Hz.
 struct Chain {
   explicit Chain(int n_harmonics) : scene(tests::three_dof_scene(15.0)) {
     tests::add_transient(scene);

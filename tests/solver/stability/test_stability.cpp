@@ -135,7 +135,8 @@ TEST(Stability, OfEveryLinearCurveIsProved) {
   }
 }
 
-/// A mode along p that rubs under a constant load, judged with three harmonics at a motion that slips.
+/// A mode along p that rubs under a constant load, judged with three harmonics at a motion that
+/// slips.
 StabilityBasis basis_in_time(std::unique_ptr<contact::TransientForce> transient,
                              PeriodMapEffort effort) {
   Scene scene;

@@ -1,13 +1,13 @@
 /// @file
-/// Harmonic balance of a face model under the sampled law. The unknowns are the motions of all nodes of
-/// the contact face alone; the structure is condensed exactly, harmonic by harmonic:
+/// Harmonic balance of a face model under the sampled law. The unknowns are the motions of all
+/// nodes of the contact face alone; the structure is condensed exactly, harmonic by harmonic:
 ///
-///   X_k = Φ_f D_k⁻¹ (f_k − Φ_fᵀ F_k(X)),   D_k = Ω² − k²ω² + 2iζΩkω,   k = 0…H                    (1)
+///   X_k = Φ_f D_k⁻¹ (f_k − Φ_fᵀ F_k(X)),   D_k = Ω² − k²ω² + 2iζΩkω,   k = 0…H                 (1)
 ///
-/// Φ_f shapes on the face, F_k harmonics of the nodal contact forces (the mean without the preload that
-/// balances the static loads, theory section 2). Complex amplitudes are Y = y_s + i y_c,
-/// y = Im(Y e^{iθ}). Newton steps are solved by GMRES with exact products ∂R/∂X · δ and (1) with the
-/// stiffness averaged over the period as preconditioner.
+/// Φ_f shapes on the face, F_k harmonics of the nodal contact forces (the mean without the preload
+/// that balances the static loads, theory section 2). Complex amplitudes are Y = y_s + i y_c,
+/// y = Im(Y e^{iθ}). Newton steps are solved by GMRES with exact products ∂R/∂X · δ and (1) with
+/// the stiffness averaged over the period as preconditioner.
 #pragma once
 
 #include <complex>

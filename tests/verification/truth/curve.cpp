@@ -106,7 +106,8 @@ double vertex(const std::array<double, 3>& s, const std::array<double, 3>& y) {
   return 0.5 * (s[0] + s[1]) - 0.5 * a / c;
 }
 
-/// The local maximum between three neighbours, by two parabolas along the chord from the first to the last.
+/// The local maximum between three neighbours, by two parabolas along the chord from the first to
+/// the last.
 CurvePoint refine(Balance& balance, const CurveOptions& options, std::array<CurvePoint, 3> p) {
   const double scale = p[1].x.norm();
   for (int pass = 0; pass < 3; ++pass) {

@@ -38,7 +38,8 @@ Eigen::Matrix3d face_frame() {
   return frame;
 }
 
-/// Unit forces on each node of the face along p, q, r and the excitation: 3 n_nodes × (3 n_face + 1).
+/// Unit forces on each node of the face along p, q, r and the excitation:
+/// 3 n_nodes × (3 n_face + 1).
 MatrixXd loads(const mesh::Mesh& mesh, const mesh::Surface& face, const FaceModelOptions& options) {
   const auto n_face = static_cast<Index>(face.nodes.size());
   MatrixXd result = MatrixXd::Zero(3 * mesh.n_nodes(), 3 * n_face + 1);

@@ -1,15 +1,15 @@
 /// @file
 /// The default blade with every freedom of its contact face kept: the structural half of the truth.
 ///
-/// Free modes φ (clamped root, no contact) and, for every nodal force e_j on the contact face (three
-/// directions) and for the excitation, the attachment shape
+/// Free modes φ (clamped root, no contact) and, for every nodal force e_j on the contact face
+/// (three directions) and for the excitation, the attachment shape
 ///
 ///   ψ_j = (K⁻¹ − Σ_n φ_n φ_nᵀ/ω_n²) e_j.
 ///
-/// The small problem ΨᵀKΨ v = ω̃² ΨᵀMΨ v turns the ψ into further modes; K and M are diagonal on all of
-/// them together. Nothing is fitted on the face, no node is left out, and the response to any force on
-/// the face is exact at rest; what the omitted modes add in motion is O((ω/ω_N)⁴). Every shape, free or
-/// attachment, has the damping ratio of the scene.
+/// The small problem ΨᵀKΨ v = ω̃² ΨᵀMΨ v turns the ψ into further modes; K and M are diagonal on
+/// all of them together. Nothing is fitted on the face, no node is left out, and the response to
+/// any force on the face is exact at rest; what the omitted modes add in motion is O((ω/ω_N)⁴).
+/// Every shape, free or attachment, has the damping ratio of the scene.
 ///
 /// Source: Craig, Structural Dynamics (1981), ch. 19 (attachment modes, Rubin's method); K, M, free
 /// modes and static solutions come from fem/, contact/ and solver/ are not used.

@@ -1,5 +1,6 @@
 /// @file
-/// GMRES without restart, right preconditioned (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)).
+/// GMRES without restart, right preconditioned (Saad & Schultz, SIAM J. Sci. Stat. Comput.
+/// 7 (1986)).
 #pragma once
 
 #include <cmath>

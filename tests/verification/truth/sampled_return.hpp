@@ -1,14 +1,15 @@
 /// @file
-/// The plain sampled contact law of many points: elastic Coulomb friction with a return to the cone at
-/// every instant and a one-sided normal spring, with its derivative along a direction.
+/// The plain sampled contact law of many points: elastic Coulomb friction with a return to the cone
+/// at every instant and a one-sided normal spring, with its derivative along a direction.
 ///
 ///   n_i  = max(0, g_i),  g = n₀ + k_n v
 ///   F*   = F_{i−1} + k_t (U_i − U_{i−1});     F_i = F* if |F*| ≤ μ n_i, else μ n_i F*/|F*|
 ///   touch-down between i−1 and i: F* = k_t (1 − τ)(U_i − U_{i−1}),  τ = g_{i−1}/(g_{i−1} − g_i)
 ///
-/// U has one component (friction along p) or two (p and r). The sliders start at s = 0 and go through
-/// periods until they repeat: two periods for one direction, because the period map is a clip and so
-/// idempotent; for two directions as many as it takes. Errors are O(1/n_instants²) for one direction.
+/// U has one component (friction along p) or two (p and r). The sliders start at s = 0 and go
+/// through periods until they repeat: two periods for one direction, because the period map is a
+/// clip and so idempotent; for two directions as many as it takes.
+/// Errors are O(1/n_instants²) for one direction.
 #pragma once
 
 #include <Eigen/Core>
