@@ -25,10 +25,9 @@ PROGRAM, SOURCE, FOLDER = sys.argv[1:4]
 ONE = "response.harmonics=1"
 
 
-def run(scene, *settings, plots=True, options=()):
+def run(name, scene, *settings, plots=True, options=()):
     path = os.path.join(SOURCE, "share", "scenes", scene + ".toml")
-    return Run(run_scene(PROGRAM, path, os.path.join(FOLDER, scene), *settings, plots=plots,
-                         options=options))
+    return Run(run_scene(PROGRAM, path, os.path.join(FOLDER, name), *settings, plots=plots, options=options))
 
 
 class Run:
@@ -61,18 +60,18 @@ class BladeStudy(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         if whole_campaigns():
-            cls.nine = run("blade_to_ground")
-            cls.x, cls.y = (run(name, ONE) for name in ("blade_to_ground", "blade_to_ground_y"))
+            cls.nine = run("nine", "blade_to_ground")
+            cls.x, cls.y = (run(name, name, ONE) for name in ("blade_to_ground", "blade_to_ground_y"))
             return
         lean = {"plots": False, "options": ("--without", "bracket")}
         cells = "contact.points=100"
         coarse = (cells, "model.element_size=0.006", "response.maps=[]")
-        cls.nine = run("blade_to_ground", *coarse, "response.preload=[-500, 100, 300, 1000]", "response.optimum=",
+        cls.nine = run("nine", "blade_to_ground", *coarse, "response.preload=[-500, 100, 300, 1000]", "response.optimum=",
                        "response.optimum_range=", **lean)
         unjudged = "accuracy.error_budget=off"  # of one harmonic: nothing below reads its bars
-        cls.x = run("blade_to_ground", ONE, cells, unjudged,
+        cls.x = run("x", "blade_to_ground", ONE, cells, unjudged,
                     'response.preload=["free", -500, 100, 300, 1000, 3000, "stuck"]', **lean)
-        cls.y = run("blade_to_ground_y", ONE, unjudged, *coarse,
+        cls.y = run("y", "blade_to_ground_y", ONE, unjudged, *coarse,
                     'response.preload=["free", -100, 2, 6, 20, 100, "stuck"]', **lean)
 
     def test_every_curve_is_complete(self):
