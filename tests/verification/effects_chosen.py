@@ -145,12 +145,12 @@ class AutoAgreesWithEverythingOn(unittest.TestCase):
 
     def test_what_is_left_out_is_so_by_its_indicator(self):
         # Else the comparison above compares a scene with itself.
-        faint = run("faint", scene("faint_normal", normal=1e-6))
+        faint = run("faint_normal_auto", scene("faint_normal", normal=1e-6))
         row = effect(faint, "normal_motion")
         self.assertIs(row["simulated"], False)
         self.assertLess(row["indicator"], row["threshold"])
         self.assertLess(row["bound"], 1e-6)
-        self.assertIs(effect(run("proved", *CASES["stuck"][:1], *CASES["stuck"][1]), "nonlinearity")["simulated"], False)
+        self.assertIs(effect(run("stuck_auto", *CASES["stuck"][:1], *CASES["stuck"][1]), "nonlinearity")["simulated"], False)
 
 
 class IndicatorsAreFooled(unittest.TestCase):

@@ -41,7 +41,7 @@ def scene():
 
 
 def study(name, *changes):
-    folder = run_scene(PROGRAM, scene(), os.path.join(WORK, name), *LEAN, *changes)
+    folder = run_scene(PROGRAM, scene(), os.path.join(WORK, name), *LEAN, *changes, cache=os.path.join(WORK, "cache"))
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
         return json.load(file)
 

@@ -18,13 +18,15 @@ def whole_campaigns():
     return asked is not None
 
 
-def run_scene(program, scene, folder, *settings, options=(), plots=False):
-    """The run folder."""
+def run_scene(program, scene, folder, *settings, options=(), plots=False, cache=None):
+    """The run folder. `cache`: a folder of meshes and modes that runs share; none of its own."""
     command = [program, "run", scene, "-q", *options, "-o", folder]
     for setting in settings:
         command += ["--set", setting]
-    finished = subprocess.run(command, capture_output=True, text=True, timeout=900,
-                              env=None if plots else without_plots())
+    environment = dict(os.environ) if plots else without_plots()
+    if cache:
+        environment["MICROSLIP_CACHE"] = cache
+    finished = subprocess.run(command, capture_output=True, text=True, timeout=900, env=environment)
     if finished.returncode != 0:
         raise RuntimeError(f"{' '.join(command)} ended with {finished.returncode}: {finished.stderr}")
     return folder
