@@ -5,7 +5,7 @@
 ///   error(h) = (value(2h) − value(h)) / (2^p − 1)
 ///
 /// p is observed on the natural frequency of the first mode and kept between 1, which corners and
-/// edges of a body may cost, and the 4 of smooth solutions with quadratic elements (theory 25).
+/// edges of a body may cost, and the 4 of smooth solutions with quadratic elements (theory 24).
 /// Where it cannot be observed it is 1.
 #pragma once
 
