@@ -79,7 +79,7 @@ TEST_F(MeshFile, IsReadWithTheUnitGiven) {
 
 TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
   const MeshFileModel model{
-      write("blade.inp", deck), std::nullopt, "blade.toml:4: model.file", {}, {}};
+      write("blade.inp", deck), std::nullopt, "blade.toml:4: model.file", {}, {}, {}};
   EXPECT_FALSE(read_mesh(model.file, std::nullopt).length_unit.has_value());
   expect_words(message_of([&] { static_cast<void>(read_mesh(model)); }),
                {"blade.toml:4", "model.length_unit", "60 x 60 x 60 m", "60 x 60 x 60 mm",
@@ -103,7 +103,7 @@ foot, top
 
 TEST_F(MeshFile, ATieIsAnErrorOfAMeshAndARemarkWhereTheModesAreGiven) {
   const std::filesystem::path file = write("tied.inp", std::string(deck) + tied);
-  MeshFileModel model{file, 1e-3, "blade.toml:4: model.file", {}, {}};
+  MeshFileModel model{file, 1e-3, "blade.toml:4: model.file", {}, {}, {}};
   expect_words(message_of([&] { static_cast<void>(read_mesh(model)); }),
                {"tied.inp:17: *TIE is not read", "another structure"});
   model.modes.emplace();
