@@ -57,12 +57,18 @@ def settings(*changes):
 
 
 class FailedReruns(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
         os.makedirs(WORK)
-        with open(self.path("scene.toml"), "w", encoding="utf-8") as stream:
+        with open(cls.path("scene.toml"), "w", encoding="utf-8") as stream:
             stream.write(SCENE)
-        self.run_it(0)
+        cls("run_it").run_it(0)
+        os.rename(cls.path("run"), cls.path("earlier"))
+
+    def setUp(self):
+        shutil.rmtree(self.path("run"), ignore_errors=True)
+        shutil.copytree(self.path("earlier"), self.path("run"))
         self.results = self.files()
 
     @staticmethod

@@ -16,23 +16,26 @@ LEFT = "the first two by `check` as well once `modes` or a run has kept the mode
 
 
 class CheckedModes(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
         os.makedirs(WORK)
 
-    def program(self, command, *options, settings=()):
+    def program(self, command, *options, settings=(), cache="cache"):
+        """With what the tests before have kept, but in a cache of its own."""
         words = [word for setting in (*COARSE, *settings) for word in ("--set", setting)]
         finished = subprocess.run([PROGRAM, command, SCENE, *options, *words], capture_output=True, text=True, cwd=WORK,
-                                  env={**os.environ, "MICROSLIP_CACHE": os.path.join(WORK, "cache")})
+                                  env={**os.environ, "MICROSLIP_CACHE": os.path.join(WORK, cache)})
         self.assertEqual(finished.returncode, 0, finished.stderr)
         return finished.stdout + finished.stderr
 
     def test_a_range_without_a_mode_is_questioned(self):
-        told = self.program("check", settings=['response.frequency=["20 Hz", "100 Hz"]'])
+        before = set(os.listdir(WORK))
+        told = self.program("check", settings=['response.frequency=["20 Hz", "100 Hz"]'], cache="own")
         self.assertIn("modes: solved for, as that takes seconds", told)
         self.assertRegex(told, r"natural frequencies: 10 from \S+ to \S+ Hz; with every contact point stuck from \S+ Hz")
         self.assertIn("warning: response.frequency: the number of modes is 0 between 20 and 100 Hz", told)
-        self.assertEqual(os.listdir(WORK), ["cache"])
+        self.assertEqual(set(os.listdir(WORK)) - before, {"own"}, "a run folder")
 
     def test_a_range_above_the_last_mode_is_questioned(self):
         told = self.program("check", settings=['response.frequency=["90 kHz", "95 kHz"]'])
