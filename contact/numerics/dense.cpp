@@ -64,6 +64,28 @@ Eigen::MatrixXd no_solution(const Eigen::Ref<const Eigen::MatrixXd>& B) {
   return Eigen::MatrixXd::Constant(B.rows(), B.cols(), std::numeric_limits<double>::quiet_NaN());
 }
 
+/// The last column of Q in A P = Q R. @param A  m × (m − 1). @return none: its columns depend on one
+/// another, to rounding.
+std::optional<Eigen::VectorXd> last_of_q(Eigen::MatrixXd A) {
+  if (!A.allFinite()) return std::nullopt;
+  const int m = static_cast<int>(A.rows());
+  const int n = static_cast<int>(A.cols());
+  const int one = 1;
+  const int n_work = 2 * n + 32 * (n + 1);  // blocks of 32
+  int info = 0;
+  Eigen::VectorXi pivots = Eigen::VectorXi::Zero(n);
+  Eigen::VectorXd tau(n);
+  Eigen::VectorXd work(n_work);
+  dgeqp3_(&m, &n, A.data(), &m, pivots.data(), tau.data(), work.data(), &n_work, &info);
+  const auto diagonal = A.diagonal().cwiseAbs();
+  const double rounding = std::numeric_limits<double>::epsilon() * n;
+  if (!(diagonal.minCoeff() > rounding * diagonal.maxCoeff())) return std::nullopt;
+  Eigen::VectorXd y = Eigen::VectorXd::Unit(m, m - 1);
+  dormqr_("L", "N", &m, &one, &n, A.data(), &m, tau.data(), y.data(), &m, work.data(), &n_work,
+          &info);
+  return y;
+}
+
 double sign_of(double pivot) { return pivot > 0.0 ? 1.0 : (pivot < 0.0 ? -1.0 : 0.0); }
 
 }  // namespace
@@ -148,6 +170,7 @@ Eigen::Index nullity(const Eigen::MatrixXd& A) {
 }
 
 std::optional<Eigen::VectorXd> null_direction(const Eigen::MatrixXd& A) {
+  if (is_large(A)) return last_of_q(A.transpose());
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(A.transpose());
   if (factors.rank() < A.rows()) return std::nullopt;
   const Eigen::MatrixXd Q = factors.householderQ();

@@ -1,5 +1,5 @@
 /// @file
-/// The three routines of LAPACK that large matrices are worth a call of: its interface,
+/// The routines of LAPACK that large matrices are worth a call of: its interface,
 /// not a wrapper.
 #pragma once
 
@@ -17,6 +17,14 @@ void dgetrs_(const char* transposed, const int* n, const int* n_right, const dou
 void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda,
             double* real, double* imaginary, double* vl, const int* ldvl, double* vr,
             const int* ldvr, double* work, const int* lwork, int* info);
+/// A P = Q R in place, the largest columns first: Q as n reflectors with factors tau below R.
+/// @param pivots  0 on entry: free.
+void dgeqp3_(const int* m, const int* n, double* a, const int* lda, int* pivots, double* tau,
+             double* work, const int* lwork, int* info);
+/// Multiplies by such a Q, or its transpose, in place.
+void dormqr_(const char* side, const char* transposed, const int* m, const int* n,
+             const int* n_reflectors, const double* a, const int* lda, const double* tau, double* c,
+             const int* ldc, double* work, const int* lwork, int* info);
 // NOLINTEND(readability-identifier-naming)
 }
 #else  // the same names, never called
@@ -27,4 +35,8 @@ template <typename... Arguments>
 void dgetrs_(Arguments... /*unused*/) {}
 template <typename... Arguments>
 void dgeev_(Arguments... /*unused*/) {}
+template <typename... Arguments>
+void dgeqp3_(Arguments... /*unused*/) {}
+template <typename... Arguments>
+void dormqr_(Arguments... /*unused*/) {}
 #endif

@@ -7,8 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "contact/dense.hpp"
 #include "solver/balance/first_harmonics.hpp"
 #include "solver/branch/start_point.hpp"
@@ -212,7 +210,7 @@ class Search {
       if (residual.norm() <= 1e-8 * scale) return x;
       if (is_stalled(merits)) return std::nullopt;
       const BalanceEvaluation at = balance_->evaluate(x, frequency);
-      Eigen::VectorXd step = -at.jacobian.partialPivLu().solve(at.residual);
+      Eigen::VectorXd step = -contact::solved(at.jacobian, at.residual);
       step /= 1.0 - logarithmic_gradient(x, size, known).dot(step);
       if (!step.allFinite()) return std::nullopt;
       const double longest = longest_step * std::max(x.norm(), size);

@@ -56,6 +56,17 @@ TEST_P(DenseOfSize, PairsAreOfTheMatrix) {
   EXPECT_LT(std::abs(values->sum() - A.trace()), 1e-9 * A.norm());
 }
 
+TEST_P(DenseOfSize, NullDirectionOrNone) {
+  const Eigen::Index n = GetParam();
+  Eigen::MatrixXd A = random_matrix(n + 1, 4).topRows(n);
+  const auto y = null_direction(A);
+  ASSERT_TRUE(y.has_value());
+  EXPECT_NEAR(y->norm(), 1.0, 1e-14);
+  EXPECT_LT((A * *y).norm(), 1e-13 * A.norm());
+  A.row(0) = n > 1 ? Eigen::RowVectorXd(2.0 * A.row(n - 1)) : Eigen::RowVectorXd::Zero(n + 1);
+  EXPECT_FALSE(null_direction(A).has_value());
+}
+
 TEST(Dense, ExponentialOfARotationTurnsIt) {
   // Of a generator of any size: squarings lose digits by its norm.
   for (const double angle : {1e-9, 0.3, 40.0, 3e4}) {
