@@ -169,20 +169,24 @@ ContinuationOptions PeakFamilies::range_with(int search_starts) const {
   return range;
 }
 
-/// The curve, or the one that is known there with what a search finds beside it;
-/// its work is what was done now.
+/// The curve, or the one that is known there with what a search finds beside it.
 ResponseCurve PeakFamilies::traced(double position, const ContinuationOptions& range) const {
   const auto known = curves_.find(position);
   const Scene scene = family_(parameter(position));
   if (known == curves_.end()) return trace_response(scene, range, until_stopped(range));
   ResponseCurve curve = known->second.traced;
-  curve.iterations = curve.contact_evaluations = 0;
   search_branches(scene, range, curve);
   return curve;
 }
 
 void PeakFamilies::count(const ResponseCurve& curve, double position) {
-  if (!curves_.contains(position)) ++result_.n_curves;
+  const auto known = curves_.find(position);
+  if (known == curves_.end()) {
+    ++result_.n_curves;
+  } else {
+    result_.iterations -= known->second.traced.iterations;
+    result_.contact_evaluations -= known->second.traced.contact_evaluations;
+  }
   result_.iterations += curve.iterations;
   result_.contact_evaluations += curve.contact_evaluations;
 }
@@ -219,11 +223,12 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
   const Scene scene = family_(parameter(position));
   std::vector<HighPoint> high = high_points(scene, curve, range_);
   Curve kept{std::move(curve), std::move(high), range.search_starts};
-  if (std::any_of(kept.high.begin(), kept.high.end(),
-                  [](const auto& one) { return one.climbed; })) {
+  const bool is_new = !curves_.contains(position);  // else it has been told
+  if (is_new && std::any_of(kept.high.begin(), kept.high.end(),
+                            [](const auto& one) { return one.climbed; })) {
     note("a peak that the curve passes was solved for from the points beside it", position);
   }
-  if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
+  if (is_new && !kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
     note("the highest point of the curve is not a solved peak: the peak may be higher", position);
   }
   if (!kept.high.empty() && kept.high.front().detached) {
@@ -231,7 +236,7 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
          position);
     search_everywhere(range.search_starts);
   }
-  if (choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
+  if (is_new && choosing_.harmonic_tolerance > 0.0 && !kept.high.empty() &&
       left_out_at(scene, kept.high.front().point, choosing_) > choosing_.harmonic_tolerance) {
     note("the highest peak lacks harmonics that the checks did not need", position);
   }
