@@ -487,9 +487,10 @@ std::vector<std::size_t> PeakFamilies::highest_near(double position) const {
     by_amplitude.emplace_back(-nearest->second.amplitude, i);
   }
   std::ranges::sort(by_amplitude);
+  by_amplitude.resize(std::min(by_amplitude.size(), most_followed));
   std::vector<std::size_t> families;
+  families.reserve(by_amplitude.size());
   for (const auto& [amplitude, family] : by_amplitude) families.push_back(family);
-  if (families.size() > most_followed) families.resize(most_followed);
   return families;
 }
 
