@@ -183,7 +183,9 @@ contact::ForceAndJacobian PlainReturn::by_all(const contact::Harmonics& q,
     Point(points_[static_cast<std::size_t>(i)], basis, motion)
         .march([&](Index instant, const Traction& traction) {
           tractions.row(instant) = traction.value.transpose();
-          tractions(instant, normal) -= points_[static_cast<std::size_t>(i)].rest_load;
+          // What holds the point at rest is no force of the motion.
+          tractions(instant, normal) -=
+              std::max(points_[static_cast<std::size_t>(i)].rest_load, 0.0);
           for (Index d = 0; d < directions; ++d) {
             rates[static_cast<std::size_t>(d)].row(instant) = traction.change.row(d);
           }

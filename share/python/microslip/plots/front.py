@@ -15,6 +15,7 @@ METHODS = [  # name, colour, mark
     ("slider band", "#3a86ff", "D"),
     ("planar events", "#5b9279", "^"),
     ("lanes", "#f4a259", "o"),
+    ("plain return", "#888888", "x"),
     ("centres of cells", "#f4a259", "o"),
     ("extrapolated", "#b23a6f", "s"),
 ]
