@@ -64,8 +64,9 @@ Eigen::MatrixXd no_solution(const Eigen::Ref<const Eigen::MatrixXd>& B) {
   return Eigen::MatrixXd::Constant(B.rows(), B.cols(), std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The last column of Q in A P = Q R. @param A  m × (m − 1). @return none: its columns depend on one
-/// another, to rounding.
+/// The last column of Q in A P = Q R.
+/// @param A  m × (m − 1).
+/// @return none: its columns depend on one another, to rounding.
 std::optional<Eigen::VectorXd> last_of_q(Eigen::MatrixXd A) {
   if (!A.allFinite()) return std::nullopt;
   const int m = static_cast<int>(A.rows());
