@@ -69,8 +69,10 @@ class Search {
       : scene_(scene), options_(options), curve_(curve) {}
 
   void run() {
-    for (const double frequency : search_frequencies(scene_, options_, curve_))
+    for (const double frequency : search_frequencies(scene_, options_, curve_)) {
+      if (options_.stop && options_.stop()) return;
       search_at(frequency);
+    }
   }
 
  private:

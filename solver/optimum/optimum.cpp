@@ -246,7 +246,7 @@ class Search {
       const double width =
           position(std::next(one)->parameter) - position(std::prev(one)->parameter);
       // Less deep is the rounding of a flat stretch.
-      const bool valley = one->amplitude * the_same() < beside && one->amplitude < limit;
+      const bool valley = one->amplitude * flat_within < beside && one->amplitude < limit;
       const bool wide = width > bracket_left * on_scale(options_, rough);
       if (valley && wide && searched_.count(neighbourhood(one)) == 0) valleys.push_back(one);
     }
@@ -395,7 +395,9 @@ class Search {
 
   [[nodiscard]] std::optional<std::array<double, 2>> flat_interval(
       const std::vector<PeakOfParameter>& trace) const {
-    const auto [first, end] = below(trace, result_.best, flat_within * result_.best.amplitude);
+    const double limit = flat_within * lowest(trace)->amplitude;
+    if (result_.best.amplitude > limit) return std::nullopt;
+    const auto [first, end] = below(trace, result_.best, limit);
     const std::array<double, 2> flat{first->parameter, std::prev(end)->parameter};
     const bool wide = position(flat[1]) - position(flat[0]) > on_scale(options_, flat_width);
     return wide ? std::optional(flat) : std::nullopt;

@@ -149,11 +149,11 @@ PeakOfParameter PeakFamilies::highest_at(double position) const {
 }
 
 /// The amplitude is that of the highest point, beside the curve, or of none that the curve has.
-bool PeakFamilies::is_detached(const Curve& curve, double amplitude) {
+bool PeakFamilies::is_detached(const Curve& curve, double amplitude) const {
   const HighPoint& highest = curve.high.front();
   const double above = amplitude / highest.point.amplitude - 1.0;
   return highest.detached ? above >= -rounded_amplitude
-                          : curve.traced.complete && above > rounded_amplitude;
+                          : curve.traced.complete && above > options_.amplitude_tolerance;
 }
 
 /// Nothing is known at a value, or an end of the range from which the amplitude grows into it.
@@ -174,6 +174,7 @@ ResponseCurve PeakFamilies::traced(double position, const ContinuationOptions& r
   const auto known = curves_.find(position);
   const Scene scene = family_(parameter(position));
   if (known == curves_.end()) return trace_response(scene, range, until_stopped(range));
+  if (range.stop && range.stop()) throw SearchStopped{};
   ResponseCurve curve = known->second.traced;
   search_branches(scene, range, curve);
   return curve;
@@ -218,17 +219,18 @@ const PeakFamilies::Curve& PeakFamilies::curve_at(double position, int search_st
   ResponseCurve curve = ahead.empty() ? traced(position, range) : std::move(ahead.mapped());
   if (ahead.empty()) count(curve, position);
   if (curve.diagnosis == Diagnosis::interrupted) throw SearchStopped{};
-  if (!curve.complete)
+  const bool is_new = !curves_.contains(position);  // else it has been told
+  if (is_new && !curve.complete)
     note(std::string("curve incomplete (") + to_string(curve.diagnosis) + ")", position);
   const Scene scene = family_(parameter(position));
   std::vector<HighPoint> high = high_points(scene, curve, range_);
   Curve kept{std::move(curve), std::move(high), range.search_starts};
-  const bool is_new = !curves_.contains(position);  // else it has been told
   if (is_new && std::any_of(kept.high.begin(), kept.high.end(),
                             [](const auto& one) { return one.climbed; })) {
     note("a peak that the curve passes was solved for from the points beside it", position);
   }
-  if (is_new && !kept.high.empty() && kept.high.front().place == PeakPlace::unsolved) {
+  if (!kept.high.empty() && kept.high.front().place == PeakPlace::unsolved &&
+      (is_new || kept.high.front().detached)) {
     note("the highest point of the curve is not a solved peak: the peak may be higher", position);
   }
   if (!kept.high.empty() && kept.high.front().detached) {
@@ -496,12 +498,12 @@ std::vector<std::size_t> PeakFamilies::highest_near(double position) const {
 
 PeakOfParameter PeakFamilies::highest(double parameter) {
   const double here = known_position(parameter);
-  asked_.insert(here);
   const std::vector<std::size_t> near = highest_near(here);
   std::vector<char> is_there(near.size());  // not of bits: written side by side
   options_.together(near.size(), [&](std::size_t i) {
     is_there[i] = follow_to(families_[near[i]], here) ? 1 : 0;
   });
+  asked_.insert(here);  // not before: stopped in the middle, the highest is not known
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (is_there[i] != 0 && known_elsewhere(near[i], here)) families_[near[i]].peaks.erase(here);
   }

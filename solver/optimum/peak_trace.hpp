@@ -15,7 +15,8 @@
 ///   a peak that vanishes or jumps      following stops, the curve there is traced whole
 ///   a branch that comes off the curve  its peak is missing on the curve of the next check: higher
 ///                                      than all of that curve it counts and is told, else all
-///                                      values up to the last agreement are traced whole
+///                                      values up to the last agreement are traced whole; with
+///                                      an amplitude_tolerance above rounding it goes there alone
 ///
 /// and named in `notes`. A search for detached branches (ContinuationOptions::search_starts) is
 /// made with every whole curve, from the first on that finds one; a peak it finds counts like one
@@ -136,7 +137,7 @@ class PeakFamilies {
   [[nodiscard]] const LocalPeak* highest_followed(double position) const;
   [[nodiscard]] PeakOfParameter highest_at(double position) const;
   [[nodiscard]] bool needs_curve(double position) const;
-  [[nodiscard]] static bool is_detached(const Curve& curve, double amplitude);
+  [[nodiscard]] bool is_detached(const Curve& curve, double amplitude) const;
   [[nodiscard]] ResponseCurve traced(double position, const ContinuationOptions& range) const;
   /// What it has cost to trace, once.
   void count(const ResponseCurve& curve, double position);

@@ -126,6 +126,9 @@ TEST(Refinement, TheErrorOfTheMeshIsDoubtedWhereHarmonicsMoveThePeak) {
   ASSERT_TRUE(near && far);
   EXPECT_FALSE(near->new_mesh) << near->text;
   EXPECT_TRUE(far->new_mesh) << far->text;
+  const auto out_of_reach = step_with(0.1, 0.1);
+  ASSERT_TRUE(out_of_reach.has_value()) << "what comes as near as can be";
+  EXPECT_TRUE(out_of_reach->new_mesh);
 }
 
 TEST(Refinement, WhatCannotBeRefinedDoesNotMakeTheRestDear) {
