@@ -340,15 +340,22 @@ TEST(MinimisePeak, FindsTheBestPreloadOfPaperBNearThirtyNewtons) {
   }
 }
 
-TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
-  const SceneFamily family = [](double preload) {
-    Scene scene = tests::three_dof_scene(preload);
-    tests::use_event_cycles(scene);
-    return scene;
-  };
+Scene of_three_masses(double preload) {
+  Scene scene = tests::three_dof_scene(preload);
+  tests::use_event_cycles(scene);
+  return scene;
+}
+
+ContinuationOptions nine_harmonics() {
   ContinuationOptions many =
       frequency_range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 30.0);
   many.n_harmonics = 9;
+  return many;
+}
+
+TEST(MinimisePeak, WithChosenHarmonicsIsThatOfMany) {
+  const SceneFamily family = of_three_masses;
+  const ContinuationOptions many = nine_harmonics();
   OptimumOptions options = preloads(20.0, 400.0);
   options.relative_tolerance = 1e-2;
   options.search_starts = 0;
@@ -375,17 +382,11 @@ TEST(MinimisePeak, StopsWithWhatThereIs) {
   EXPECT_FALSE(optimum.trace.empty());
 }
 
-// Where few harmonics find the best value at a bound, it is searched everywhere with those that are
-// chosen, once more with those that its own peak needs.
+// Few harmonics find the lowest value at a bound: it is searched everywhere with those that are
+// chosen.
 TEST(MinimisePeak, WithChosenHarmonicsIsThatOfManyAtABoundToo) {
-  const SceneFamily family = [](double preload) {
-    Scene scene = tests::three_dof_scene(preload);
-    tests::use_event_cycles(scene);
-    return scene;
-  };
-  ContinuationOptions many =
-      frequency_range(2.0 * std::numbers::pi * 18.0, 2.0 * std::numbers::pi * 30.0);
-  many.n_harmonics = 9;
+  const SceneFamily family = of_three_masses;
+  const ContinuationOptions many = nine_harmonics();
   OptimumOptions options = preloads(120.0, 400.0);  // the best value lies below
   options.relative_tolerance = 1e-2;
   options.search_starts = 0;
