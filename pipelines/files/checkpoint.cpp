@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/files/result_members.hpp"
 #include "pipelines/structure/structure_members.hpp"
 #include "pipelines/system/byte_archive.hpp"
 #include "pipelines/system/output_file.hpp"
@@ -16,67 +17,7 @@
 
 namespace fs = std::filesystem;
 
-// Structured bindings name every member: one that is added and not kept does not compile.
-namespace microslip {
-using pipelines::Is;
-
-namespace contact {
-auto members(Is<Harmonics> auto& value) { return std::tie(value.rows()); }
-auto members(Is<CycleReport> auto& value) {
-  auto& [stick, slip, separated, three_states, work, awake] = value;
-  return std::tie(stick, slip, separated, three_states, work, awake);
-}
-}  // namespace contact
-
-namespace solver {
-auto members(Is<PeriodEnergy> auto& value) {
-  auto& [friction, damping] = value;
-  return std::tie(friction, damping);
-}
-auto members(Is<ResponsePoint> auto& value) {
-  auto& [frequency, q, orders, left_out, amplitude, first, mean, phase, residual, imbalance,
-         mismatch, energy, report, stability, basis, sign, mark, iterations, evaluations, seconds] =
-      value;
-  return std::tie(frequency, q, orders, left_out, amplitude, first, mean, phase, residual,
-                  imbalance, mismatch, energy, report, stability, basis, sign, mark, iterations,
-                  evaluations, seconds);
-}
-auto members(Is<SolverEvent> auto& value) {
-  auto& [frequency, remedy] = value;
-  return std::tie(frequency, remedy);
-}
-auto members(Is<DetachedBranch> auto& value) {
-  auto& [points, closed] = value;
-  return std::tie(points, closed);
-}
-auto members(Is<SettledPeak> auto& value) {
-  auto& [frequency, amplitude, left_out, energy] = value;
-  return std::tie(frequency, amplitude, left_out, energy);
-}
-auto members(Is<ResponseCurve> auto& value) {
-  auto& [points, complete, diagnosis, message, certificate, log, detached, n_starts, iterations,
-         evaluations, readings, cuts, seconds, settled_peak] = value;
-  return std::tie(points, complete, diagnosis, message, certificate, log, detached, n_starts,
-                  iterations, evaluations, readings, cuts, seconds, settled_peak);
-}
-auto members(Is<RicherPeak> auto& value) {
-  auto& [frequency, amplitude, change, highest, seconds, energy] = value;
-  return std::tie(frequency, amplitude, change, highest, seconds, energy);
-}
-}  // namespace solver
-
-namespace pipelines {
-auto members(Is<PatchShares> auto& value) {
-  auto& [patch, reports] = value;
-  return std::tie(patch, reports);
-}
-auto members(Is<CurveResult> auto& value) {
-  auto& [name, load, curve, maps, patch_shares, gap, integrated, richer, bar] = value;
-  static_cast<void>(maps);  // drawn in a stage of their own, after the curves
-  static_cast<void>(bar);   // told in a stage of its own as well
-  return std::tie(name, load, curve, patch_shares, gap, integrated, richer);
-}
-
+namespace microslip::pipelines {
 namespace {
 
 /// First line of a part: another version, or another layout of what it holds, is refused by it.
@@ -244,5 +185,4 @@ std::optional<int> ended_run(const fs::path& folder, const std::string& scene_to
   return static_cast<int>((told.has("earlier") ? told.at("earlier") : told).integer("exit_code"));
 }
 
-}  // namespace pipelines
-}  // namespace microslip
+}  // namespace microslip::pipelines

@@ -4,11 +4,13 @@
 
 #include "pipelines/files/columns.hpp"
 #include "pipelines/files/hdf5_file.hpp"
+#include "pipelines/system/byte_archive.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-void write_structure(Hdf5Writer& out, const ReducedModel& model) {
+template <typename Writer>
+void write_structure(Writer& out, const ReducedModel& model) {
   for (const auto& array : model_arrays()) {
     out.vector(std::string("/") + array.name, array.get(model), array.unit);
   }
@@ -19,7 +21,8 @@ std::string folder_of(std::size_t patch) {
   return patch == 0 ? "/contact/" : "/contact_" + std::to_string(patch + 1) + "/";
 }
 
-void write_samples(Hdf5Writer& out, const std::string& stem, const contact::PatchSamples& samples) {
+template <typename Writer>
+void write_samples(Writer& out, const std::string& stem, const contact::PatchSamples& samples) {
   for (const auto& array : shape_arrays()) {
     out.matrix(stem + array.name, array.get(samples), array.unit);
   }
@@ -29,7 +32,8 @@ void write_samples(Hdf5Writer& out, const std::string& stem, const contact::Patc
   }
 }
 
-void write_patch(Hdf5Writer& out, const std::string& folder, const contact::Patch& patch) {
+template <typename Writer>
+void write_patch(Writer& out, const std::string& folder, const contact::Patch& patch) {
   for (const auto& array : patch_places()) {
     out.matrix(folder + array.name, array.get(patch), array.unit);
   }
@@ -46,11 +50,8 @@ void write_patch(Hdf5Writer& out, const std::string& folder, const contact::Patc
   write_samples(out, folder + "vertex_", patch.vertices);
 }
 
-}  // namespace
-
-void write_model(const std::filesystem::path& file, const ReducedModel& model) {
-  Hdf5Writer out;
-  out.text("program", "microslip");
+template <typename Writer>
+void write_arrays(Writer& out, const ReducedModel& model) {
   write_structure(out, model);
   if (model.patches.empty()) write_patch(out, folder_of(0), {});  // datasets without elements
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
@@ -59,7 +60,39 @@ void write_model(const std::filesystem::path& file, const ReducedModel& model) {
       out.text(folder_of(i).substr(1, folder_of(i).size() - 2), model.patches[i].name);
     }
   }
+}
+
+/// Values alone: which comes after which is the same for all models.
+struct ArrayBytes {
+  ByteWriter bytes;
+  void text(const std::string& /*name*/, const std::string& value) { bytes(value); }
+  template <typename Values>
+  void vector(const std::string& /*name*/, const Values& values, const char* /*unit*/) {
+    bytes(values);
+  }
+  template <typename Values>
+  void matrix(const std::string& /*name*/, const Values& values, const char* /*unit*/) {
+    bytes(values);
+  }
+  template <typename Values>
+  void integers(const std::string& /*name*/, const Values& values, const char* /*unit*/) {
+    bytes(values);
+  }
+};
+
+}  // namespace
+
+void write_model(const std::filesystem::path& file, const ReducedModel& model) {
+  Hdf5Writer out;
+  out.text("program", "microslip");
+  write_arrays(out, model);
   out.write(file);
+}
+
+std::string arrays_of(const ReducedModel& model) {
+  ArrayBytes out;
+  write_arrays(out, model);
+  return out.bytes.bytes();
 }
 
 }  // namespace microslip::pipelines

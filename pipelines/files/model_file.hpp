@@ -16,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "pipelines/model/reduced_model.hpp"
 
@@ -23,5 +24,8 @@ namespace microslip::pipelines {
 
 /// @throws ExhaustedError  cannot be written; nothing half-written is left.
 void write_model(const std::filesystem::path& file, const ReducedModel& model);
+
+/// The numbers of that file: equal for models of one scene that are the same, unequal for others.
+[[nodiscard]] std::string arrays_of(const ReducedModel& model);
 
 }  // namespace microslip::pipelines

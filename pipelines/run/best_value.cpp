@@ -11,6 +11,7 @@
 
 #include "pipelines/accuracy/optimum_budget.hpp"
 #include "pipelines/response/optimum_stage.hpp"
+#include "pipelines/run/kept_results.hpp"
 #include "pipelines/run/solution_maps.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
@@ -23,6 +24,36 @@ CurveBudget budget_of(const Solution& solution, const solver::Optimum& best, int
   return optimum_budget(solution.model, solution.scene,
                         richer_models(solution.model, solution.scene, solution.structure.get()),
                         best, jobs);
+}
+
+/// All of them, two at a time. @return  what each has thrown
+std::vector<std::exception_ptr> run_all(const std::vector<std::function<void()>>& tasks) {
+  std::vector<std::exception_ptr> failures(tasks.size());
+  in_parallel(tasks.size(), 2, [&](std::size_t i) {
+    try {
+      tasks[i]();
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  return failures;
+}
+
+void rethrow_first(const std::vector<std::exception_ptr>& failures) {
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+/// Its error, and a warning of what more harmonics say.
+void tell_trust(const Solution& solution, OptimumSearch& search, int jobs, bool beside,
+                BestValue& found) {
+  std::string left_out;
+  in_parallel(2, beside ? 2 : 1, [&](std::size_t i) {
+    if (i == 0) found.budget = budget_of(solution, found.optimum, jobs);
+    if (i == 1 && !cut_short()) left_out = search.left_out(found.optimum);
+  });
+  if (!left_out.empty()) found.optimum.warnings.push_back(std::move(left_out));
 }
 
 }  // namespace
@@ -42,42 +73,36 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
   record.stage("optimum");
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
-  solver::Optimum best;
-  std::optional<OptimumBracket> bracket;
-  std::vector<std::function<void()>> tasks{[&] { best = search.best(); }};
+  const KeptResults kept(solution.model, scene);
+  std::optional<BestValue> earlier = kept.best_value();
+  const bool is_new = !earlier;
+  BestValue found = is_new ? BestValue() : std::move(*earlier);
+  const bool lacks_bracket = options.bracket && !found.bracket;
+  std::vector<std::function<void()>> tasks;
   if (beside && options.maps) {
     tasks.emplace_back([&] {
-      draw_maps(solution, options.jobs - 1, record);
+      draw_maps(solution, is_new ? options.jobs - 1 : options.jobs, record);
       record.maps_are_drawn();
     });
   }
-  if (beside && options.bracket && search.bracket_by_few()) {
-    tasks.emplace_back([&] { bracket = search.bracket(options.jobs - 1); });
+  if (beside && lacks_bracket && search.bracket_by_few()) {
+    tasks.emplace_back([&] { found.bracket = search.bracket(options.jobs - 1); });
   }
-  std::vector<std::exception_ptr> failures(tasks.size());
-  in_parallel(tasks.size(), 2, [&](std::size_t i) {
-    try {
-      tasks[i]();
-    } catch (...) {
-      failures[i] = std::current_exception();
-    }
-  });
-  if (failures[0]) std::rethrow_exception(failures[0]);
-  // What the search has found is kept though maps or bracket have failed.
-  CurveBudget budget;
-  record.note_optimum(solution.model, *scene.response->optimum, best, budget);
-  std::string left_out;
-  in_parallel(2, beside ? 2 : 1, [&](std::size_t i) {
-    if (i == 0) budget = budget_of(solution, best, options.jobs);
-    if (i == 1 && !cut_short()) left_out = search.left_out(best);
-  });
-  if (!left_out.empty()) best.warnings.push_back(std::move(left_out));
-  record.keep_optimum(solution.model, *scene.response->optimum, best, budget);
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
+  if (is_new) tasks.insert(tasks.begin(), [&] { found.optimum = search.best(); });
+  const std::vector<std::exception_ptr> failures = run_all(tasks);
+  if (is_new) {
+    if (failures.front()) std::rethrow_exception(failures.front());
+    // What the search has found is kept though maps or bracket have failed.
+    record.note_optimum(solution.model, *scene.response->optimum, found.optimum, found.budget);
+    tell_trust(solution, search, options.jobs, beside, found);
   }
-  if (!bracket && options.bracket && !cut_short()) bracket = search.bracket(options.jobs);
-  if (bracket) record.keep_bracket(std::move(*bracket));
+  record.keep_optimum(solution.model, *scene.response->optimum, found.optimum, found.budget);
+  rethrow_first(failures);
+  if (options.bracket && !found.bracket && !cut_short()) {
+    found.bracket = search.bracket(options.jobs);
+  }
+  if (is_new || lacks_bracket) kept.keep(found);
+  if (options.bracket && found.bracket) record.keep_bracket(std::move(*found.bracket));
 }
 
 }  // namespace microslip::pipelines

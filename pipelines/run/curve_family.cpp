@@ -12,6 +12,7 @@
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/response/response_stage.hpp"
+#include "pipelines/run/kept_results.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -41,6 +42,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
                                       int jobs, RunRecord& record) {
   const std::vector<CurveRequest> requests = curve_requests(scene);
   if (requests.empty()) return {};
+  const KeptResults kept_results(model, scene);
   std::vector<CurveResult> results(requests.size());
   std::mutex order;
   std::vector<bool> finished(requests.size(), false);
@@ -58,11 +60,14 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     };
     if (auto before = record.finished_curve(requests[i].name)) {
       results[i] = std::move(*before);
+    } else if (auto earlier = kept_results.curve(requests[i])) {
+      results[i] = std::move(*earlier);
     } else {
       results[i] = trace_curve(model, scene, requests[i], observe);
       // Else it may be cut short, or have fewer harmonics than it was to have.
       if (!interrupt_requested() && !time_is_short()) {
         record.keep_finished(results[i]);
+        kept_results.keep(results[i]);
       }
     }
     ++done;
@@ -96,28 +101,48 @@ std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDesc
   return results;
 }
 
+namespace {
+
+/// @param needed  else there are none, and nothing is said.
+RicherModels models_to_compare(const ReducedModel& model, const SceneDescription& scene,
+                               const SolvedStructure* structure, bool needed) {
+  RicherModels richer;
+  if (!needed) return richer;
+  if (!cut_short()) return richer_models(model, scene, structure);
+  richer.note = "out of time: errors but those of the harmonics are not told";
+  if (structure != nullptr) {
+    richer.unknown = {"mesh", "basis", "cells", "fit", "second_direction"};
+  }
+  if (contact::is_sampled(model.patches, model.effects)) {
+    richer.unknown.emplace_back("instants");
+  }
+  return richer;
+}
+
+}  // namespace
+
 std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescription& scene,
                                     const SolvedStructure* structure, int jobs,
                                     std::vector<CurveResult>& curves, Progress& progress) {
   if (!scene.accuracy.error_budget || model.patches.empty()) return {};
-  RicherModels richer;
-  if (cut_short()) {
-    richer.note = "out of time: errors but those of the harmonics are not told";
-    if (structure != nullptr) {
-      richer.unknown = {"mesh", "basis", "cells", "fit", "second_direction"};
-    }
-    if (contact::is_sampled(model.patches, model.effects)) {
-      richer.unknown.emplace_back("instants");
-    }
-  } else {
-    richer = richer_models(model, scene, structure);
-  }
+  const KeptResults kept(model, scene);
+  std::vector<std::optional<CurveBudget>> known(curves.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) known[i] = kept.budget(curves[i]);
+  const bool any_unknown =
+      !std::ranges::all_of(known, [](const auto& budget) { return budget.has_value(); });
+  const RicherModels richer = models_to_compare(model, scene, structure, any_unknown);
   if (!richer.note.empty()) progress.info(richer.note);
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
+    if (known[i]) {
+      budgets[i] = std::move(*known[i]);
+      return;
+    }
     budgets[i] = error_budget(model, scene, richer, curves[i]);
-    if (!cut_short()) budgets[i].left_out = rows_left_out(model, scene, curves[i]);
+    if (cut_short()) return;
+    budgets[i].left_out = rows_left_out(model, scene, curves[i]);
+    kept.keep(budgets[i], curves[i]);
   });
   borrow_unknown(budgets);
   for (std::size_t i = 0; i < curves.size(); ++i) {

@@ -10,6 +10,7 @@ of a processor that the run had: the machine may be shared. Of several runs the 
 """
 import argparse
 import csv
+import glob
 import json
 import os
 import resource
@@ -63,7 +64,13 @@ class Bench:
                                   key=lambda one: one[0])
         return self.known[key]
 
+    def forget_curves(self):
+        """Mesh and modes are taken from the run before, curves are solved."""
+        for file in glob.glob(os.path.join(self.arguments.folder, "cache", "microslip", "preload_*.cached")):
+            os.remove(file)
+
     def once(self, preload, settings):
+        self.forget_curves()
         folder = os.path.join(self.arguments.folder, "run")
         line = [self.arguments.program, "run", os.path.join(self.arguments.source, "share", "scenes", "blade_to_ground.toml"),
                 "-q", "-j", "1", "--without", "plots", "--without", "maps", "-o", folder]

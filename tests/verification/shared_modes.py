@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Mesh and modes of a blade are solved once for all runs that have the same, and make no difference to them.
+"""Mesh, modes, curves, their errors and best values are solved once for all runs that have the same, and make no difference
+to them.
 
 usage: shared_modes.py MICROSLIP SOURCE WORK_FOLDER
 """
+import json
 import os
 import shutil
 import subprocess
@@ -58,15 +60,45 @@ class SharedModes(unittest.TestCase):
         self.assertNotIn("earlier run", refused)
         for name in ("modes.csv", "model.h5", "curves/preload_2000.csv", "curves/preload_2000.states.csv"):
             self.assertEqual(read("again", name), read("refused", name), name)
-        self.assertEqual(len(self.kept()), 2, "a mesh and its modes")
+        self.assertEqual(len([name for name in self.kept() if name.startswith(("mesh", "modes"))]), 2, "a mesh and its modes")
 
     def test_what_is_damaged_is_made_again(self):
         for name in self.kept():
+            if not name.startswith(("mesh", "modes")):
+                continue
             os.truncate(os.path.join(WORK, "cache", name), 1000)
         log = run("mended", command="modes")
         self.assertEqual(log.count("damaged; it is made again"), 2)
         self.assertEqual(read("mended", "model.h5"), read("first", "model.h5"))
         self.assertIn(TAKEN[1], run("mended", command="modes"))
+
+    def test_another_preload_is_solved_alone(self):
+        study = {"response.harmonics": 3, "response.frequency": ["310 Hz", "335 Hz"],
+                 "response.optimum": "preload", "response.optimum_range": [150, 600],
+                 "accuracy.error_budget": "auto", "contact.points": 96}
+
+        def taken(name, preloads, *options, **changes):
+            log = run(name, "--without", "bracket", *options, cache="study_cache", **{**study, "response.preload": preloads, **changes})
+            return {word for word in ("preload_150", "preload_300", "preload_600", "errors_preload_150", "errors_preload_300",
+                                      "errors_preload_600", "best_value") if f" {word}: taken from an earlier run" in log}
+
+        first = {"preload_150", "preload_300", "errors_preload_150", "errors_preload_300", "best_value"}
+        self.assertEqual(taken("study", [150, 300]), set())
+        self.assertEqual(taken("study_again", [300, 600, 150]), first)
+        self.assertEqual(taken("study_refused", [150, 300, 600], "--no-cache"), set())
+        for curve in ("preload_150", "preload_300", "preload_600"):
+            for name in (f"curves/{curve}.csv", f"curves/{curve}.states.csv"):
+                self.assertEqual(read("study_again", name), read("study_refused", name), name)
+        best, refused = (json.loads(read(name, "summary.json"))["optimum"] for name in ("study_again", "study_refused"))
+        for key in ("value", "amplitude_m", "frequency_Hz", "message", "trace"):
+            self.assertEqual(best[key], refused[key], key)
+        # What a curve follows from makes it another; what is asked for beside it does not.
+        self.assertLessEqual({"preload_150", "best_value"}, taken("title", [150], title="another", **{"response.maps": ["peak"]}))
+        self.assertEqual(taken("range", [150], **{"response.optimum_range": [200, 600], "accuracy.error_budget": "off"}), {"preload_150"})
+        for key, value in (("contact.friction_coefficient", 0.41), ("response.harmonics", 2), ("contact.points", 120),
+                           ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
+            self.assertEqual(taken("other", [150], **{key: value, "response.optimum": None, "response.optimum_range": None,
+                                                      "accuracy.error_budget": "off"}), set(), key)
 
     def test_no_folder_is_no_obstacle(self):
         open(os.path.join(WORK, "file"), "w").close()

@@ -1,0 +1,171 @@
+#include "pipelines/run/kept_results.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipelines/files/model_file.hpp"
+#include "pipelines/files/result_members.hpp"
+#include "pipelines/model/curve_load.hpp"
+#include "pipelines/system/byte_archive.hpp"
+#include "pipelines/system/deadline.hpp"
+#include "pipelines/system/interrupt.hpp"
+#include "pipelines/system/result_cache.hpp"
+
+namespace microslip::contact {
+auto members(pipelines::Is<ContactEffects> auto& value) {
+  auto& [n_harmonics, normal_motion, second_direction, located, motion_ratio] = value;
+  return std::tie(n_harmonics, normal_motion, second_direction, located, motion_ratio);
+}
+auto members(pipelines::Is<MotionCoordinates> auto& value) {
+  auto& [of_modes, motion] = value;
+  return std::tie(of_modes, motion);
+}
+}  // namespace microslip::contact
+
+namespace microslip::pipelines {
+
+auto members(Is<HarmonicSettings> auto& value) {
+  auto& [highest, orders, tolerance, checked] = value;
+  return std::tie(highest, orders, tolerance, checked);
+}
+auto members(Is<CurveBudget> auto& value) {
+  auto& [rows, unknown, left_out, dissipated_energy, energy_ratio] = value;
+  return std::tie(rows, unknown, left_out, dissipated_energy, energy_ratio);
+}
+auto members(Is<BestValue> auto& value) {
+  auto& [optimum, budget, bracket] = value;
+  return std::tie(optimum, budget, bracket);
+}
+
+namespace {
+
+/// So many evaluations of a point take some tenth of a second. Counted, not measured: which results
+/// are kept does not depend on the day.
+constexpr double worth_keeping = 1e4;
+
+using Keys = std::vector<std::string_view>;
+
+/// A completed scene without its title, these keys of [response], and [accuracy],
+/// of which the settings of the model say more.
+std::string text_without(const Keys& keys, const std::string& scene_toml) {
+  std::string text;
+  std::string section;
+  std::istringstream lines(scene_toml);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[")) section = line;
+    const std::string key = line.substr(0, line.find(" = "));
+    const bool is_choice = section == "[response]" && std::ranges::find(keys, key) != keys.end();
+    const bool is_title = section.empty() && key == "title";
+    if (section != "[accuracy]" && !is_choice && !is_title) text += line + '\n';
+  }
+  return text;
+}
+
+std::string settings_of(const ReducedModel& model, const SceneDescription& scene) {
+  ByteWriter bytes;
+  bytes(arrays_of(model));
+  bytes(model.effects);
+  bytes(model.coordinates);
+  bytes(scene.settings.harmonics);
+  bytes(scene.settings.second_direction);
+  return bytes.bytes();
+}
+
+bool is_whole() { return !interrupt_requested() && !was_cut_short(); }
+
+template <typename Part>
+std::optional<Part> found(std::string_view kind, const std::string& inputs) {
+  const ResultCache* cache = ResultCache::in_use();
+  if (cache == nullptr) return std::nullopt;
+  const auto bytes = cache->kept(kind, inputs);
+  if (!bytes) return std::nullopt;
+  try {
+    std::optional<Part> part(std::in_place);
+    ByteReader reader(*bytes);
+    reader(*part);
+    return part;
+  } catch (const std::out_of_range&) {  // whole, and yet not what this program writes
+    return std::nullopt;
+  }
+}
+
+template <typename Part>
+void keep_part(const std::string& kind, const std::string& inputs, const Part& part) {
+  ResultCache* cache = ResultCache::in_use();
+  if (cache == nullptr || !is_whole()) return;
+  ByteWriter bytes;
+  bytes(part);
+  cache->entry(kind, inputs).keep(bytes.bytes());
+}
+
+std::string with_load(std::string inputs, const std::variant<double, LimitName>& load) {
+  ByteWriter bytes;
+  bytes(load);
+  return inputs + bytes.bytes();
+}
+
+std::string errors_name(const CurveResult& curve) { return "errors_" + curve.name; }
+
+/// Errors are those of these points, whatever they took.
+std::string with_points(const std::string& inputs, const CurveResult& curve) {
+  ByteWriter bytes;
+  for (const solver::ResponsePoint& point : curve.curve.points) bytes(point.q);
+  return with_load(inputs, curve.load) + bytes.bytes();
+}
+
+}  // namespace
+
+KeptResults::KeptResults(const ReducedModel& model, const SceneDescription& scene) : model_(model) {
+  for (const contact::Patch& patch : model.patches) {
+    n_points_ += static_cast<double>(patch.cells.size());
+  }
+  if (ResultCache::in_use() == nullptr) return;
+  const std::string settings = settings_of(model, scene);
+  Keys keys{"maps", "map_phases"};
+  // Bounds of a search that are not given are those of the list.
+  if (scene.response->optimum && scene.response->optimum->range) keys.emplace_back("preload");
+  const std::string errors = scene.accuracy.error_budget ? "with errors" : "without errors";
+  best_ = text_without(keys, scene.complete_toml) + settings + errors;
+  for (const char* key :
+       {"preload", "preload_scale", "limits", "optimum", "optimum_range", "optimum_at"}) {
+    keys.emplace_back(key);
+  }
+  curves_ = text_without(keys, scene.complete_toml) + settings;
+}
+
+bool KeptResults::is_worth(long evaluations) const {
+  return static_cast<double>(evaluations) * n_points_ >= worth_keeping;
+}
+
+std::optional<CurveResult> KeptResults::curve(const CurveRequest& request) const {
+  return found<CurveResult>(request.name, with_load(curves_, load_of(request, model_)));
+}
+
+void KeptResults::keep(const CurveResult& curve) const {
+  if (!is_worth(curve.curve.contact_evaluations)) return;
+  keep_part(curve.name, with_load(curves_, curve.load), curve);
+}
+
+std::optional<CurveBudget> KeptResults::budget(const CurveResult& curve) const {
+  return found<CurveBudget>(errors_name(curve), with_points(curves_, curve));
+}
+
+void KeptResults::keep(const CurveBudget& budget, const CurveResult& curve) const {
+  if (!is_worth(curve.curve.contact_evaluations)) return;
+  keep_part(errors_name(curve), with_points(curves_, curve), budget);
+}
+
+std::optional<BestValue> KeptResults::best_value() const {
+  return found<BestValue>("best_value", best_);
+}
+
+void KeptResults::keep(const BestValue& best) const {
+  if (!is_worth(best.optimum.contact_evaluations)) return;
+  keep_part("best_value", best_, best);
+}
+
+}  // namespace microslip::pipelines
