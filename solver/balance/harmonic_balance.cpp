@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -163,7 +164,19 @@ void HarmonicBalance::add_stiffness(const Eigen::MatrixXd& stiffness, double fac
   for (Eigen::Index i = 0; i < size(); i += n) matrix.block(i, i, n, n) += factor * stiffness;
 }
 
+/// A step of Newton's method that leads below zero is to be shortened: there is no such excitation,
+/// and friction that falls with the speed would grow without bound.
+BalanceEvaluation HarmonicBalance::nowhere() const {
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(size());
+  BalanceEvaluation result;
+  result.residual = Eigen::VectorXd::Constant(size(), std::numeric_limits<double>::infinity());
+  result.jacobian = Eigen::MatrixXd::Zero(size(), size());
+  result.parameter_derivative = result.contact_force = nothing;
+  return result;
+}
+
 BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double frequency) {
+  if (frequency < 0.0) return nowhere();
   BalanceEvaluation result;
   if (scene_.contact) {
     contact::ForceAndJacobian contact = contact_at(x, frequency);
@@ -184,6 +197,7 @@ BalanceEvaluation HarmonicBalance::evaluate(const Eigen::VectorXd& x, double fre
 }
 
 BalanceEvaluation HarmonicBalance::residual(const Eigen::VectorXd& x, double frequency) {
+  if (frequency < 0.0) return nowhere();
   BalanceEvaluation result;
   result.contact_force = Eigen::VectorXd::Zero(size());
   if (scene_.contact) {

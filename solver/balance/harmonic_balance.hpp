@@ -50,6 +50,7 @@ class HarmonicBalance {
   /// The same of a vector in the order of harmonics(x).vector(), of a gradient say.
   [[nodiscard]] Eigen::VectorXd unknowns(const Eigen::VectorXd& full) const;
 
+  /// @return  of a frequency below 0 an infinite residual.
   [[nodiscard]] BalanceEvaluation evaluate(const Eigen::VectorXd& x, double frequency);
   /// The same without derivatives, which are empty; several times cheaper.
   [[nodiscard]] BalanceEvaluation residual(const Eigen::VectorXd& x, double frequency);
@@ -87,6 +88,7 @@ class HarmonicBalance {
   /// slipping, its place is any: the derivative gets a stiffness there, by which Newton's method
   /// leaves the place as it is.
   void hold_loose_means(double frequency, Eigen::MatrixXd& jacobian) const;
+  [[nodiscard]] BalanceEvaluation nowhere() const;
   [[nodiscard]] contact::ForceAndJacobian contact_at(const Eigen::VectorXd& x, double frequency);
 
   const Scene& scene_;

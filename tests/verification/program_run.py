@@ -6,8 +6,9 @@ NO_PLOTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "suppo
 
 
 def without_plots():
-    """An environment in which the program draws nothing: loading matplotlib takes longer than most runs."""
-    return {**os.environ, "PYTHONPATH": NO_PLOTS}
+    """An environment in which the program draws nothing, loading matplotlib takes longer than most runs, and takes nothing from
+    earlier runs unless a folder of theirs is named."""
+    return {"MICROSLIP_CACHE": "off", **os.environ, "PYTHONPATH": NO_PLOTS}
 
 
 def whole_campaigns():

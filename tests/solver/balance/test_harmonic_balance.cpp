@@ -64,6 +64,15 @@ Eigen::VectorXd free_residual(HarmonicBalance& balance, const Eigen::VectorXd& x
   return balance.evaluate_homotopy(x, omega, 0.0, Eigen::MatrixXd::Zero(n, n)).residual;
 }
 
+TEST(HarmonicBalance, NothingIsSolvedBelowZeroFrequency) {
+  const auto random = tests::random_scene(3);
+  HarmonicBalance balance(random.scene, 1);
+  const Eigen::VectorXd x = some_motion(balance, random.options.frequency_begin);
+  EXPECT_TRUE(balance.evaluate(x, 0.0).residual.allFinite());
+  EXPECT_FALSE(std::isfinite(balance.evaluate(x, -1e-300).residual.norm()));
+  EXPECT_FALSE(std::isfinite(balance.residual(x, -1.0).residual.norm()));
+}
+
 TEST(HarmonicBalance, LinearResponseSolvesTheFreeAndTheStuckEquations) {
   const auto random = tests::random_scene(5);
   HarmonicBalance balance(random.scene, 1);
