@@ -111,6 +111,11 @@ solver::Optimum OptimumSearch::search(const Factors& factors, int jobs) {
     range.harmonic_tolerance = 0.0;
   }
   solver::OptimumOptions options = options_for(factors);
+  // Curves of a search are not written.
+  constexpr double closely_enough = 1e-7;
+  if (ends_sooner(scene_)) {
+    range.residual_tolerance = std::max(range.residual_tolerance, closely_enough);
+  }
   options.together = [jobs](std::size_t n, const auto& task) { in_parallel(n, jobs, task); };
   return solver::minimise_peak([&](double value) { return scene_at(value, factors); }, range,
                                options);
