@@ -20,7 +20,7 @@ enum class Diagnosis : std::uint8_t {
   /// Beyond such a point only another branch was found; points before and after are valid.
   branch_jump,
   loop,    ///< a branch entered by a jump is closed and does not reach the end
-  budget,  ///< max_points were not enough
+  budget,  ///< max_points were not enough, or the time that whoever asked for the curve gives it
   /// The branch turned back out of the range at its begin; in time: beyond all numbers.
   out_of_range,
   unbounded,     ///< at an undamped resonance that nothing limits

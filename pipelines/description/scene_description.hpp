@@ -214,7 +214,8 @@ struct ResponseDescription {
   enum class Method { harmonic_balance, time } method = Method::harmonic_balance;
   /// Of a search for detached branches; 0: none; without value: as the effect `coexistence` says.
   std::optional<int> search_starts{};
-  int n_time_points = 40;    ///< frequencies of method = "time"
+  double time_budget = std::numeric_limits<double>::infinity();  ///< of one curve [s]
+  int n_time_points = 40;                                        ///< frequencies of method = "time"
   int steps_per_period = 0;  ///< of method = "time": fixed steps; 0: changes of contact are located
   std::string steps_place;   ///< "file:line: key" of it, for messages
   std::vector<PreloadEntry> preload;       ///< kinds with a mesh; one curve each

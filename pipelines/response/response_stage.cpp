@@ -372,9 +372,9 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
   solver::ContinuationOptions exact = continuation_options(scene, located);
   exact.search_starts = options.search_starts;
   exact.near_begin = options.near_begin;
-  solver::ResponseCurve again =
-      solver::trace_response(balanced_scene(located, load, exact), exact,
-                             [](const auto&) { return !interrupt_requested() && !cut_short(); });
+  exact.stop = options.stop;
+  solver::ResponseCurve again = solver::trace_response(
+      balanced_scene(located, load, exact), exact, [&](const auto&) { return !options.stop(); });
   if (!again.complete && (curve.complete || again.points.size() < curve.points.size())) {
     return curve;
   }
@@ -387,12 +387,19 @@ solver::ResponseCurve balanced_curve(const ReducedModel& model, const SceneDescr
   return again;
 }
 
-}  // namespace
+/// That its time was over is why it has no end, where nothing else has stopped it.
+void tell_time_is_over(double budget, solver::ResponseCurve& curve) {
+  if (curve.diagnosis != solver::Diagnosis::interrupted) return;
+  if (interrupt_requested() || cut_short()) return;
+  curve.diagnosis = solver::Diagnosis::budget;
+  curve.message = fmt::format("{}{}response.time_budget, {:g} s, is over", curve.message,
+                              curve.message.empty() ? "" : ": ", budget);
+}
 
-CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
-                        const CurveRequest& request, const solver::PointObserver& observe,
-                        const solver::ResponseCurve* near) {
-  solver::ContinuationOptions options = continuation_options(scene, model);
+/// Traces the curve of a scene; the harmonics it has are not checked with more.
+CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
+                   const CurveRequest& request, const solver::PointObserver& observe,
+                   solver::ContinuationOptions options, const solver::ResponseCurve* near) {
   CurveResult result;
   result.name = request.name;
   result.load = load_of(request, model);
@@ -435,7 +442,26 @@ CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene
       result.curve.points.empty() ? 0 : result.curve.points.front().q.n_harmonics();
   tell_shapes_resonate(model.frequency, model.n_attachment, highest, result.curve);
   add_patch_shares(model, load, result);
-  check_harmonics(model, scene, load, result);
+  return result;
+}
+
+}  // namespace
+
+CurveResult trace_curve(const ReducedModel& model, const SceneDescription& scene,
+                        const CurveRequest& request, const solver::PointObserver& observe,
+                        const solver::ResponseCurve* near) {
+  const double budget = scene.response->time_budget;
+  const TimeLimit limit(budget);
+  solver::ContinuationOptions options = continuation_options(scene, model);
+  options.stop = [&limit, stop = options.stop] { return limit.is_over() || stop(); };
+  const auto within = [&](const auto& point) { return !limit.is_over() && observe(point); };
+  CurveResult result = traced(model, scene, request, within, options, near);
+  if (limit.is_over()) {
+    tell_time_is_over(budget, result.curve);
+    return result;
+  }
+  const auto* load = std::get_if<double>(&result.load);
+  if (load != nullptr && !result.integrated) check_harmonics(model, scene, *load, result);
   return result;
 }
 

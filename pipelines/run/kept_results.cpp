@@ -130,8 +130,8 @@ KeptResults::KeptResults(const ReducedModel& model, const SceneDescription& scen
   if (scene.response->optimum && scene.response->optimum->range) keys.emplace_back("preload");
   const std::string errors = scene.accuracy.error_budget ? "with errors" : "without errors";
   best_ = text_without(keys, scene.complete_toml) + settings + errors;
-  for (const char* key :
-       {"preload", "preload_scale", "limits", "optimum", "optimum_range", "optimum_at"}) {
+  for (const char* key : {"preload", "preload_scale", "limits", "optimum", "optimum_range",
+                          "optimum_at", "time_budget"}) {
     keys.emplace_back(key);
   }
   curves_ = text_without(keys, scene.complete_toml) + settings;
@@ -146,7 +146,8 @@ std::optional<CurveResult> KeptResults::curve(const CurveRequest& request) const
 }
 
 void KeptResults::keep(const CurveResult& curve) const {
-  if (!is_worth(curve.curve.contact_evaluations)) return;
+  const bool ended = curve.curve.diagnosis != solver::Diagnosis::budget;  // of time, or of points
+  if (!ended || !is_worth(curve.curve.contact_evaluations)) return;
   keep_part(curve.name, with_load(curves_, curve.load), curve);
 }
 

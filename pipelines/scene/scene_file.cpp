@@ -281,14 +281,6 @@ void read_lean_scene(Reading& reading, const std::string& kind, SceneDescription
   scene.model = model;
 }
 
-/// A number, or "off": nothing.
-std::optional<double> number_or_off(const SectionReader& s, std::string_view key) {
-  constexpr std::array<std::string_view, 1> words{"off"};
-  const toml::node& node = *s.node(key);
-  if (node.value<std::string>() == "off") return std::nullopt;
-  return s.number_or_word_in(node, key, words);
-}
-
 /// @param closer_is_asked  the scene has a response.harmonic_tolerance of its own,
 ///                         which may be the smaller one.
 AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
@@ -296,8 +288,8 @@ AccuracyRequest read_accuracy(const SectionReader& s, bool closer_is_asked,
   constexpr std::array<std::string_view, 2> budgets{"auto", "off"};
   AccuracyRequest accuracy;
   accuracy.error_budget = s.word("error_budget", budgets) == "auto";
-  accuracy.tolerance = number_or_off(s, "tolerance").value_or(0.0);
-  accuracy.budget = number_or_off(s, "budget").value_or(accuracy.budget);
+  accuracy.tolerance = s.number_or_off("tolerance").value_or(0.0);
+  accuracy.budget = s.number_or_off("budget").value_or(accuracy.budget);
   if (accuracy.tolerance == 0.0) return accuracy;
   if (!accuracy.error_budget) {
     s.fail("tolerance", "accuracy.error_budget = \"off\" tells no errors to be kept below it",

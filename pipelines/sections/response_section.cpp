@@ -131,6 +131,7 @@ void read_method(const SectionReader& s, ResponseDescription& response) {
     s.fail("steps_per_period", "is for method = \"time\"", s.node("steps_per_period"));
   }
   response.search_starts = search_starts_in(s);
+  response.time_budget = s.number_or_off("time_budget").value_or(response.time_budget);
 }
 
 PreloadEntry preload_in(const SectionReader& s, const toml::node& entry) {

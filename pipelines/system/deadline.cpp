@@ -53,4 +53,10 @@ bool leave_out() {
 
 bool was_cut_short() { return was_cut; }
 
+TimeLimit::TimeLimit(double seconds) : begin_(Clock::now()), seconds_(seconds) {}
+
+bool TimeLimit::is_over() const {
+  return std::chrono::duration<double>(Clock::now() - begin_).count() > seconds_;
+}
+
 }  // namespace microslip::pipelines

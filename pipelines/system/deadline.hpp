@@ -2,6 +2,8 @@
 /// The wall time a run may take, for the stages to look at.
 #pragma once
 
+#include <chrono>
+
 namespace microslip::pipelines {
 
 /// From now on. @param seconds  > 0; infinite: no end.
@@ -22,5 +24,17 @@ void begin_deadline(double seconds);
 /// Remembered likewise, of what would take longer than there is time. @return true
 bool leave_out();
 [[nodiscard]] bool was_cut_short();
+
+/// What one thing may take, from where this is made.
+class TimeLimit {
+ public:
+  /// @param seconds  of wall time; infinite: no limit.
+  explicit TimeLimit(double seconds);
+  [[nodiscard]] bool is_over() const;
+
+ private:
+  std::chrono::steady_clock::time_point begin_;
+  double seconds_;
+};
 
 }  // namespace microslip::pipelines

@@ -69,6 +69,15 @@ inline constexpr KeySpec search_key{
     false,
     "starts per frequency of a search for branches detached from the curve, or for other "
     "solutions at a single frequency; 0: none; auto: as effects.coexistence"};
+inline constexpr KeySpec time_budget_key{
+    "time_budget",
+    other,
+    "s",
+    "\"1 h\"",
+    0,
+    unbounded,
+    true,
+    "wall time of one curve, e.g. \"5 min\", or \"off\"; then it ends with the points it has"};
 inline constexpr KeySpec maps_key{
     "maps", other, "Hz",  "[]",
     0,      0,     false, "where contact maps are drawn: \"peak\", \"folds\", or frequencies"};
@@ -129,9 +138,9 @@ inline constexpr auto joined(const std::array<KeySpec, sizes>&... parts) {
 }
 
 // What every kind has in common, so that a key added here is known to all of them.
-inline constexpr std::array method_keys{frequency_key, method_key,    time_points_key,
-                                        steps_key,     harmonics_key, harmonic_tolerance_key,
-                                        search_key};
+inline constexpr std::array method_keys{frequency_key, method_key,     time_points_key,
+                                        steps_key,     harmonics_key,  harmonic_tolerance_key,
+                                        search_key,    time_budget_key};
 inline constexpr std::array result_keys{optimum_key, optimum_range_key, optimum_at_key, maps_key,
                                         phases_key};
 

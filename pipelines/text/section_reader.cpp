@@ -177,6 +177,13 @@ double SectionReader::number_or_word_in(const toml::node& node, std::string_view
   return number_in(node, key);
 }
 
+std::optional<double> SectionReader::number_or_off(std::string_view key) const {
+  constexpr std::array<std::string_view, 1> words{"off"};
+  const toml::node& node = required(key);
+  if (node.value<std::string>() == "off") return std::nullopt;
+  return number_or_word_in(node, key, words);
+}
+
 double SectionReader::number(std::string_view key) const { return number_in(required(key), key); }
 
 int SectionReader::integer(std::string_view key) const {

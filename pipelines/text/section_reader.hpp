@@ -35,6 +35,8 @@ class SectionReader {
   /// number is told the words. @throws SceneError  as number_in().
   [[nodiscard]] double number_or_word_in(const toml::node& node, std::string_view key,
                                          std::span<const std::string_view> words) const;
+  /// Without value: "off". @throws SceneError  as number_in().
+  [[nodiscard]] std::optional<double> number_or_off(std::string_view key) const;
   /// Unit vector. @throws SceneError  not three finite numbers, or zero.
   [[nodiscard]] Eigen::Vector3d direction(std::string_view key) const;
   /// The node as given, or its default; nullptr for an optional key that is absent.

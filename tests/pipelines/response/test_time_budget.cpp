@@ -1,0 +1,69 @@
+// A curve ends with the points it has when its time is over.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipelines/effects/contact_effects.hpp"
+#include "pipelines/model/contact_stage.hpp"
+#include "pipelines/response/response_stage.hpp"
+#include "pipelines/scene/scene_file.hpp"
+
+namespace microslip::pipelines::test_time_budget {
+namespace {
+
+constexpr const char* chain = R"toml([model]
+kind = "chain"
+masses = [1, 1]
+springs = [4e4, 1e4]
+[modes]
+damping_ratio = 0.03
+[contact]
+points = [ { slip = "m2", tangential_stiffness = 1e5, friction_coefficient = 0.5 } ]
+[excitation]
+forces = [ { at = "m1", amplitude = 10 } ]
+[response]
+output = "m2"
+frequency = [10, 60]
+preload = [ 8 ]
+points = 4
+)toml";
+
+CurveResult curve_of(const std::string& budget, const std::string& method,
+                     const std::string& harmonics = "3") {
+  const SceneDescription scene =
+      parse_scene(chain, "scene.toml", "/nowhere",
+                  {"response.time_budget=" + budget, "response.method=" + method,
+                   "response.harmonics=" + harmonics});
+  ReducedModel model = reduced_model(scene);
+  model.effects = contact_effects(model, scene);
+  return trace_curve(model, scene, curve_requests(scene).front(), [](const auto&) { return true; });
+}
+
+TEST(TimeBudget, EndsACurveByItsName) {
+  for (const std::string method : {"harmonic_balance", "time"}) {
+    const CurveResult whole = curve_of("off", method);
+    const CurveResult cut = curve_of("1e-9 s", method);
+    EXPECT_TRUE(whole.curve.complete) << whole.curve.message;
+    EXPECT_FALSE(cut.curve.complete);
+    EXPECT_EQ(cut.curve.diagnosis, solver::Diagnosis::budget) << method;
+    EXPECT_NE(cut.curve.message.find("response.time_budget, 1e-09 s, is over"), std::string::npos)
+        << cut.curve.message;
+    EXPECT_LT(cut.curve.points.size(), whole.curve.points.size());
+    ASSERT_FALSE(cut.curve.points.empty());
+    EXPECT_EQ(cut.curve.points.front().amplitude, whole.curve.points.front().amplitude);
+  }
+}
+
+TEST(TimeBudget, EndsAChoiceOfHarmonics) {
+  const CurveResult cut = curve_of("1e-9 s", "harmonic_balance", "auto");
+  EXPECT_FALSE(cut.curve.complete);
+  EXPECT_EQ(cut.curve.diagnosis, solver::Diagnosis::budget);
+}
+
+TEST(TimeBudget, IsAnHourUnlessItIsGiven) {
+  EXPECT_EQ(parse_scene(chain, "scene.toml", "/nowhere", {}).response->time_budget, 3600.0);
+}
+
+}  // namespace
+}  // namespace microslip::pipelines::test_time_budget
