@@ -44,7 +44,11 @@ ForceAndJacobian PointMethodForce::awake_force(double frequency, const Asked& as
     const PointMethod& method = *methods_[static_cast<std::size_t>(i)];
     work.motion.copy(i, at);
     traction.defect = 0.0;  // a method that is exact does not mention it
-    method.traction(at, frequency, traction);
+    if (asked.rows.empty()) {
+      method.traction_alone(at, frequency, traction);
+    } else {
+      method.traction(at, frequency, traction);
+    }
     sum.add(i, points().weights[i], points().reference_load[i], traction);
     keep(i, {traction.regime, traction.period}, work);
   }

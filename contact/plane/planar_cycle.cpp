@@ -100,6 +100,20 @@ void add_free_slip(const PlanarMotion& motion, const Intervals& intervals, Point
   }
 }
 
+/// Force and states of a cycle, without derivatives.
+SteadyOrbit found(const PlanarMotion& motion, const Intervals& intervals, int n_harmonics,
+                  double tolerance, PointTraction& result) {
+  const OrbitOptions options{tolerance_of(motion, tolerance), static_cast<double>(n_harmonics)};
+  SteadyOrbit steady = cycle_of(motion, intervals, options);
+  result.regime = steady.regime;
+  for (const PlanarPiece& piece : steady.orbit.pieces) {
+    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
+  }
+  result.defect = defect_of(motion, steady, options.tolerance);
+  result.force = planar_force(motion, intervals, steady.orbit, n_harmonics);
+  return steady;
+}
+
 }  // namespace
 
 PlaneEvents::PlaneEvents(SurfaceLaw law, double tolerance) : law_(law), tolerance_(tolerance) {
@@ -109,20 +123,21 @@ PlaneEvents::PlaneEvents(SurfaceLaw law, double tolerance) : law_(law), toleranc
   }
 }
 
+void PlaneEvents::traction_alone(const Harmonics& motion, double frequency,
+                                 PointTraction& result) const {
+  check_motion(motion);
+  const PlanarMotion planar(law_, motion, frequency);
+  static_cast<void>(
+      found(planar, planar_intervals(planar), motion.n_harmonics(), tolerance_, result));
+}
+
 void PlaneEvents::traction(const Harmonics& motion, double frequency, PointTraction& result) const {
   check_motion(motion);
   const PlanarMotion planar(law_, motion, frequency);
   const Intervals intervals = planar_intervals(planar);
   const int H = motion.n_harmonics();
-  const OrbitOptions options{tolerance_of(planar, tolerance_), static_cast<double>(H)};
-  const SteadyOrbit steady = cycle_of(planar, intervals, options);
+  const SteadyOrbit steady = found(planar, intervals, H, tolerance_, result);
   const Eigen::Index m = n_point_signals * (2 * H + 1);
-  result.regime = steady.regime;
-  for (const PlanarPiece& piece : steady.orbit.pieces) {
-    result.period.set(piece.state, piece.begin, piece.end - piece.begin);
-  }
-  result.defect = defect_of(planar, steady, options.tolerance);
-  result.force = planar_force(planar, intervals, steady.orbit, H);
   result.jacobian.setZero(m, m);
   result.frequency_derivative.setZero(m);
   const Eigen::MatrixXd load = load_derivative(planar, intervals);

@@ -41,6 +41,8 @@ class PlaneEvents final : public PointMethod {
   explicit PlaneEvents(SurfaceLaw law, double tolerance = default_tolerance);
 
   void traction(const Harmonics& motion, double frequency, PointTraction& result) const override;
+  void traction_alone(const Harmonics& motion, double frequency,
+                      PointTraction& result) const override;
   [[nodiscard]] PointHistory history(const Harmonics& motion, double frequency,
                                      const Eigen::VectorXd& phases, int n_harmonics) const override;
   [[nodiscard]] Eigen::Vector3d stuck_stiffness() const override;

@@ -74,6 +74,11 @@ class PointMethod {
   /// @param frequency  ω [rad/s]; matters where friction depends on the slip rate.
   /// @param result     written whole; storage of the right size is used again.
   virtual void traction(const Harmonics& motion, double frequency, PointTraction& result) const = 0;
+  /// The same without derivatives, which are left as they are where that is cheaper.
+  virtual void traction_alone(const Harmonics& motion, double frequency,
+                              PointTraction& result) const {
+    traction(motion, frequency, result);
+  }
   /// Forces alone, with harmonics that the motion does not have.
   /// @param n_harmonics  of the result, those of the motion at least.
   [[nodiscard]] virtual Harmonics force_up_to(const Harmonics& motion, double frequency,
@@ -81,7 +86,7 @@ class PointMethod {
     Harmonics wide(n_harmonics, n_point_signals);
     wide.rows().topRows(motion.rows().rows()) = motion.rows();
     PointTraction result;
-    traction(wide, frequency, result);
+    traction_alone(wide, frequency, result);
     return std::move(result.force);
   }
   /// @param phases       instants asked for [rad], any.
