@@ -196,13 +196,27 @@ class AbaqusDecks(Conversion):
                 with self.subTest(type=kind, face=i):
                     self.assertEqual(result.surfaces[f"face {i}"], [_places(mesh.nodes[face])])
 
+    def test_names_in_utf_8_and_latin_1(self):
+        for encoding in ("utf-8", "latin-1", "utf-8-sig"):
+            with open(self.path("deck.inp"), "w", encoding=encoding) as file:
+                file.write(BAR + "*NSET, NSET=Schaufelfuß\n1, 4\n")
+            with self.subTest(encoding=encoding):
+                self.assertIn("Schaufelfuß", Converted(self.path("deck.inp")).sets)
+
+    def test_numbers_beyond_32_bits(self):
+        self.refused(BAR.replace("7, 1, 2", "3000000000, 1, 2"), "deck.inp: element 3000000000", "at most 2000000000")
+        self.refused(BAR.replace("\n6, 2, 1", "\n5000000006, 2, 1").replace("3, 6, 5", "3, 5000000006, 5"), "node 5000000006")
+
+    def test_a_deck_that_includes_itself(self):
+        self.refused(BAR + "*INCLUDE, INPUT=deck.inp\n", "deck.inp:20: *INCLUDE", "which includes this file")
+
     def test_included_files(self):
         with open(self.path("mesh of it.inp"), "w", encoding="utf-8") as file:
             file.write(BAR)
         result = self.deck("*HEADING\n*INCLUDE, INPUT=mesh of it.inp\n*NSET, NSET=a\n1\n")
         self.assert_names(result, {}, {"a": 1, "left": 8, "right": 8})
         self.refused("*INCLUDE, INPUT=gone.inp\n", "deck.inp:1", "gone.inp cannot be read")
-        self.refused("*INCLUDE, INPUT=deck.inp\n", "include itself")
+        self.refused("*INCLUDE, INPUT=deck.inp\n", "which includes this file")
 
     def test_trusses_and_shells_that_name_edges_and_faces(self):
         """As gmsh writes them."""
@@ -321,6 +335,10 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace("CTETRA,9", "CTETRA,8"), "deck.bdf: element 8 stands twice, at ", "deck.bdf:14 and ",
                      "deck.bdf:15;", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
+        self.refused(NASTRAN.replace("GRID,1,,", "GRDSET,,6\nGRID,1,,"), "deck.bdf:8", "GRDSET", "coordinate system 6", name="deck.bdf")
+
+    def test_an_empty_default_of_nodes(self):
+        self.assertEqual(self.deck(NASTRAN.replace("GRID,1,,", "GRDSET,,0,,,,,456\nGRID,1,,"), "deck.bdf").code, 0)
 
     def test_two_sets_of_one_number(self):
         """Once more the same is no harm, as in several subcases; cards of one SPC set add up."""
@@ -344,7 +362,7 @@ class NastranDecks(Conversion):
         self.refused(deck, "deck.bdf ends here without an ENDDATA of its own", name="deck.bdf")
         self.assertEqual(self.deck(deck + "ENDDATA\n", "deck.bdf").code, 0)
         self.refused("INCLUDE 'gone.bdf'\n", "deck.bdf:1", "gone.bdf cannot be read", name="deck.bdf")
-        self.refused("INCLUDE 'deck.bdf'\n", "include itself", name="deck.bdf")
+        self.refused("INCLUDE 'deck.bdf'\n", "deck.bdf:1: INCLUDE", "which includes this file", name="deck.bdf")
 
 
 class UniversalFiles(Conversion):
@@ -424,7 +442,8 @@ class OtherFiles(Conversion):
                 self.assertIn('two arrays are named "first"; rename one', Converted(self.path("two" + ending)).message)
 
     def test_vtu_of_two_pieces(self):
-        """A list of arrays that is empty has no end tag; those of its neighbours are no part of it."""
+        """Of several pieces meshio keeps the last. In one a list of arrays that is empty has no end tag; those of its neighbour are
+        no part of it."""
         def piece(lists, x):
             return ('<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">'
                     f'{x} 0 0 {x + 1} 0 0 {x} 1 0 {x} 0 1</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" '
@@ -432,10 +451,23 @@ class OtherFiles(Conversion):
                     f'<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells>{lists}</Piece>')
         cells = '<CellData><DataArray type="Int32" Name="A" format="ascii">1</DataArray></CellData>'
         for points in ("<PointData/>", "<PointData></PointData>"):
-            text = ('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>'
-                    f'{piece(points + cells, 0)}{piece(cells + "<PointData></PointData>", 5)}</UnstructuredGrid></VTKFile>')
-            result = self.deck(text, "deck.vtu")
-            self.assertEqual(result.code, 0, result.message)
+            def file_of(*pieces):
+                return ('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>'
+                        f'{"".join(pieces)}</UnstructuredGrid></VTKFile>')
+            self.assertEqual(self.deck(file_of(piece(points + cells, 0)), "deck.vtu").code, 0)
+            self.refused(file_of(piece(points + cells, 0), piece(cells + "<PointData></PointData>", 5)), "in 2 pieces", "one of them",
+                         name="deck.vtu")
+
+    def test_vtk_elements_of_an_unknown_type(self):
+        """meshio leaves them out and goes on: a body with a hole."""
+        def cell(kind, nodes):
+            return ('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>'
+                    '<Piece NumberOfPoints="4" NumberOfCells="2"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">'
+                    '0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" format="ascii">'
+                    f'0 1 2 3 {nodes}</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4 {4 + len(nodes.split())}</DataArray>'
+                    f'<DataArray type="UInt8" Name="types" format="ascii">10 {kind}</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>')
+        self.assertEqual(self.deck(cell(5, "0 1 2"), "deck.vtu").code, 0)
+        self.refused(cell(99, "0 1 2"), "deck.vtu: elements of VTK's type 99 are not read", "10, 24", name="deck.vtu")
 
     def test_med_elements_of_an_unknown_type(self):
         if importlib.util.find_spec("h5py") is None:
@@ -446,6 +478,30 @@ class OtherFiles(Conversion):
             mesh = next(iter(file["ENS_MAA"].values()))
             next(iter(mesh.values()))["MAI"].move("H20", "H99")
         self.assertIn("brick.med: elements of type H99 are not read; bodies may be TE4", Converted(self.path("brick.med")).message)
+
+    def med_with(self, change):
+        """A brick of 20 nodes with groups, its file changed."""
+        if importlib.util.find_spec("h5py") is None:
+            self.skipTest("h5py is not installed: .med cannot be read")
+        import h5py
+        mesh_files.write_med(mesh_files.curved_element("hexahedron20"), self.path("brick.med"))
+        with h5py.File(self.path("brick.med"), "r+") as file:
+            change(file, next(iter(next(iter(file["ENS_MAA"].values())).values())))
+        return Converted(self.path("brick.med"))
+
+    def test_med_nodes_of_a_family_that_is_not_there(self):
+        """They would be missing in a group without a word."""
+        def change(_, mesh):
+            mesh["NOE/FAM"][3] = 77
+        self.assertIn("brick.med: nodes are in family 77, which is not there", self.med_with(change).message)
+
+    def test_med_family_without_a_group(self):
+        def change(file, mesh):
+            families = next(iter(file["FAS"].values()))["NOEUD"]
+            families.create_group("FAM_9").attrs.create("NUM", 9)
+            mesh["NOE/FAM"][3] = 9
+        result = self.med_with(change)
+        self.assertEqual(result.code, 0, result.message)
 
     def test_exodus_cut_off(self):
         """The library reads zeros behind the end: places of nodes that are cut off would be another body."""

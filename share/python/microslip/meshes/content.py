@@ -88,6 +88,9 @@ class Content:
     places_of: object = lambda kind, number: []  # "file:line" of each "node" or "element" of a number, of files with lines
 
 
+_LARGEST_NUMBER = 2_000_000_000  # of a node or element: numbers of 32 bits, those of faces behind them
+
+
 def require(condition, message):
     if not condition:
         raise Refused(message)
@@ -119,6 +122,9 @@ def check(content, source):
                               "are read")
     bad = content.node_numbers[~np.isfinite(content.coordinates).all(axis=1)]
     require(not len(bad), f"{source}: node {_first(bad)}: a coordinate is not a finite number")
+    for kind, numbers in (("node", content.node_numbers), ("element", np.concatenate([block.numbers for block in content.blocks]))):
+        large = numbers[np.abs(numbers) > _LARGEST_NUMBER]
+        require(not len(large), f"{source}: {kind} {_first(large)}: expected numbers of at most {_LARGEST_NUMBER}; renumber")
     _refuse_twice(content, source, "node", content.node_numbers)
     _refuse_twice(content, source, "element", np.concatenate([block.numbers for block in content.blocks]))
     for block in content.blocks:

@@ -5,6 +5,7 @@ meshio 5.0 is not used here: it takes hex20 nodes in VTK's order, knows no TET10
 import numpy as np
 
 from .content import TYPES, Block, Content, Refused, require
+from .decks import text_of
 from .netcdf_length import require_whole
 
 _FAMILIES = {"TET": {4: "tetra", 10: "tetra10"}, "HEX": {8: "hexahedron", 20: "hexahedron20"},
@@ -73,7 +74,7 @@ def _names(file, variable, dimension, kind):
     n = len(file.dimensions[dimension])
     numbers = {"block": "eb_prop1", "node set": "ns_prop1", "side set": "ss_prop1"}[kind]
     numbers = file.variables[numbers][:] if numbers in file.variables else range(1, n + 1)
-    given = [b"".join(row).split(b"\0")[0].decode("latin-1").strip() for row in file.variables[variable][:]] \
+    given = [text_of(b"".join(row).split(b"\0")[0]).strip() for row in file.variables[variable][:]] \
         if variable in file.variables else [""] * n
     return [name or f"{kind} {number}" for name, number in zip(given, numbers)]
 

@@ -141,6 +141,7 @@ class _Deck:
         self.path = path
         self.is_ended = False   # by ENDDATA
         self.nodes, self.coordinates, self.turned = [], [], []
+        self.turned_by_default, self.all_turned = [], False  # as GRDSET says
         self.places = {"node": [], "element": []}  # number and place of each
         self.elements = {}      # type → rows of element number and nodes
         self.properties = {}    # property → element numbers
@@ -171,6 +172,8 @@ class _Deck:
         name = words[0]
         if name == "GRID":
             self._take_node(place, words)
+        elif name == "GRDSET":
+            self._take_default(place, words)
         elif name in _ELEMENTS:
             self._take_element(place, words)
         elif name == "SPC1":
@@ -199,9 +202,18 @@ class _Deck:
                 f"{place}: GRID {number} lies in coordinate system {words[2]}; write the mesh out in the basic system")
         self.nodes.append(number)
         self.places["node"].append((number, place))
-        if words[6:7] not in ([], [""], ["0"]):
+        axes = (words[6:7] or [""])[0]
+        if not axes:
+            self.turned_by_default.append(number)
+        elif axes != "0":
             self.turned.append(number)
         self.coordinates.append([_real(place, word) for word in words[3:6]])
+
+    def _take_default(self, place, words):
+        """What GRID leaves empty."""
+        require(words[2] in ("", "0"),
+                f"{place}: GRDSET puts nodes into coordinate system {words[2]}; write the mesh out in the basic system")
+        self.all_turned = (words[6:7] or [""])[0] not in ("", "0")
 
     def _take_element(self, place, words):
         number = _whole(place, words, 1, "its number")
@@ -230,8 +242,8 @@ class _Deck:
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
-        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, turned_nodes=tuple(self.turned), left_out=self.left_out,
-                          modes_asked=self._modes_asked(),
+        content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, left_out=self.left_out,
+                          turned_nodes=tuple(self.turned + self.turned_by_default * self.all_turned), modes_asked=self._modes_asked(),
                           places_of=lambda kind, wanted: [place for number, place in self.places[kind] if number == wanted])
         for number, elements in self.properties.items():
             content.element_sets[self.property_names.get(number, f"PID {number}")] = np.array(elements)

@@ -5,6 +5,7 @@ meshio 5.0 has no reader; gmsh's takes groups of elements only, and no units.
 import numpy as np
 
 from .content import TYPES, Content, Refused, blocks_of, require
+from .decks import open_text
 
 # Number of the finite element → type. Nodes of parabolic ones go around each ring, corner, edge, corner, …
 _TYPES = {111: "tetra", 118: "tetra10", 115: "hexahedron", 116: "hexahedron20", 112: "wedge", 113: "wedge15",
@@ -24,7 +25,7 @@ _NODE, _ELEMENT = 7, 8
 
 def read(path):
     """A Content. Raises Refused with file and line."""
-    with open(path, encoding="latin-1") as file:
+    with open_text(path) as file:
         lines = file.read().splitlines()
     reader = _Reader(path, lines)
     readers = {15: reader.nodes, 781: reader.nodes, 2411: reader.nodes, 2412: reader.elements, 780: reader.elements,

@@ -6,6 +6,7 @@ import re
 import numpy as np
 
 from .content import TYPES, Block, Content, Refused, require
+from .decks import text_of
 
 _MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it numbers things
 
@@ -13,16 +14,18 @@ _MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it
 def read_med(path):
     """A Content. Families become groups: a family of nodes or elements is in each group it names."""
     import h5py
+    import meshio
     require(h5py.is_hdf5(path), f"{path}: no MED file: it is not HDF5, or it is cut off; files of MED before version 3 must "
                                 "be converted")
     _require_known_types(path)
+    meshio.med._med._read_families = _groups_of_families
     content, mesh = _read(path, "med")
-    for name, numbers in _families(getattr(mesh, "point_tags", {}), mesh.point_data.get("point_tags"), content.node_numbers):
-        content.node_sets[name] = numbers
+    content.node_sets = dict(_families(path, "nodes", getattr(mesh, "point_tags", {}), mesh.point_data.get("point_tags"),
+                                       content.node_numbers))
     tags = mesh.cell_data.get("cell_tags")
     if tags is not None:
         elements = np.concatenate([block.numbers for block in content.blocks])
-        content.element_sets = dict(_families(mesh.cell_tags, np.concatenate(tags), elements))
+        content.element_sets = dict(_families(path, "elements", mesh.cell_tags, np.concatenate(tags), elements))
     content.length_unit = _med_unit(path)
     return content
 
@@ -40,11 +43,20 @@ def _require_known_types(path):
     require(not unknown, f"{path}: elements of type {', '.join(unknown)} are not read; bodies may be TE4, T10, HE8, H20, PE6, P15, PY5, P13")
 
 
-def _families(groups_of, tags, numbers):
+def _families(path, kind, groups_of, tags, numbers):
     """Pairs (group, its numbers)."""
+    unknown = np.setdiff1d(tags if tags is not None else [], [0, *groups_of])
+    require(not len(unknown), f"{path}: {kind} are in family {next(iter(unknown), None)}, which is not there, so that groups may lack "
+                              "them: is the file damaged? Write it once more")
     names = {name for groups in groups_of.values() for name in groups if name}
     for name in sorted(names) if tags is not None else ():
         yield name, numbers[np.isin(tags, [family for family, groups in groups_of.items() if name in groups])]
+
+
+def _groups_of_families(families):
+    """In place of meshio's, which ends on a family that is in no group."""
+    return {family.attrs["NUM"]: [text_of(np.asarray(name, dtype="i1").tobytes()).strip().rstrip("\x00") for name in family["GRO"]["NOM"][()]] if "GRO" in family
+            else [] for family in families.values()}
 
 
 def _med_unit(path):
@@ -60,6 +72,7 @@ def _med_unit(path):
 def read_vtk(path):
     """A Content. An array of whole numbers names a set for each of its values: "material 3", and just "held" for an
     array of 0 and 1."""
+    _refuse_pieces(path)
     _refuse_arrays_of_one_name(path)
     content, mesh = _read(path, "vtu" if path.lower().endswith(".vtu") else "vtk")
     for name, values in mesh.point_data.items():
@@ -68,6 +81,14 @@ def read_vtk(path):
     for name, values in mesh.cell_data.items():
         content.element_sets.update(_valued_sets(name, np.concatenate(values), elements))
     return content
+
+
+def _refuse_pieces(path):
+    """Of several meshio keeps the elements of the last."""
+    with open(path, "rb") as file:
+        n_pieces = len(re.findall(rb"<Piece\b", file.read().split(b"<AppendedData", 1)[0]))
+    require(n_pieces < 2, f"{path}: the mesh is in {n_pieces} pieces; make one of them, with one node where they meet (ParaView: Clean "
+                          "to Grid), and write it once more")
 
 
 def _refuse_arrays_of_one_name(path):
@@ -83,7 +104,7 @@ def _refuse_arrays_of_one_name(path):
     for part in parts:
         names = [b"".join(filter(None, found.groups())) for found in array.finditer(part)]
         for name in names:
-            require(names.count(name) == 1, f'{path}: two arrays are named "{name.decode("latin-1")}"; rename one')
+            require(names.count(name) == 1, f'{path}: two arrays are named "{text_of(name)}"; rename one')
 
 
 def _valued_sets(name, values, numbers):
@@ -113,6 +134,9 @@ def _read(path, file_format):
     except (SystemExit, Exception) as error:  # it may leave by either
         raise Refused(f"{path}: no {file_format} file that meshio can read: {_told(error, said)}. It may be cut off or damaged, "
                       "or of another format: write it once more, or as .inp") from error
+    dropped = re.search(r"cannot handle \(type (\d+)\)", said.getvalue())  # meshio goes on without them
+    require(not dropped, f"{path}: elements of VTK's type {dropped and dropped[1]} are not read; bodies may be 10, 24 (tetrahedra), "
+                         "12, 25 (bricks), 13, 26 (wedges), 14, 27 (pyramids)")
     content = Content(np.arange(1, len(mesh.points) + 1), np.asarray(mesh.points, dtype=float), [],
                       either_hand=True)
     require(content.coordinates.ndim == 2 and content.coordinates.shape[1] == 3,

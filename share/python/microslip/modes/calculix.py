@@ -7,6 +7,7 @@ the file. Numbers take 12 columns from the 14th on. After: CalculiX GraphiX manu
 import numpy as np
 
 from microslip.meshes.content import Refused, require
+from microslip.meshes.decks import open_text
 
 from .content import Modes
 
@@ -14,7 +15,7 @@ _KEY, _WIDTH = 13, 12
 
 
 def read(path):
-    with open(path, encoding="latin-1") as file:
+    with open_text(path) as file:
         lines = _Lines(path, file)
         numbers, coordinates, frequencies, shapes, is_ended = None, None, [], [], False
         for line in lines:

@@ -11,6 +11,7 @@ import numpy as np
 
 from microslip.meshes import nastran
 from microslip.meshes.content import Refused, require
+from microslip.meshes.decks import open_text
 
 from .content import Modes
 
@@ -24,14 +25,20 @@ def read(path, deck):
     for number, mode in enumerate(modes, 1):
         require(mode.number == number, f"{mode.place}: mode {mode.number} where mode {number} is expected: one is missing, or "
                                        "there are several subcases")
-        require(np.array_equal(mode.nodes, modes[0].nodes),
-                f"{path}: mode {number} has displacements at {len(mode.nodes)} nodes, mode 1 at {len(modes[0].nodes)}: the "
-                "file was cut off, or modes were asked for at different nodes")
+        _require_same_nodes(path, number, mode.nodes, modes[0].nodes)
     squares = np.array([mode.eigenvalue for mode in modes])
     frequencies = np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)
     content = nastran.read(deck)
     _require_all(path, deck, len(modes), content.modes_asked)
     return Modes(_places(path, deck, content, modes[0].nodes), frequencies, np.array([mode.shape for mode in modes]))
+
+
+def _require_same_nodes(path, number, nodes, first):
+    require(len(nodes) == len(first), f"{path}: mode {number} has displacements at {len(nodes)} nodes, mode 1 at {len(first)}: the file was "
+                                      "cut off, or modes were asked for at different nodes")
+    other = next((pair for pair in zip(nodes, first) if pair[0] != pair[1]), None)
+    require(not other, f"{path}: mode {number} has displacements of node {other and other[0]} where mode 1 has those of node "
+                       f"{other and other[1]}: is the file damaged?")
 
 
 def _require_all(path, deck, n_modes, asked):
@@ -50,7 +57,7 @@ class _Mode:
 
 def _modes(path):
     mode, is_vector = None, False
-    with open(path, encoding="latin-1") as file:
+    with open_text(path) as file:
         for line_number, line in enumerate(file, 1):
             place, text = f"{path}:{line_number}", line[:72].rstrip()
             if text.startswith("$TITLE"):

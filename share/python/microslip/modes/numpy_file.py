@@ -12,7 +12,10 @@ from .content import Modes
 
 def read(path):
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        arrays = np.load(path, allow_pickle=False)
+        require(isinstance(arrays, np.lib.npyio.NpzFile), f"{path}: one array without a name, as numpy.save writes; write all of them "
+                                                          "with their names: numpy.savez(file, nodes=…, frequency_Hz=…, shapes=…)")
+        with arrays:
             given = {name: arrays[name] for name in arrays.files}
     except (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise Refused(f"{path}: it is no .npz file of numbers, or it is cut off: {error}; write it once more") from None

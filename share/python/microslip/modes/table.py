@@ -12,7 +12,7 @@ _COLUMNS = ("mode", "frequency_Hz", "x", "y", "z", "ux", "uy", "uz")
 
 
 def read(path):
-    with open(path, encoding="utf-8-sig", newline="") as file:
+    with open(path, encoding="utf-8-sig", errors="replace", newline="") as file:
         rows = csv.reader(file)
         header = [name.strip() for name in next(rows, [])]
         for name in _COLUMNS:
