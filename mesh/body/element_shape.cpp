@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -10,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/count_text.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace microslip::mesh {
@@ -71,8 +73,11 @@ struct Beyond {
 
 std::string sentence(const Beyond& beyond, Eigen::Index n_elements, const std::string& what) {
   std::ostringstream text;
-  text << beyond.count << " of " << n_elements << " elements " << what << "; the worst is element "
-       << beyond.tag << " with " << beyond.worst << ", near (" << beyond.centre << ") m";
+  const Eigen::IOFormat place(4, Eigen::DontAlignCols);
+  text << beyond.count << " of " << n_elements
+       << (beyond.count == 1 ? " elements is a sliver with " : " elements are slivers with ")
+       << what << "; the worst is element " << beyond.tag << " with " << beyond.worst << ", near ("
+       << beyond.centre.format(place) << ") m";
   return text.str();
 }
 
@@ -121,19 +126,18 @@ std::vector<std::string> shape_warnings(const Mesh& mesh, const ShapeLimits& lim
   }
   std::vector<std::string> warnings;
   if (const Eigen::Index n = mesh.n_repeated_elements(); n > 0) {
-    warnings.push_back(
-        std::to_string(n) +
-        " volume elements stand in the mesh file more than once; each is taken once");
+    warnings.push_back(counted(n, "volume element stands", "volume elements stand") +
+                       " in the mesh file more than once; each is taken once");
   }
   const auto add = [&](const Beyond& beyond, const std::string& what, double limit) {
     if (beyond.count == 0) return;
     std::ostringstream text;
-    text << what << limit;
+    text << what << std::setprecision(3) << limit;
     warnings.push_back(sentence(beyond, mesh.n_elements(), text.str()));
   };
-  add(thin, "are slivers with an aspect ratio above ", limits.aspect_ratio);
-  add(sharp, "are slivers with a dihedral angle [deg] below ", to_degrees * limits.smallest_angle);
-  add(flat, "are slivers with a dihedral angle [deg] above ", to_degrees * limits.largest_angle);
+  add(thin, "an aspect ratio above ", limits.aspect_ratio);
+  add(sharp, "a dihedral angle [deg] below ", to_degrees * limits.smallest_angle);
+  add(flat, "a dihedral angle [deg] above ", to_degrees * limits.largest_angle);
   return warnings;
 }
 

@@ -6,6 +6,7 @@
 
 #include "mesh/checks/mesh_overlap.hpp"
 #include "mesh/checks/mesh_quality.hpp"
+#include "mesh/count_text.hpp"
 #include "mesh/elements/face_map.hpp"
 #include "mesh/shape_functions.hpp"
 
@@ -37,12 +38,13 @@ class SurfaceBuilder {
       }
     }
     if (missing_ > 0) {
-      throw MeshError("bad-mesh: surface \"" + name + "\": " + std::to_string(missing_) +
-                      " faces belong to no volume element");
+      throw MeshError("bad-mesh: surface \"" + name + "\": " +
+                      counted(missing_, "face belongs", "faces belong") + " to no volume element");
     }
     if (inside_ > 0) {
-      throw MeshError("bad-mesh: surface \"" + name + "\": " + std::to_string(inside_) +
-                      " faces lie inside the volume, between two elements");
+      throw MeshError("bad-mesh: surface \"" + name +
+                      "\": " + counted(inside_, "face lies", "faces lie") +
+                      " inside the volume, between two elements");
     }
     return collect(name);
   }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/count_text.hpp"
 #include "mesh/elements/element_locator.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
@@ -86,7 +87,8 @@ class OuterFaces {
 void refuse(const std::vector<Finding>& findings, const std::string& where,
             const std::string& relation, const std::string& remedy) {
   std::ostringstream text;
-  text << "bad-mesh: " << findings.size() << " outer faces lie " << where << ": of elements ";
+  text << "bad-mesh: " << counted(findings.size(), "outer face lies ", "outer faces lie ") << where
+       << ": of elements ";
   for (std::size_t i = 0; i < std::min<std::size_t>(findings.size(), 6); ++i) {
     text << (i > 0 ? ", " : "") << findings[i].own << ' ' << relation << ' ' << findings[i].other;
   }

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "mesh/count_text.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
 
@@ -276,8 +277,9 @@ void check_elements(const Eigen::MatrixX3d& nodes, const std::vector<ElementBloc
   const bool all = static_cast<Eigen::Index>(inverted.size()) == n_elements;
   std::ostringstream text;
   text << "bad-mesh: " << inverted.size() << " of " << n_elements
-       << " elements are inverted or flat (Jacobian not positive everywhere): elements "
-       << some(inverted);
+       << (inverted.size() == 1 ? " elements is" : " elements are")
+       << " inverted or flat (Jacobian not positive everywhere): "
+       << (inverted.size() == 1 ? "element " : "elements ") << some(inverted);
   if (all && n_negative == n_elements) {
     text << "; all of them: the nodes are listed left-handed";
   } else if (all) {
@@ -316,7 +318,8 @@ void check_coincident_nodes(const Eigen::MatrixX3d& nodes) {
   }
   if (pairs == 0) return;
   std::ostringstream text;
-  text << "bad-mesh: " << pairs << " pairs of nodes coincide but are not joined, the first at ("
+  text << "bad-mesh: " << counted(pairs, "pair of nodes coincides", "pairs of nodes coincide")
+       << " but " << (pairs == 1 ? "is" : "are") << " not joined, the first at ("
        << nodes.row(first) << ") m; merge duplicate nodes before export";
   throw MeshError(text.str());
 }
@@ -348,8 +351,9 @@ void check_connected(Eigen::Index n_nodes, const std::vector<ElementBlock>& elem
       sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   std::ostringstream text;
   text << "bad-mesh: the mesh has " << sizes.size()
-       << " parts that do not hang together; the smallest has " << smallest->second
-       << " nodes, near (" << nodes.row(smallest->first) << ") m";
+       << " parts that do not hang together; the smallest has "
+       << counted(smallest->second, "node", "nodes") << ", near (" << nodes.row(smallest->first)
+       << ") m";
   throw MeshError(text.str());
 }
 

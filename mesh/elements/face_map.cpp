@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "mesh/count_text.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/shape_functions.hpp"
 
@@ -48,9 +49,10 @@ class Finding {
     if (owners.count > 3) text << ", …";
     listed_ += text.str();
   }
-  void refuse(const std::string& what, const std::string& remedy) const {
+  /// @param one, many  what they are, of one and of several.
+  void refuse(const char* one, const char* many, const std::string& remedy) const {
     if (count_ == 0) return;
-    throw MeshError("bad-mesh: " + std::to_string(count_) + " " + what + ": elements " + listed_ +
+    throw MeshError("bad-mesh: " + counted(count_, one, many) + ": elements " + listed_ +
                     (count_ > 4 ? "; …; " : "; ") + remedy);
   }
 
@@ -136,10 +138,14 @@ void check_faces(const std::vector<ElementBlock>& elements, const FaceMap& map) 
       one_sided.add(elements, owners);
     }
   }
-  crowded.refuse("faces have three or more elements", "elements overlap or are there twice");
-  one_sided.refuse("faces have both their elements on one side", "the elements overlap");
-  unequal.refuse("faces share their corners but not their edges or the nodes on them",
-                 "the elements do not fit together; use one element order in the whole body");
+  crowded.refuse("face has three or more elements", "faces have three or more elements",
+                 "elements overlap or are there twice");
+  one_sided.refuse("face has both its elements on one side",
+                   "faces have both their elements on one side", "the elements overlap");
+  unequal.refuse(
+      "face has two elements that share its corners but not its edges or the nodes on them",
+      "faces share their corners but not their edges or the nodes on them",
+      "the elements do not fit together; use one element order in the whole body");
 }
 
 }  // namespace microslip::mesh

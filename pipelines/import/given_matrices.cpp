@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/import/matrix_checks.hpp"
 #include "pipelines/import/node_rows.hpp"
 #include "pipelines/scene/matrix_files.hpp"
@@ -47,8 +48,9 @@ fem::GivenMatrices matrices_of(const mesh::Mesh& mesh, const SceneDescription& s
   const Sparse S = selection(nodes, rows, K.rows());
   if (S.nonZeros() < K.rows()) {
     throw SceneError(
-        fmt::format("{}: {} rows of the matrices belong to nodes that the mesh has not",
-                    files.place, K.rows() - S.nonZeros()));
+        fmt::format("{}: {} to nodes that the mesh has not", files.place,
+                    mesh::counted(K.rows() - S.nonZeros(), "row of the matrices belongs",
+                                  "rows of the matrices belong")));
   }
   fem::GivenMatrices matrices{(1.0 / length_unit) * (S * K * S.transpose()),
                               files.mass_unit * (S * M * S.transpose())};

@@ -91,11 +91,12 @@ std::vector<Eigen::Index> rows_of_nodes(const mesh::Mesh& mesh, const Eigen::Mat
   if (n_missing == 0) return rows;
   const auto place = mesh.nodes().row(missing);
   throw SceneError(fmt::format(
-      "{}: {} of the {} nodes of the mesh have no place in {} (within {:.2g} m), one of them at "
+      "{}: {} of the {} nodes of the mesh {} no place in {} (within {:.2g} m), one of them at "
       "({:.6g}, {:.6g}, {:.6g}) m; the mesh measures {}, those nodes {}: give the mesh "
       "they were computed on, in the same unit",
-      place_of_file, n_missing, mesh.n_nodes(), file.filename().string(), tolerance, place.x(),
-      place.y(), place.z(), extents(mesh.nodes()), extents(nodes)));
+      place_of_file, n_missing, mesh.n_nodes(), n_missing == 1 ? "has" : "have",
+      file.filename().string(), tolerance, place.x(), place.y(), place.z(), extents(mesh.nodes()),
+      extents(nodes)));
 }
 
 }  // namespace microslip::pipelines

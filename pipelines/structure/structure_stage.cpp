@@ -10,6 +10,7 @@
 #include "fem/petsc_error.hpp"
 #include "fem/ranks.hpp"
 #include "fem/slepc_session.hpp"
+#include "mesh/count_text.hpp"
 #include "mesh/mesh_error.hpp"
 #include "mesh/mesh_reader.hpp"
 #include "mesh/mesher_process.hpp"
@@ -220,8 +221,10 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
   const auto sets = mesh.node_set_names();
   if (!sets.empty()) text += fmt::format("\npoints and node sets: {}", fmt::join(sets, ", "));
   if (mesh.n_loose_nodes() > 0) {
-    text += fmt::format("\n{} nodes belong to no volume element and are left out",
-                        mesh.n_loose_nodes());
+    const bool is_one = mesh.n_loose_nodes() == 1;
+    text += fmt::format("\n{} to no volume element and {} left out",
+                        mesh::counted(mesh.n_loose_nodes(), "node belongs", "nodes belong"),
+                        is_one ? "is" : "are");
   }
   return text;
 }

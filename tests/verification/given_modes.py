@@ -243,6 +243,8 @@ class GivenModes(unittest.TestCase):
                       told([line.replace("$REAL OUTPUT", "$REAL-IMAGINARY OUTPUT") for line in lines]))
         self.assertIn("GRID 5 tells its displacements in a coordinate system of its own",
                       told(other_deck=re.sub(r"(GRID\* +5 .*\n\* {7}.{16})", r"\g<1>               3", deck)))
+        self.assertIn("mode 2 has displacements of node 126 where mode 1 has those of node 999",
+                      told("".join(lines).replace("       126       G", "       999       G", 1).splitlines(True)))
         self.assertIn("node 999 is not in", told([line.replace("       127       G", "       999       G") for line in lines]))
         self.assertIn("expected the deck these modes were computed with", told(more=f'mesh = "{path("plate.msh")}"\n'))
         mesh_files.write_punch(path("punched.pch"), frequency, 3 * shapes)
@@ -341,7 +343,7 @@ class GivenModes(unittest.TestCase):
         self.assertIn(f"nodes.csv:{last + 1}: uz: 900 is no row of the matrices", changed(last, f",{row}\n", ",900\n"))
         self.assertIn(f"row {row} of the matrices belongs to no node", changed(last, f",{row}\n", ",0\n"))
         self.assertIn("uz: row 1 is that of another displacement already", changed(last, f",{row}\n", ",1\n"))
-        self.assertIn("1 of the 44 nodes of the mesh have no place", changed(1, "1,-2,", "1,-3,"))
+        self.assertIn("1 of the 44 nodes of the mesh has no place", changed(1, "1,-2,", "1,-3,"))
         self.assertIn("stiffness.mtx", refusal(self.matrices(mass="missing.mtx", stiffness="stiffness.mtx")))
 
     @staticmethod
@@ -495,6 +497,9 @@ class GivenModes(unittest.TestCase):
             return refusal(given(path("bad.npz"), 'mass_unit = "kg"'))
 
         frequency, nodes, shapes = (self.arrays[name] for name in ("frequency_Hz", "nodes", "shapes"))
+        np.save(path("bare.npy"), shapes)
+        os.replace(path("bare.npy"), path("bare.npz"))
+        self.assertIn("bare.npz: one array without a name, as numpy.save writes", refusal(given(path("bare.npz"), 'mass_unit = "kg"')))
         self.assertIn("mode 2 has 258.9", changed(frequency_Hz=frequency[[1, 0, 2, 3, 4, 5]]))
         self.assertIn("mode 1: its frequency is -3 Hz", changed(frequency_Hz=np.append(-3.0, frequency[1:])))
         self.assertIn('array "shapes" is 5 x 127 x 3; expected 6 x 127 x 3', changed(shapes=shapes[:5]))

@@ -86,7 +86,7 @@ TEST(ElementShape, WarnsOfASliverByNumber) {
   const std::vector<std::string> warnings = shape_warnings(one(sliver(2e-4), 42));
   ASSERT_EQ(warnings.size(), 3U);
   for (const std::string& warning : warnings) {
-    EXPECT_EQ(warning.find("1 of 1 elements are slivers"), 0U) << warning;
+    EXPECT_EQ(warning.find("1 of 1 elements is a sliver"), 0U) << warning;
     EXPECT_NE(warning.find("element 42"), std::string::npos) << warning;
   }
   EXPECT_NE(warnings[0].find("aspect ratio above 100"), std::string::npos) << warnings[0];

@@ -48,7 +48,7 @@ TEST(FaceMap, RefusesElementsOnOneSideOfAFace) {
     Mesh(five_points().topRows(6), {block_of(ElementType::tet4, {{0, 1, 2, 3}, {5, 1, 2, 3}}, 11)},
          {}, {});
   });
-  EXPECT_NE(message.find("1 faces have both their elements on one side: elements 11, 12"),
+  EXPECT_NE(message.find("1 face has both its elements on one side: elements 11, 12"),
             std::string::npos)
       << message;
 }
@@ -69,7 +69,7 @@ TEST(FaceMap, RefusesFacesOfThreeElements) {
     Mesh(five_points(),
          {block_of(ElementType::tet4, {{0, 1, 2, 3}, {1, 2, 3, 4}, {5, 1, 2, 3}}, 21)}, {}, {});
   });
-  EXPECT_NE(message.find("1 faces have three or more elements: elements 21, 22, 23"),
+  EXPECT_NE(message.find("1 face has three or more elements: elements 21, 22, 23"),
             std::string::npos)
       << message;
 }
@@ -83,7 +83,8 @@ TEST(FaceMap, RefusesNeighboursOfDifferentOrder) {
           block_of(ElementType::tet4, {{1, 2, 3, 10}}, 2)},
          {}, {});
   });
-  EXPECT_NE(message.find("1 faces share their corners but not their edges"), std::string::npos)
+  EXPECT_NE(message.find("1 face has two elements that share its corners but not its edges"),
+            std::string::npos)
       << message;
   EXPECT_NE(message.find("elements 1, 2"), std::string::npos) << message;
 }

@@ -126,7 +126,7 @@ TEST_F(MeshFile, ErrorsAreToldByFileAndLine) {
                     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
                     "GRID,5,,1.,1.,1.\nCTETRA,1,1,1,2,3,4\nCTETX,2,1,2,3,4,5\n"
                     "CTRIA3,3,2,2,3,5\nENDDATA\n")),
-      {"unknown.bdf:7: CTETX is not read; bodies are CTETRA", "faces belong to no"});
+      {"unknown.bdf:7: CTETX is not read; bodies are CTETRA", "1 face belongs to no"});
   std::string wrong = deck;
   wrong.replace(wrong.find("60, 0, 0"), 2, "x");
   expect_words(refusal(write("wrong.inp", wrong)), {"wrong.inp:3", "\"x\""});

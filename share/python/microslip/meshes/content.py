@@ -96,6 +96,11 @@ def require(condition, message):
         raise Refused(message)
 
 
+def counted(n, one, many):
+    """1 and what follows it, or another count and what follows that."""
+    return f"{n} {one if n == 1 else many}"
+
+
 def leave_out(left_out, place, what, remedy, count=1):
     """One more of its kind."""
     for known in left_out:

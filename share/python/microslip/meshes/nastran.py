@@ -12,7 +12,7 @@ import re
 
 import numpy as np
 
-from .content import TYPES, Content, Refused, blocks_of, leave_out, require
+from .content import TYPES, Content, Refused, blocks_of, counted, leave_out, require
 from .decks import open_deck
 
 _SOLID = {"CTETRA": {4: "tetra", 10: "tetra10"}, "CHEXA": {8: "hexahedron", 20: "hexahedron20"},
@@ -222,7 +222,7 @@ class _Deck:
         if words[0] in _SHELL:
             nodes = nodes[:max(n for n in kind)]  # thicknesses and angles follow
         require(len(nodes) in kind and all(word.isdigit() for word in nodes),
-                f"{place}: {words[0]} {number} has {len(nodes)} nodes; expected {' or '.join(map(str, kind))}, all of one "
+                f"{place}: {words[0]} {number} has {counted(len(nodes), 'node', 'nodes')}; expected {' or '.join(map(str, kind))}, all of one "
                 "order and none left out")
         own = kind[len(nodes)]
         nodes = [int(word) for word in nodes]

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from .content import TYPES, Block, Content, Refused, require
+from .content import TYPES, Block, Content, Refused, counted, require
 from .decks import text_of
 
 _MOST_VALUES = 200  # of an array of whole numbers that tells sets; with more it numbers things
@@ -143,8 +143,9 @@ def _read(path, file_format):
             f"{path}: the mesh is not three-dimensional")
     first = 1
     for cells in mesh.cells:
-        require(cells.type in TYPES, f"{path}: {len(cells.data)} elements of type {cells.type} are not read; bodies may be "
-                                     f"{', '.join(name for name, own in TYPES.items() if own.dimension == 3)}")
+        told = counted(len(cells.data), f"element of type {cells.type} is", f"elements of type {cells.type} are")
+        require(cells.type in TYPES,
+                f"{path}: {told} not read; bodies may be {', '.join(name for name, own in TYPES.items() if own.dimension == 3)}")
         content.blocks.append(Block(cells.type, np.arange(first, first + len(cells.data)),
                                     np.asarray(cells.data, dtype=np.int64) + 1))
         first += len(cells.data)

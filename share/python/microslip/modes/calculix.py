@@ -6,7 +6,7 @@ the file. Numbers take 12 columns from the 14th on. After: CalculiX GraphiX manu
 """
 import numpy as np
 
-from microslip.meshes.content import Refused, require
+from microslip.meshes.content import Refused, counted, require
 from microslip.meshes.decks import open_text
 
 from .content import Modes
@@ -30,9 +30,11 @@ def read(path):
                 require(line.split()[1] == "DISP", f"{lines.place}: results in real and imaginary parts (cyclic symmetry, "
                                                    "complex modes) are not read")
                 own, shape = lines.block()
-                require(numbers is not None and np.array_equal(own, numbers),
-                        f"{lines.place}: mode {len(shapes) + 1} has displacements at {len(own)} nodes, the file has "
-                        f"{0 if numbers is None else len(numbers)}; ask for all: *NODE FILE without NSET")
+                n_nodes = 0 if numbers is None else len(numbers)
+                require(len(own) == n_nodes, f"{lines.place}: mode {len(shapes) + 1} has displacements at {counted(len(own), 'node', 'nodes')}, "
+                                             f"the file has {n_nodes}; ask for all: *NODE FILE without NSET")
+                require(np.array_equal(own, numbers), f"{lines.place}: mode {len(shapes) + 1} has displacements at nodes of other numbers "
+                                                      "than those of the file: is it damaged?")
                 frequencies.append(frequency)
                 shapes.append(shape)
     require(lines.number_of_line, f"{path}: the file is empty")

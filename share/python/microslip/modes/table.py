@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from microslip.meshes.content import Refused, require
+from microslip.meshes.content import Refused, counted, require
 
 from .content import Modes
 
@@ -33,7 +33,7 @@ def read(path):
 
 
 def _numbers(path, line, row, header, places):
-    require(len(row) == len(header), f"{path}:{line}: {len(row)} cells, the header has {len(header)}")
+    require(len(row) == len(header), f"{path}:{line}: {counted(len(row), 'cell', 'cells')}, the header has {len(header)}")
     try:
         return [float(row[place]) for place in places]
     except ValueError as error:
