@@ -43,6 +43,9 @@ void require_plausible_begin(const fs::path& file) {
     throw SceneError(
         fmt::format("{}: begins with a byte of value 0, as no format does", file.string()));
   }
+  if (begin.starts_with("\x1f\x8b")) {
+    throw SceneError(fmt::format("{}: is packed by gzip; unpack it first (gunzip)", file.string()));
+  }
   const bool is_text = std::ranges::none_of(
       without_lines, [&](std::string_view mark) { return begin.starts_with(mark); });
   if (is_text && begin.size() == longest_line && begin.find_first_of("\r\n") == std::string::npos) {

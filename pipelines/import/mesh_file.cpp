@@ -1,5 +1,6 @@
 #include "pipelines/import/mesh_file.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,11 +77,25 @@ MeshOfFile read_mesh(const fs::path& file, std::optional<double> length_unit,
   const TemporaryFolder folder;
   const fs::path converted = folder.path() / "mesh.msh";
   const nlohmann::json facts = convert_file("convert_mesh.py", file, converted, limits);
-  const nlohmann::json& unit = facts.at("length_unit");
-  if (!length_unit && !unit.is_null()) length_unit = unit.get<double>();
+  std::optional<double> own_unit;
+  if (!facts.at("length_unit").is_null()) own_unit = facts.at("length_unit").get<double>();
+  if (!length_unit) length_unit = own_unit;
   std::vector<LeftOut> left_out = left_out_of(facts);
   mesh::Mesh mesh = read_converted(converted, length_unit.value_or(1.0), file, left_out);
-  return {std::move(mesh), length_unit, std::move(left_out)};
+  return {std::move(mesh), length_unit, std::move(left_out), own_unit};
+}
+
+std::string unit_question(const fs::path& file, std::optional<double> of_scene,
+                          std::optional<double> of_file) {
+  constexpr double same = 1e-6;
+  if (!of_scene || !of_file || std::abs(*of_scene / *of_file - 1.0) < same) return {};
+  return fmt::format(
+      "model.length_unit: {:g} m is written, and {} says {:g} m; it is read in {:g} m: which is "
+      "right? Without length_unit what the file says is taken{}",
+      *of_scene, file.filename().string(), *of_file, *of_scene,
+      file.extension() == ".unv" && *of_file == 1.0
+          ? " (Salome writes m into .unv files, whatever it draws in)"
+          : "");
 }
 
 mesh::Mesh read_mesh(const MeshFileModel& model) {
@@ -93,6 +108,8 @@ mesh::Mesh read_mesh(const MeshFileModel& model) {
   }
   if (!model.modes && !model.matrices) require_whole(read);
   for (std::string& remark : left_out_remarks(read)) read.mesh.add_remark(std::move(remark));
+  std::string question = unit_question(model.file, model.length_unit, read.own_unit);
+  if (!question.empty()) read.mesh.add_remark(std::move(question));
   return std::move(read.mesh);
 }
 

@@ -27,7 +27,8 @@ struct MeshOfFile {
   mesh::Mesh mesh;
   std::optional<double>
       length_unit;  ///< metres per unit; none: nobody says, the mesh is in the unit of the file
-  std::vector<LeftOut> left_out = {};  ///< one of each kind
+  std::vector<LeftOut> left_out = {};   ///< one of each kind
+  std::optional<double> own_unit = {};  ///< metres per unit, as the file says
 };
 
 /// @param length_unit  metres per unit of the file; none: what the file says.
@@ -44,7 +45,14 @@ void require_whole(const MeshOfFile& read);
 /// The same as sentences, where modes or matrices of the whole are given.
 [[nodiscard]] std::vector<std::string> left_out_remarks(const MeshOfFile& read);
 
-/// The mesh of a scene; its remarks tell what is left out.
+/// A question: the scene has another unit than the file says.
+/// "": it has not, or the file does not say.
+[[nodiscard]] std::string unit_question(const std::filesystem::path& file,
+                                        std::optional<double> of_scene,
+                                        std::optional<double> of_file);
+
+/// The mesh of a scene; its remarks tell what is left out, and where scene and file have another
+/// unit.
 /// @throws SceneError  as above; neither scene nor file tells the unit: what the size would be.
 [[nodiscard]] mesh::Mesh read_mesh(const MeshFileModel& model);
 

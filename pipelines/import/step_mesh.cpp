@@ -98,15 +98,28 @@ std::string unit_text(const StepModel& model) {
   return text;
 }
 
+std::optional<double> unit_of_file(const StepModel& model) {
+  const std::vector<mesh::StepUnit> units = mesh::step_length_units(model.file);
+  if (units.size() != 1) return std::nullopt;
+  return units.front().metres;
+}
+
 std::string size_doubt(const StepBody& body) {
   constexpr double shortest = 1e-3;  // of the longest side [m]
   constexpr double longest = 10.0;
   const double side = longest_side(body.geometry);
   if (side >= shortest && side <= longest) return {};
+  const std::string unit = body.units.empty() ? "metre" : unit_names(body.units);
+  if (body.source.scale != 1.0) {
+    return fmt::format(
+        "the body is {:.3g} m long by length_unit, {:.3g} m in {}; blades are 0.02 to 3 m. Write "
+        "the unit that length_unit should be, or leave it out",
+        side, side / body.source.scale, body.units.empty() ? unit : unit + ", as the file says");
+  }
   return fmt::format(
       "the body is {:.3g} m long, read in {}; blades are 0.02 to 3 m. If the file "
       "says a wrong unit, write the right one: length_unit = \"mm\"",
-      side, body.units.empty() ? "metre" : unit_names(body.units));
+      side, unit);
 }
 
 void mesh_step_model(const StepModel& model, const fs::path& file) {

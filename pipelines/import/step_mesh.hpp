@@ -27,6 +27,8 @@ struct StepBody {
 /// "blade.step: lengths in millimetre".
 [[nodiscard]] std::string unit_text(const StepBody& body);
 [[nodiscard]] std::string unit_text(const StepModel& model);
+/// Metres per unit, where the file says one.
+[[nodiscard]] std::optional<double> unit_of_file(const StepModel& model);
 
 /// Why the body is not of a blade's size, with what to do; empty: it is.
 [[nodiscard]] std::string size_doubt(const StepBody& body);

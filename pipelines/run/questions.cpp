@@ -20,7 +20,9 @@
 #include "mesh/surface.hpp"
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/element_count.hpp"
+#include "pipelines/import/mesh_file.hpp"
 #include "pipelines/import/named_points.hpp"
+#include "pipelines/import/step_mesh.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/response/response_stage.hpp"
@@ -501,6 +503,13 @@ std::string order_question(const SceneDescription& scene, const mesh::Mesh& mesh
       *file->order, file->file.filename().string(), order, name(type));
 }
 
+/// Of a STEP file; those of meshes are among the remarks of the mesh.
+std::string step_unit_question(const SceneDescription& scene) {
+  const auto* step = std::get_if<StepModel>(&scene.model);
+  return step == nullptr ? std::string{}
+                         : unit_question(step->file, step->length_unit, unit_of_file(*step));
+}
+
 }  // namespace
 
 std::vector<std::string> questions(const SceneDescription& scene) {
@@ -509,8 +518,8 @@ std::vector<std::string> questions(const SceneDescription& scene) {
 
 std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh) {
   std::vector<std::string> sentences = mesh.remarks();
-  if (std::string question = order_question(scene, mesh); !question.empty()) {
-    sentences.push_back(std::move(question));
+  for (const std::string& question : {order_question(scene, mesh), step_unit_question(scene)}) {
+    if (!question.empty()) sentences.push_back(question);
   }
   for (std::string& sentence : asked(Stage::mesh, {.scene = scene, .mesh = &mesh})) {
     sentences.push_back(std::move(sentence));

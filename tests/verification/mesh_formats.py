@@ -144,6 +144,24 @@ class Formats(unittest.TestCase):
         mesh_files.write_unv(in_millimetres, self.path("begin.unv"), millimetres=True)
         self.assertNotIn("\nlength_unit", self.scene_of("begin.unv"))
 
+    def test_another_unit_than_that_of_the_file_is_questioned(self):
+        """By check and by run, in one line; where they say the same nothing is asked."""
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks, self.mesh.surfaces, self.mesh.points)
+        mesh_files.write_unv(in_millimetres, self.path("told.unv"), millimetres=True)
+        scene = self.path("told.toml")
+        for unit, question in (("mm", None), ("cm", "warning: model.length_unit: 0.01 m is written, and told.unv says 0.001 m")):
+            with open(scene, "w", encoding="utf-8") as stream:
+                stream.write(SCENE.format(file="told.unv", unit=f'length_unit = "{unit}"', **PLAIN))
+            for _ in range(2):  # the second with modes of an earlier run
+                checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True, env=without_plots())
+                self.assertEqual(checked.returncode, 0, checked.stderr)
+                self.assertEqual(checked.stdout.count("model.length_unit"), 1 if question else 0)
+                self.assertIn(question or "", checked.stdout)
+            if question:
+                ran = subprocess.run([PROGRAM, "run", scene, "-o", self.path("told.run"), "--set", "response.frequency=[30, 31]"],
+                                     capture_output=True, text=True, env=without_plots())
+                self.assertIn(question, ran.stdout + ran.stderr)
+
     def test_init_writes_the_order_of_the_file(self):
         """Written otherwise it is questioned: the file counts."""
         mesh_files.write_inp(self.mesh, self.path("curved.inp"))

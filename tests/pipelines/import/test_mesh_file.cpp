@@ -77,6 +77,22 @@ TEST_F(MeshFile, IsReadWithTheUnitGiven) {
   EXPECT_NEAR(read.mesh.surface("foot").area, 0.06 * 0.06 / 2.0, 1e-15);
 }
 
+TEST_F(MeshFile, APackedOneIsToldToBeUnpacked) {
+  expect_words(refusal(write("blade.inp", "\x1f\x8b\b")),
+               {"blade.inp: is packed by gzip", "gunzip"});
+}
+
+TEST(UnitQuestion, IsAskedWhereSceneAndFileSayAnotherUnit) {
+  EXPECT_EQ(unit_question("bar.unv", 1e-3, 1e-3), "");
+  EXPECT_EQ(unit_question("bar.unv", std::nullopt, 1e-3), "");
+  EXPECT_EQ(unit_question("bar.inp", 1e-3, std::nullopt), "");
+  EXPECT_EQ(unit_question("bar.med", 0.01, 1e-3)
+                .find("model.length_unit: 0.01 m is written, and "
+                      "bar.med says 0.001 m"),
+            0U);
+  expect_words(unit_question("bar.unv", 1e-3, 1.0), {"bar.unv says 1 m", "Salome writes m"});
+}
+
 TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
   const MeshFileModel model{
       write("blade.inp", deck), std::nullopt, "blade.toml:4: model.file", {}, {}, {}};
