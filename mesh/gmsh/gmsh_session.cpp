@@ -111,7 +111,7 @@ void untangle() {
 GmshSession::GmshSession() {
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh every time
+  gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh every time; see also main()
   gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
 }
 
