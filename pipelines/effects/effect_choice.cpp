@@ -17,6 +17,7 @@
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/model/contact_frame.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -153,8 +154,8 @@ EffectDecision second_direction(const EffectFacts& facts) {
     return by(facts.both_directions, std::string("how much the patch moves along r is ") + later);
   }
   return {facts.both_directions ? yes : no,
-          fmt::format("motion along r is {:.2g} % of that along p in the linear limits",
-                      percent * facts.motion_ratio),
+          fmt::format("motion along r is {} of that along p in the linear limits",
+                      percent_text(facts.motion_ratio)),
           facts.motion_ratio, least_motion_along_r(facts.scene)};
 }
 

@@ -28,7 +28,7 @@ std::string place(const Eigen::Vector3d& x, double size) {
 std::string table_row(const MeshName& name, double size) {
   const bool faces = name.n_faces > 0;
   return fmt::format(
-      "{:<20} {:<9}{:>7}{:>8}{:>12}  {:<28}{:<24}{}\n", name.name, kind_name(name.kind),
+      "{:<20} {:<9}{:>7}{:>8}{:>12}  {:<28} {:<24} {}\n", name.name, kind_name(name.kind),
       name.n_faces, name.n_nodes, faces ? fmt::format("{:.5g}", name.area) : "-",
       name.n_nodes > 0 ? place(name.centre, size) : "-", faces ? place(name.normal, 1.0) : "-",
       faces ? fmt::format("{:.1g}", name.flatness) : "-");
@@ -75,7 +75,7 @@ std::string describe_names(const mesh::Mesh& mesh, std::optional<double> unit) {
   text += unit ? fmt::format("{} m; lengths below are in m\n", place(box, box.maxCoeff()))
                : fmt::format("{}; the file does not tell its unit, lengths below are in it\n",
                              size_readings(mesh));
-  text += fmt::format("{:<20} {:<9}{:>7}{:>8}{:>12}  {:<28}{:<24}{}\n", "name", "kind", "faces",
+  text += fmt::format("{:<20} {:<9}{:>7}{:>8}{:>12}  {:<28} {:<24} {}\n", "name", "kind", "faces",
                       "nodes", "area", "centre", "normal", "flatness");
   const std::vector<MeshName> names = mesh_names(mesh);
   for (const MeshName& name : names) text += table_row(name, box.maxCoeff());

@@ -172,12 +172,12 @@ std::string describe_faces(const StepBody& body) {
   const double size = extent.maxCoeff();
   std::string text = fmt::format(
       "{}\none solid of {} faces, {} m, {:.6g} m^3; lengths below are in m\n"
-      "{:>6}  {:<12}{:>12}  {:<30}{}\n",
+      "{:>6}  {:<12}{:>12}  {:<30} {}\n",
       unit_text(body), body.geometry.faces.size(),
       fmt::format("{:.4g} x {:.4g} x {:.4g}", extent.x(), extent.y(), extent.z()),
       body.geometry.volume, "face", "kind", "area", "centre", "normal");
   for (const StepFace& face : body.geometry.faces) {
-    text += fmt::format("{:>6}  {:<12}{:>12.5g}  {:<30}{}\n", face.number, face.kind, face.area,
+    text += fmt::format("{:>6}  {:<12}{:>12.5g}  {:<30} {}\n", face.number, face.kind, face.area,
                         coordinates(face.centre, size),
                         face.normal.isZero() ? "-" : coordinates(face.normal, 1.0));
   }

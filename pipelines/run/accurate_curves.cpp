@@ -13,6 +13,7 @@
 #include "pipelines/run/missed_effects.hpp"
 #include "pipelines/run/solved_again.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -53,8 +54,6 @@ std::string seconds_text(double seconds) {
   const double unit = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
   return fmt::format("{:.0f} s", unit * std::round(seconds / unit));
 }
-
-std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
 std::string reached_text(const AccuracySummary& accuracy) {
   if (!std::isfinite(accuracy.reached)) {

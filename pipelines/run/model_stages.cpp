@@ -14,6 +14,7 @@
 #include "pipelines/run/questions.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
+#include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -68,10 +69,10 @@ ReducedModel reduced_model(const SceneDescription& scene, const StructurePointer
   ask(record.progress(), scene, model);
   if (model.effects.second_direction) {
     record.progress().info(fmt::format(
-        "friction along r is simulated: motion along r is {:.2g} % of that along p. This takes "
+        "friction along r is simulated: motion along r is {} of that along p. This takes "
         "some ten times "
         "longer than friction along p; effects.second_direction = \"off\" leaves it out",
-        100.0 * model.effects.motion_ratio));
+        percent_text(model.effects.motion_ratio)));
   }
   record.keep_effects(effects_of(scene, &model));
   record.keep_model(model);

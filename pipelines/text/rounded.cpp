@@ -55,4 +55,11 @@ std::string with_digits_of(double value, double bar) {
   return text.value + text.power_of_ten;
 }
 
+std::string percent_text(double share) {
+  constexpr double whole = 10.0;  // from here two digits need no decimals
+  const double percent = 100.0 * share;
+  return std::abs(percent) < whole ? fmt::format("{:.2g} %", percent)
+                                   : fmt::format("{:.0f} %", percent);
+}
+
 }  // namespace microslip::pipelines

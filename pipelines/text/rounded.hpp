@@ -14,4 +14,7 @@ namespace microslip::pipelines {
 /// "280": the value alone, with the digits it has in with_half_width().
 [[nodiscard]] std::string with_digits_of(double value, double bar);
 
+/// "0.12 %", "13 %", "649 %": two digits, from 10 % on whole.
+[[nodiscard]] std::string percent_text(double share);
+
 }  // namespace microslip::pipelines

@@ -28,5 +28,11 @@ TEST(Rounded, WithoutAnErrorItIsWhole) {
   EXPECT_EQ(with_half_width(0.0, 0.1), "0");
 }
 
+TEST(Rounded, SharesArePercentsWithoutAnExponent) {
+  EXPECT_EQ(percent_text(0.00123), "0.12 %");
+  EXPECT_EQ(percent_text(0.128), "13 %");
+  EXPECT_EQ(percent_text(12.72), "1272 %");
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_rounded
