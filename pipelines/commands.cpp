@@ -375,9 +375,13 @@ std::string new_scene(const Arguments& arguments) {
     throw SceneError(fmt::format("init {} {}: a file goes with init mesh, step and modes alone",
                                  kind, arguments.mesh_file));
   }
+  if (kind != "modes" && !arguments.mesh_of_modes.empty()) {
+    throw SceneError(fmt::format("init {} {} {}: a second file, their mesh, goes with modes alone",
+                                 kind, arguments.mesh_file, arguments.mesh_of_modes));
+  }
   const InterruptWatch watch;
   const std::filesystem::path folder = folder_of_output(arguments);
-  if (kind == "modes") return scene_of_modes(arguments.mesh_file, folder);
+  if (kind == "modes") return scene_of_modes(arguments.mesh_file, arguments.mesh_of_modes, folder);
   const bool is_step = kind == "step" || is_step_file(arguments.mesh_file);
   is_step ? require_step_format(arguments.mesh_file) : require_mesh_format(arguments.mesh_file);
   return is_step ? scene_of_step(arguments.mesh_file, folder)

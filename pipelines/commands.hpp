@@ -17,8 +17,9 @@ namespace microslip::pipelines {
 
 struct Arguments {
   std::string command;
-  std::string input;      // scene, table, kind or folder
-  std::string mesh_file;  // of `init mesh`, `init step`
+  std::string input;          // scene, table, kind or folder
+  std::string mesh_file;      // of `init mesh`, `init step`, `init modes`
+  std::string mesh_of_modes;  // of `init modes`
   std::string output;
   std::vector<std::string> overrides;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

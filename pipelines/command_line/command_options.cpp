@@ -45,7 +45,10 @@ void add_init(CLI::App& app, Arguments& a, Action& chosen) {
       ->default_str("blade");
   command->add_option(
       "file", a.mesh_file,
-      "with kind mesh or step: a file whose names or faces, size and unit the scene begins with");
+      "with kind mesh, step or modes: a file whose names or faces, size and unit the scene begins "
+      "with; of matrices their stiffness (.mtx)");
+  command->add_option("mesh", a.mesh_of_modes,
+                      "with kind modes: their mesh; else the one that lies beside them");
   with_output(command, a, "file to write; it must not exist");
 }
 

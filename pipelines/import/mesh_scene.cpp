@@ -1,9 +1,11 @@
 #include "pipelines/import/mesh_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -110,6 +112,7 @@ class SceneMaker {
     if (kind == "modes") {  // which are of a body that is held
       values_.erase("supports.clamped");
       remarks_.erase("supports.clamped");
+      write_unit();
     }
     std::string text = "# What the mesh has:\n";
     std::istringstream table(describe_names(read_.mesh, read_.length_unit));
@@ -130,6 +133,19 @@ class SceneMaker {
     remarks_["model.length_unit"] =
         fmt::format("{}the file does not tell it: chosen by the size, which is {}",
                     is_gmsh ? "" : "CHECK: ", size_readings(read_.mesh));
+  }
+
+  /// The file of the modes is in the unit of the mesh, and says none itself.
+  void write_unit() {
+    if (!read_.length_unit) return;
+    constexpr std::array<std::pair<double, const char*>, 4> known{
+        {{1.0, "m"}, {1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "in"}}};
+    const auto named = std::ranges::find_if(known, [&](const auto& unit) {
+      return std::abs(*read_.length_unit / unit.first - 1.0) < 1e-9;
+    });
+    values_["model.length_unit"] =
+        named != known.end() ? in_quotes(named->second) : fmt::format("{}", *read_.length_unit);
+    remarks_["model.length_unit"] = "as the mesh says";
   }
 
   void choose_support() {
@@ -293,31 +309,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The one mesh in the folder of a stiffness, or in that above it.
-fs::path mesh_of_matrices(const fs::path& stiffness) {
-  const fs::path own = fs::absolute(stiffness).parent_path();
-  for (const fs::path& folder : {own, own.parent_path()}) {
-    std::vector<fs::path> meshes;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const bool is_mesh = mesh_format(entry.path()) != MeshFormat::unknown;
-      if (entry.is_regular_file() && is_mesh) meshes.push_back(entry.path());
-    }
-    if (meshes.size() == 1) return meshes.front();
-    if (meshes.empty()) continue;
-    std::ranges::sort(meshes);
-    throw SceneError(
-        fmt::format("{}: which is its mesh? In {} are {} and {}; leave one there, or begin with "
-                    "`init mesh` of it",
-                    stiffness.string(), folder.string(), meshes[0].filename().string(),
-                    meshes[1].filename().string()));
+std::vector<fs::path> meshes_in(const fs::path& folder, bool of_punch) {
+  std::vector<fs::path> meshes;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& file = entry.path();
+    const bool fits = of_punch ? is_nastran_deck(file) : mesh_format(file) != MeshFormat::unknown;
+    if (entry.is_regular_file() && fits) meshes.push_back(file);
   }
-  throw SceneError(stiffness.string() +
-                   ": no mesh lies beside it, nor in the folder above; put there the one file that "
-                   "has the names");
+  std::ranges::sort(meshes);
+  return meshes;
+}
+
+/// The only one of several meshes with the name of `file`; "": there is none, or more.
+fs::path of_one_name(const std::vector<fs::path>& meshes, const fs::path& file) {
+  std::vector<fs::path> fitting;
+  std::ranges::copy_if(meshes, std::back_inserter(fitting),
+                       [&](const fs::path& mesh) { return mesh.stem() == file.stem(); });
+  return fitting.size() == 1 ? fitting.front() : fs::path();
+}
+
+/// Of modes or of a stiffness, where none is named.
+fs::path mesh_of(const fs::path& file) {
+  if (const fs::path deck = mesh_beside(file); !deck.empty()) return deck;
+  const bool is_stiffness = file.extension() == ".mtx";
+  const fs::path own = fs::absolute(file).parent_path();
+  for (const fs::path& folder : {own, own.parent_path()}) {
+    if (folder != own && !is_stiffness) break;
+    const std::vector<fs::path> meshes = meshes_in(folder, is_punch_file(file));
+    if (meshes.empty()) continue;
+    if (meshes.size() == 1) return meshes.front();
+    if (const fs::path named = of_one_name(meshes, file); !named.empty()) return named;
+    throw SceneError(
+        fmt::format("{0}: which is its mesh? In {1} are {2} and {3}{4}; name it: `microslip init "
+                    "modes {0} {2}`",
+                    file.string(), folder.string(), meshes[0].filename().string(),
+                    meshes[1].filename().string(), meshes.size() > 2 ? ", …" : ""));
+  }
+  throw SceneError(fmt::format(
+      "{0}: no mesh lies beside it{1}; put there the one file that has the names, or name "
+      "it: `microslip init modes {0} MESH`{2}",
+      file.string(), is_stiffness ? ", nor in the folder above" : "",
+      is_punch_file(file) ? ". Of a punched file it is the deck" : ""));
 }
 
 /// `stiffness` with mass.mtx and nodes.csv beside it.
-std::string scene_of_matrices(const fs::path& stiffness, const fs::path& folder) {
+std::string scene_of_matrices(const fs::path& stiffness, const fs::path& mesh,
+                              const fs::path& folder) {
   const fs::path mass = stiffness.parent_path() / "mass.mtx";
   const fs::path nodes = stiffness.parent_path() / "nodes.csv";
   for (const fs::path& needed : {mass, nodes}) {
@@ -331,14 +368,14 @@ std::string scene_of_matrices(const fs::path& stiffness, const fs::path& folder)
         "CalculiX share/scripts/calculix_matrices.py writes all three)",
         stiffness.string(), needed.filename().string()));
   }
-  const fs::path mesh = mesh_of_matrices(stiffness);
-  const MeshOfFile read = read_mesh(mesh, std::nullopt);
-  SceneMaker maker(read, mesh);
+  const fs::path own = mesh.empty() ? mesh_of(stiffness) : mesh;
+  const MeshOfFile read = read_mesh(own, std::nullopt);
+  SceneMaker maker(read, own);
   maker.set("model.file", "");
   maker.set_file("model.stiffness", stiffness, folder);
   maker.set_file("model.mass", mass, folder);
   maker.set_file("model.nodes", nodes, folder);
-  maker.set_file("model.mesh", mesh, folder);
+  maker.set_file("model.mesh", own, folder);
   maker.set("modes.count", "10");
   maker.set("modes.residual", "\"attachment\"");
   return maker.make("modes");
@@ -346,21 +383,19 @@ std::string scene_of_matrices(const fs::path& stiffness, const fs::path& folder)
 
 }  // namespace
 
-std::string scene_of_modes(const std::filesystem::path& file, const std::filesystem::path& folder) {
+std::string scene_of_modes(const std::filesystem::path& file, const std::filesystem::path& mesh,
+                           const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file)) throw SceneError(file.string() + ": no such file");
-  if (file.extension() == ".mtx") return scene_of_matrices(file, folder);
-  const std::filesystem::path mesh = mesh_beside(file);
-  if (mesh.empty()) {
-    throw SceneError(fmt::format(
-        "{}: no mesh lies beside it under that name (.inp of a .frd, .bdf of a .pch, a .med is its "
-        "own); put it there, or begin with `init modes` and name it in model.mesh. Matrices begin "
-        "with their stiffness (.mtx)",
-        file.string()));
+  if (!mesh.empty() && mesh_format(mesh) == MeshFormat::unknown) {
+    throw SceneError(fmt::format("{}: meshes are read from files that end in {}", mesh.string(),
+                                 mesh_endings()));
   }
-  const MeshOfFile read = read_mesh(mesh, std::nullopt);
-  SceneMaker maker(read, mesh);
+  if (file.extension() == ".mtx") return scene_of_matrices(file, mesh, folder);
+  const std::filesystem::path own = mesh.empty() ? mesh_of(file) : mesh;
+  const MeshOfFile read = read_mesh(own, std::nullopt);
+  SceneMaker maker(read, own);
   maker.set_file("model.file", file, folder);
-  maker.set_file("model.mesh", mesh, folder);
+  maker.set_file("model.mesh", own, folder);
   maker.remark("material.density", "CHECK: that of the body; by it the modal masses are checked");
   return maker.make("modes");
 }

@@ -18,10 +18,12 @@ namespace microslip::pipelines {
 [[nodiscard]] std::string scene_of_mesh(const std::filesystem::path& file,
                                         const std::filesystem::path& folder);
 
-/// The same of kind "modes", with the mesh that lies beside the file of the modes. Of a stiffness
-/// (.mtx) with mass.mtx and nodes.csv beside it, and the one mesh there or in the folder above.
+/// The same of kind "modes". Of a stiffness (.mtx) with mass.mtx and nodes.csv beside it.
+/// @param mesh  of the modes; "": the deck of their name beside them, else of the meshes there (of
+///              a stiffness also in the folder above) the only one, or that of their name.
 /// @throws SceneError  no such file, or none of a mesh beside it.
 [[nodiscard]] std::string scene_of_modes(const std::filesystem::path& file,
+                                         const std::filesystem::path& mesh,
                                          const std::filesystem::path& folder);
 
 }  // namespace microslip::pipelines

@@ -192,8 +192,11 @@ void check_mass(const mesh::Mesh& mesh, const SceneDescription& scene, Structure
         "otherwise (then model.normalisation = \"other\")?",
         file.place, found, other_density(mass, density), file.mass_unit));
   }
-  (off > mass_told ? modes.warnings : modes.notes)
-      .push_back(found + "; 1 kg is expected." + other_density(mass, density));
+  if (off > mass_told) {
+    modes.warnings.push_back(found + "; 1 kg is expected." + other_density(mass, density));
+  } else {
+    modes.notes.push_back(found + "; 1 kg is expected");
+  }
 }
 
 void tell_residual(const SceneDescription& scene, StructureModes& modes) {

@@ -391,6 +391,46 @@ class GivenModes(unittest.TestCase):
             self.assertIn("\n" + line, text)
         checked = subprocess.run([PROGRAM, "check", scene], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("modal masses of plate.frd are 0.999998 to 1 kg; 1 kg is expected", checked.stdout)  # no question where all is right
+        self.assertNotIn("is material.density", checked.stdout)
+
+    def begun(self, folder, *words):
+        """`init modes WORDS`: exit code, and the scene or what is said."""
+        finished = subprocess.run([PROGRAM, "init", "modes", *words], cwd=folder, capture_output=True, text=True)
+        return finished.returncode, finished.stdout or finished.stderr
+
+    def test_init_finds_the_mesh_of_modes_of_any_name(self):
+        """A .npz file and a table have no deck of their own: the only mesh there, or the one of their name, or one that is named."""
+        folder = path("any")
+        os.makedirs(folder)
+        np.savez(os.path.join(folder, "modes.npz"), **self.arrays)
+        self.assertEqual(self.begun(folder, "modes.npz")[0], 1)
+        self.assertIn("no mesh lies beside it", self.begun(folder, "modes.npz")[1])
+        shutil.copy(os.path.join(PLATE, "plate.inp"), folder)
+        self.assertIn('\nmesh = "plate.inp"', self.begun(folder, "modes.npz")[1])
+        shutil.copy(os.path.join(PLATE, "coarse.inp"), folder)
+        self.assertIn("which is its mesh? In ", self.begun(folder, "modes.npz")[1])
+        self.assertIn("are coarse.inp and plate.inp; name it: `microslip init modes modes.npz coarse.inp`", self.begun(folder, "modes.npz")[1])
+        self.assertIn('\nmesh = "plate.inp"', self.begun(folder, "modes.npz", "plate.inp")[1])
+        self.assertIn("meshes are read from files that end in", self.begun(folder, "modes.npz", "plate.txt")[1])
+        shutil.copy(os.path.join(PLATE, "plate.inp"), os.path.join(folder, "modes.inp"))
+        self.assertIn('\nmesh = "modes.inp"', self.begun(folder, "modes.npz")[1])
+
+    def test_init_writes_the_unit_that_the_mesh_tells(self):
+        """The modes are in it too, and kind = "modes" asks for it."""
+        folder = path("unit")
+        os.makedirs(folder)
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes if self.mesh.nodes.max() < 1 else self.mesh.nodes, self.mesh.blocks,
+                                         self.mesh.surfaces, self.mesh.points)
+        mesh_files.write_unv(in_millimetres, os.path.join(folder, "plate.unv"), millimetres=True)
+        np.savez(os.path.join(folder, "modes.npz"), **self.arrays)
+        code, scene = self.begun(folder, "modes.npz")
+        self.assertEqual(code, 0, scene)
+        self.assertIn('\nlength_unit = "mm"', scene)
+        with open(os.path.join(folder, "scene.toml"), "w", encoding="utf-8") as stream:
+            stream.write(scene.replace('length_unit = "mm"', 'length_unit = "mm"\nmass_unit = "kg"'))
+        checked = subprocess.run([PROGRAM, "check", "scene.toml"], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
 
     def test_init_begins_with_matrices(self):
         job = path("job")
@@ -419,10 +459,10 @@ class GivenModes(unittest.TestCase):
         self.assertIn("which is its mesh?", begun().stderr)
 
     def test_init_tells_where_the_mesh_is_missing(self):
-        shutil.copy(os.path.join(PLATE, "plate.frd"), path("alone.frd"))
-        finished = subprocess.run([PROGRAM, "init", "modes", path("alone.frd")], capture_output=True, text=True)
-        self.assertEqual(finished.returncode, 1)
-        self.assertIn("alone.frd: no mesh lies beside it", finished.stderr)
+        os.makedirs(path("alone"))
+        shutil.copy(os.path.join(PLATE, "plate.frd"), path("alone/alone.frd"))
+        self.assertEqual(self.begun(path("alone"), "alone.frd")[0], 1)
+        self.assertIn("alone.frd: no mesh lies beside it", self.begun(path("alone"), "alone.frd")[1])
 
     def test_a_stiffness_that_is_not_positive_definite_is_told(self):
         """Off the diagonal, so that only the eigensolver sees it."""
