@@ -203,6 +203,21 @@ class AbaqusDecks(Conversion):
             with self.subTest(encoding=encoding):
                 self.assertIn("Schaufelfuß", Converted(self.path("deck.inp")).sets)
 
+    def test_data_lines_in_a_file_of_their_own(self):
+        for card, file in (("*NODE\n11,", "nodes.txt"), ("*ELEMENT, TYPE=C3D8, ELSET=right\n8", "bricks.txt")):
+            keyword = card.split("\n")[0]
+            before, after = BAR.split(card)
+            data = card.split("\n")[1] + after
+            data, rest = data.split("*", 1) if "*" in data else (data, None)
+            with open(self.path(file), "w", encoding="utf-8") as stream:
+                stream.write(data)
+            result = self.deck(before + keyword + f", INPUT={file}\n" + ("*" + rest if rest else ""))
+            with self.subTest(keyword=keyword):
+                self.assertEqual(result.code, 0, result.message)
+                self.assertEqual(len(result.elements), 2)
+        self.refused(BAR.replace("ELSET=left", "ELSET=left, INPUT=nowhere.txt"), "deck.inp:15: ", "nowhere.txt cannot be read")
+        self.refused(BAR.replace("ELSET=left", "ELSET=left,\nINPUT=nowhere.txt"), "deck.inp:16: ", "nowhere.txt cannot be read")
+
     def test_numbers_beyond_32_bits(self):
         self.refused(BAR.replace("7, 1, 2", "3000000000, 1, 2"), "deck.inp: element 3000000000", "at most 2000000000")
         self.refused(BAR.replace("\n6, 2, 1", "\n5000000006, 2, 1").replace("3, 6, 5", "3, 5000000006, 5"), "node 5000000006")
@@ -318,6 +333,20 @@ class NastranDecks(Conversion):
             card = f"{name},3,1,1,2\n"
             self.assertEqual(self.left_out(NASTRAN.replace("ENDDATA", 2 * card + "ENDDATA"), "deck.bdf"), [("19", name, 2)])
 
+        for name in ("RSPLINE,3,.1,1,2", "RJOINT,3,1,2", "RSSCON,3,GRID,1,2"):
+            self.assertEqual(self.left_out(NASTRAN.replace("ENDDATA", name + "\nENDDATA"), "deck.bdf"), [("19", name.split(",")[0], 1)])
+
+    def test_what_case_control_selects_is_told(self):
+        """Equations and matrices; without case control nothing tells that they are not."""
+        equation, matrix = "MPC,5,1,1,1.,2,1,-1.\nENDDATA", "DMIG,KADD,0,6,1,0\nENDDATA"
+        for card, statement, told in ((equation, "", []), (equation, "MPC = 5\n", [("20", "MPC", 1)]), (equation, "MPC = 6\n", []),
+                                      (matrix, "", []), (matrix, "K2GG = KADD\n", [("20", "DMIG", 1)])):
+            with self.subTest(card=card[:4], statement=statement):
+                deck = NASTRAN.replace("ENDDATA", card).replace("CEND\n", "CEND\n" + statement)
+                self.assertEqual(self.left_out(deck, "deck.bdf"), told)
+        alone = NASTRAN.replace("ENDDATA", equation).split("BULK\n")[1]
+        self.assertEqual([what for _, what, _ in self.left_out(alone, "deck.nas")], ["MPC"])
+
     def test_cards_that_are_no_elements_are_passed_over(self):
         for card in ("CBARAO,9,FR,0.5", "CORD2R,5,,0.,0.,0.,0.,0.,1.\n+,1.,0.,0.", "RBE3,9,,4,123,1.,123,1,2", "PLOTEL,7,1,2"):
             self.assertEqual(self.left_out(NASTRAN.replace("ENDDATA", card + "\nENDDATA"), "deck.bdf"), [], card)
@@ -335,6 +364,8 @@ class NastranDecks(Conversion):
         self.refused(NASTRAN.replace("CTETRA,9", "CTETRA,8"), "deck.bdf: element 8 stands twice, at ", "deck.bdf:14 and ",
                      "deck.bdf:15;", name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,3,", "GRID,33,"), "element 9 uses node 3", name="deck.bdf")
+        self.refused(NASTRAN.replace("ENDDATA", "GRID,90,,0.,0.,0.\n=,*1,=,*1.,==\nENDDATA"), "deck.bdf:20", "write them out",
+                     name="deck.bdf")
         self.refused(NASTRAN.replace("GRID,1,,", "GRDSET,,6\nGRID,1,,"), "deck.bdf:8", "GRDSET", "coordinate system 6", name="deck.bdf")
 
     def test_an_empty_default_of_nodes(self):

@@ -21,7 +21,11 @@ _FACES = {"SPOS": 0, "SNEG": 0, **{f"S{i}": i - 1 for i in range(1, 7)}}  # the 
 _COPIES = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
 # Trusses are what gmsh writes of named edges, beams are not.
 _BEAM = re.compile(r"B3[123]", re.I)
-_TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING")
+_TIES = ("MPC", "EQUATION", "TIE", "RIGID BODY", "KINEMATIC", "KINEMATIC COUPLING", "EMBEDDED ELEMENT", "SHELL TO SOLID COUPLING",
+         "FASTENER", "CYCLIC SYMMETRY MODEL")
+# They weigh, pull and join, and have no mesh.
+_POINTLIKE = re.compile(r"MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|CONN3D2|DCOUP3D|GAP[A-Z]+", re.I)
+_WITH_INPUT = re.compile(r"\*\s*(?:NODE|ELEMENT|NSET|ELSET|SURFACE)\s*,.*\bINPUT\s*=\s*([^,]+)", re.I)
 
 
 def read(path):
@@ -47,6 +51,7 @@ def _type(name):
 
 def _lines(path, folder, above):
     """Pairs (place, text) of a file and what it includes, without comments and blank lines."""
+    keyword = ""  # that began on this line or one before
     with open_deck(path, above, "*INCLUDE") as file:
         for number, text in enumerate(file, 1):
             text = text.strip()
@@ -56,9 +61,18 @@ def _lines(path, folder, above):
                 place = f"{path}:{number}"
                 name = re.search(r"INPUT\s*=\s*(.+)", text, re.I)
                 require(name, f"{place}: *INCLUDE without INPUT=")
-                yield from _lines(os.path.join(folder, name[1].strip().strip('"')), folder, (*above, place))
-            else:
-                yield (path, number), text
+                yield from _included(name[1], folder, (*above, place))
+                continue
+            yield (path, number), text
+            keyword = keyword + text if keyword.endswith(",") else text if text[0] == "*" else ""
+            data = _WITH_INPUT.match(keyword)
+            if data and not keyword.endswith(","):
+                keyword = ""
+                yield from _included(data[1], folder, (*above, f"{path}:{number}"))
+
+
+def _included(name, folder, above):
+    return _lines(os.path.join(folder, name.strip().strip('"')), folder, above)
 
 
 class _Card:
@@ -240,7 +254,6 @@ class _Deck:
                 f"{card.place}: *NODE, SYSTEM={card.get('SYSTEM')}: only rectangular coordinates are read")
         if not card.data:
             return
-        require(not card.has("INPUT"), f"{card.place}: *NODE, INPUT=: use *INCLUDE")
         values, counts = card.numbers(float)
         for (place, words), count in zip(card.rows(), counts):
             require(2 <= count <= 7, f"{place}: *NODE: expected a number and three coordinates, found {len(words)} numbers")
@@ -266,11 +279,13 @@ class _Deck:
         if _BEAM.match(given):
             leave_out(self.left_out, card.place, f"*ELEMENT, TYPE={given} (beams)",
                       "take them out of the file, or name edges by trusses (T3D2) or node sets")
+        if _POINTLIKE.fullmatch(given):
+            leave_out(self.left_out, card.place, f"*ELEMENT, TYPE={given}", "take them out of the file")
+            return
         require(own, f"{card.place}: elements of type {given} are not read; bodies may be C3D4, C3D10, C3D8, C3D20, C3D6, "
                      "C3D15, C3D5, C3D13 with any letters behind")
         if not card.data:
             return
-        require(not card.has("INPUT"), f"{card.place}: *ELEMENT, INPUT=: use *INCLUDE")
         values, counts = card.numbers(int)
         width = TYPES[own].n_nodes + 1
         ends = np.cumsum(counts)

@@ -83,7 +83,7 @@ def _block(path, name, connect, first):
     kind = getattr(connect, "elem_type", "").upper()
     nodes = np.asarray(connect[:], dtype=np.int64)
     own = _FAMILIES.get(kind[:3], {}).get(nodes.shape[1])
-    require(own, f'{path}: block "{name}": elements {kind} of {nodes.shape[1]} nodes are not read; bodies may be TETRA, '
+    require(own, f'{path}: block "{name}": elements {kind or "without a type"} of {nodes.shape[1]} nodes are not read; bodies may be TETRA, '
                  "TETRA10, HEX, HEX20, WEDGE, WEDGE15, PYRAMID, PYRAMID13")
     nodes = nodes[:, _ORDER[own]] if own in _ORDER else nodes
     return Block(own, np.arange(first, first + len(nodes)), nodes)

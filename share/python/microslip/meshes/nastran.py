@@ -24,7 +24,7 @@ _ELEMENTS = {**_SOLID, **_SHELL}
 # Nastran goes from the lower ring of edges to the upright ones, then to the upper ring.
 _ORDER = {"hexahedron20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15), "wedge15": (*range(9), 12, 13, 14, 9, 10, 11)}
 # They join nodes. RBE3 spreads a load, PLOTEL is a picture: nothing is lost with them.
-_RIGID = re.compile(r"RBE[12]|RBAR|RROD|RTRPLT|GENEL")
+_RIGID = re.compile(r"RBE[12]|RBAR|RROD|RTRPLT|RSPLINE|RJOINT|RSSCON|GENEL")
 # Cards that begin with C and are no elements: coordinate systems, aerodynamics, heat, cyclic symmetry, control.
 _NO_ELEMENT = re.compile(r"CORD\d|CAERO|CHBDY|CONV|CREEP|CY(AX|JOIN|SUP|SYM)|CLOAD|CMARPC|CSSCHD|CONT|CBARAO|CBUTT|CMETHOD|CSET|CAMPBLL|CSUP")
 _NAMES = re.compile(r'\$\s*(?:HM(?:NAME|SET)\s+(?:(PROP|COMP)\s+)?(\d+)\s*(?:\d+\s*)?"([^"]+)"|'
@@ -39,6 +39,7 @@ def read(path):
         raise Refused(f"{lines[-1][0]}: {path} ends here without an ENDDATA of its own: it seems to be cut off. Copy it once more; "
                       "if it is whole, add a last line ENDDATA")
     bulk = next((i + 1 for i, (_, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK\b", text, re.I)), 0)
+    deck.has_case_control = bulk > 0
     for place, text in _statements(lines[:bulk]):
         deck.take_case(place, text)
     for place, words in _cards(lines[bulk:]):
@@ -149,6 +150,9 @@ class _Deck:
         self.pressed = {}       # name → [(place, element, corner nodes on the face, corner node off it)]
         self.property_names, self.set_names = {}, {}
         self.left_out = []
+        self.has_case_control = False
+        self.selected = set()   # of MPC in case control, "K2GG" and its like for matrices
+        self.constraints = []   # place, name and set of MPC and MPCADD; of DMIG its matrix
         self.methods = set()    # of METHOD in case control
         self.eigrl = {}         # its number → (V1, V2, ND) as written
 
@@ -167,6 +171,9 @@ class _Deck:
         method = re.match(r"METH[A-Z]*(?:\s*\(.*\))?\s*=\s*(\d+)", text, re.I)
         if method:
             self.methods.add(int(method[1]))
+        chosen = re.match(r"(?:MPC|[KMB]2(?:GG|PP))\s*=\s*(\w+)", text, re.I)
+        if chosen:
+            self.selected.add(chosen[1].upper())
 
     def take(self, place, words):
         name = words[0]
@@ -185,6 +192,10 @@ class _Deck:
             self._hold("SET", place, _whole(place, words, 1, "its number"), _listed(place, words[2 if name == "SET1" else 9:]))
         elif name == "PLOAD4":
             self._take_pressure(place, words)
+        elif name in ("MPC", "MPCADD", "DMIG"):
+            self.constraints.append((place, name, words[1].upper()))
+        elif name.startswith("="):
+            raise Refused(f"{place}: {words[0]}: cards that repeat the one before are not followed; write them out")
         elif name == "EIGRL":
             self.eigrl[words[1]] = words[2:5]
         else:
@@ -240,6 +251,9 @@ class _Deck:
 
     def content(self):
         require(self.nodes, f"{self.path}: no GRID in it: is it bulk data of Nastran?")
+        for place, name, chosen in self.constraints:
+            if chosen in self.selected or (name != "DMIG" and not self.has_case_control):
+                leave_out(self.left_out, place, name, "take it out of the file")
         blocks = blocks_of(self.elements)
         require(blocks, f"{self.path}: no solid elements in it; bodies may be {', '.join(list(_SOLID)[:4])}")
         content = Content(np.array(self.nodes), np.array(self.coordinates), blocks, left_out=self.left_out,
