@@ -373,10 +373,15 @@ Findings motion_along_r(const Facts& facts) {
 
 // What the curves say ----------------------------------------------------------------------------
 
+/// Beside other curves the limits do not count: no blade moves like that.
 Findings amplitude(const Facts& facts) {
   Finding largest{"excitation.forces", 0.0};
+  const auto is_limit = [](const CurveResult& result) {
+    return std::holds_alternative<LimitName>(result.load);
+  };
+  const bool limits_alone = std::ranges::all_of(*facts.curves, is_limit);
   for (const CurveResult& result : *facts.curves) {
-    if (std::holds_alternative<LimitName>(result.load)) continue;  // no blade moves like that
+    if (is_limit(result) && !limits_alone) continue;
     for (const solver::ResponsePoint& point : result.curve.points) {
       const double share = percent * point.amplitude / longest_side(*facts.mesh);
       if (share <= largest.value) continue;

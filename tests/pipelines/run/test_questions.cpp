@@ -319,6 +319,13 @@ TEST_F(OfModes, AskForLargeAmplitudes) {
   result.curve.points.front().amplitude = 5e-3;
   expect_question(questions(scene, solved->mesh, std::vector{result}),
                   "excitation.forces:", {"5 %", "0.005 m", "free"});
+  // A limit counts where nothing else was asked for.
+  CurveResult limit = result;
+  limit.load = LimitName::free;
+  result.curve.points.front().amplitude = 1e-3;
+  expect_none(questions(scene, solved->mesh, std::vector{limit, result}));
+  expect_question(questions(scene, solved->mesh, std::vector{limit}),
+                  "excitation.forces:", {"5 %", "0.005 m", "free"});
 }
 
 }  // namespace
