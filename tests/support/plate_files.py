@@ -3,6 +3,7 @@
 and the modes that a run of CalculiX left in plate.frd. No run of Nastran or Code_Aster stands behind them.
 
     plate.npz              as numpy.savez_compressed writes it
+    plate.csv              a table, as a script writes it that walks through the frames of Abaqus
     plate.med              mesh with groups and field of modes, as Code_Aster's IMPR_RESU lays them out
     plate.pch, plate.bdf   the first four modes as Nastran punches them, and a deck of the same mesh
     plate.unv, plate.vtu   the mesh alone, as Salome and ParaView have it
@@ -43,10 +44,19 @@ def modes_on(mesh):
     return modes.frequency_hz, modes.shapes[:, distances.argmin(axis=1)]
 
 
+def write_table(path, nodes, frequencies, shapes):
+    with open(path, "w", encoding="ascii") as table:
+        table.write("mode,frequency_Hz,x,y,z,ux,uy,uz\n")
+        for mode, (frequency, shape) in enumerate(zip(frequencies.tolist(), shapes.tolist()), 1):
+            for place, displacement in zip(nodes.tolist(), shape):
+                table.write(",".join([str(mode), *(f"{number:.15g}" for number in (frequency, *place, *displacement))]) + "\n")
+
+
 def write(folder):
     mesh = mesh_of(os.path.join(PLATE, "plate.inp"))
     frequencies, shapes = modes_on(mesh)
     np.savez_compressed(os.path.join(folder, "plate.npz"), nodes=mesh.nodes, frequency_Hz=frequencies, shapes=shapes)
+    write_table(os.path.join(folder, "plate.csv"), mesh.nodes, frequencies, shapes)
     mesh_files.write_med(mesh, os.path.join(folder, "plate.med"))
     mesh_files.add_med_modes(os.path.join(folder, "plate.med"), "modes___DEPL", frequencies, shapes, compression="gzip")
     mesh_files.write_unv(mesh, os.path.join(folder, "plate.unv"), millimetres=True)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The plate of share/scenes/plate, its modes from each format of other codes, gives the curves of plate_calculix.toml.
 
-All files hold the modes that CalculiX left in plate.frd, with its six digits of a displacement and ten of a frequency: NumPy
-and MED in doubles, so that curves agree to rounding (MED numbers elements in a mirror, which moves sums over the face);
+All files hold the modes that CalculiX left in plate.frd, with its six digits of a displacement and ten of a frequency: NumPy,
+a table and MED in doubles, so that curves agree to rounding (MED numbers elements in a mirror, which moves sums over the face);
 Nastran's form has seven digits of a displacement, which loses nothing, and eight of an eigenvalue: 2.5e-8 of a frequency,
 and of an amplitude at resonance as much. Places of the deck have ten digits.
 
@@ -55,10 +55,11 @@ class PlateScenes(unittest.TestCase):
         print(f"{' '.join([scene, *settings])}: peaks of {', '.join(found)} differ by {worst:.1e}")
         self.assertLess(worst, tolerance)
 
-    def test_numpy_and_med(self):
+    def test_numpy_table_and_med(self):
         expected = peaks("plate_calculix")
         self.assertEqual(len(expected), 5)
         self.compare("plate_numpy", expected, DOUBLES)
+        self.compare("plate_table", expected, DOUBLES)
         if importlib.util.find_spec("h5py") is None:
             self.skipTest("h5py is not installed: .med cannot be read")
         self.compare("plate_med", expected, DOUBLES)
@@ -84,7 +85,7 @@ class PlateScenes(unittest.TestCase):
             with open(os.path.join(folder, name), encoding="ascii") as stream:
                 return stream.read()
 
-        for name in ("plate.bdf", "plate.pch", "plate.unv"):
+        for name in ("plate.bdf", "plate.csv", "plate.pch", "plate.unv"):
             self.assertEqual(text(WORK, name), text(plate_files.PLATE, name), name)
         with np.load(os.path.join(WORK, "plate.npz")) as made, np.load(os.path.join(plate_files.PLATE, "plate.npz")) as kept:
             self.assertEqual(made.files, kept.files)
