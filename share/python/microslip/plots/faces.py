@@ -46,21 +46,29 @@ def paint(axes, body, view):
                                        edgecolors=colours, linewidths=0.3, rasterized=True))
 
 
-def hidden(body, triangle, view):
-    """Whether another triangle lies between this one's centre and the eye."""
-    flat, depth = body.corners @ view[:2].T, body.corners @ view[2]
-    at = view[:2] @ body.centres[triangle]
-    a, b, c = flat[:, 0], flat[:, 1], flat[:, 2]
-    side = [np.cross(q - p, at - p) for p, q in ((a, b), (b, c), (c, a))]
-    inside = (np.sign(side[0]) == np.sign(side[1])) & (np.sign(side[1]) == np.sign(side[2]))
-    nearer = depth.mean(axis=1) > view[2] @ body.centres[triangle] + 1e-3 * np.max(body.extent())
-    return bool(np.any(inside & nearer))
+class Seen:
+    """The triangles as they lie in a view."""
+
+    def __init__(self, body, view):
+        self.body, self.view = body, view
+        self.flat = body.corners @ view[:2].T
+        self.depth = body.centres @ view[2]
+        self.low, self.high = self.flat.min(axis=1), self.flat.max(axis=1)
+        self.margin = 1e-3 * np.max(body.extent())
+
+    def hidden(self, triangle):
+        """Whether another triangle lies between this one's centre and the eye."""
+        at = self.view[:2] @ self.body.centres[triangle]
+        around = (self.low <= at).all(axis=1) & (self.high >= at).all(axis=1)
+        a, b, c = self.flat[around & (self.depth > self.depth[triangle] + self.margin)].transpose(1, 0, 2)
+        side = [np.sign(np.cross(q - p, at - p)) for p, q in ((a, b), (b, c), (c, a))]
+        return bool(np.any((side[0] == side[1]) & (side[1] == side[2])))
 
 
-def place_of_number(body, face, view):
+def place_of_number(body, face, seen_from):
     """The triangle of a face in the middle of what can be seen of it; None: nothing can."""
-    own = np.flatnonzero((body.face == face) & (body.normals @ view[2] > 0.05))
-    seen = [triangle for triangle in own[::max(1, own.size // 60)] if not hidden(body, triangle, view)]
+    own = np.flatnonzero((body.face == face) & (body.normals @ seen_from.view[2] > 0.05))
+    seen = [triangle for triangle in own[::max(1, own.size // 60)] if not seen_from.hidden(triangle)]
     if not seen:
         return None
     middle = np.average(body.centres[seen], axis=0, weights=np.maximum(body.areas[seen], 1e-300))
@@ -76,8 +84,9 @@ def plot_faces(data, picture):
         paint(axes, body, view)
         flat = body.corners.reshape(-1, 3) @ view[:2].T
         extent = np.array([flat.min(axis=0), flat.max(axis=0)]).T
+        seen_from = Seen(body, view)
         for face in np.unique(body.face):
-            triangle = place_of_number(body, face, view)
+            triangle = place_of_number(body, face, seen_from)
             if triangle is not None:
                 axes.text(*(view[:2] @ body.centres[triangle]), str(face), ha="center", va="center",
                           fontsize=8, zorder=9, path_effects=HALO)
