@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "fem/slepc_session.hpp"
+#include "mesh/count_text.hpp"
 #include "pipelines/cycle/cycle_plot.hpp"
 #include "pipelines/cycle/cycle_table.hpp"
 #include "pipelines/files/checkpoint.hpp"
@@ -416,7 +417,8 @@ int cycle(const Arguments& arguments) {
   std::vector<CyclePlot> plots;
   if (arguments.plot_folder) plots = cycle_plots(table);
   if (arguments.dry_run) {
-    std::cout << fmt::format("{} points; every row is complete\n", table.n_rows());
+    std::cout << fmt::format("{}; every row is complete\n",
+                             mesh::counted(table.n_rows(), "point", "points"));
     return 0;
   }
   if (arguments.plot_folder) write_cycle_plots(plots, *arguments.plot_folder);

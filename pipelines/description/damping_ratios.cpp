@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -24,9 +25,9 @@ Eigen::VectorXd damping_ratios(const ModesDescription& modes, const Eigen::Vecto
   if (list.size() == 1) return Eigen::VectorXd::Constant(frequency.size(), list.front());
   const auto n_given = static_cast<Eigen::Index>(list.size());
   if (n_given != frequency.size() - n_attachment) {
-    throw SceneError(
-        fmt::format("modes.damping_ratio: {} values for {} modes; give one, or one each", n_given,
-                    frequency.size() - n_attachment));
+    throw SceneError(fmt::format("modes.damping_ratio: {} for {}; give one, or one each",
+                                 mesh::counted(n_given, "value", "values"),
+                                 mesh::counted(frequency.size() - n_attachment, "mode", "modes")));
   }
   Eigen::VectorXd ratios = Eigen::VectorXd::Constant(frequency.size(), list.back());
   ratios.head(n_given) = Eigen::Map<const Eigen::VectorXd>(list.data(), n_given);

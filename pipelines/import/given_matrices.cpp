@@ -39,8 +39,9 @@ fem::GivenMatrices matrices_of(const mesh::Mesh& mesh, const SceneDescription& s
   const Sparse K = read_matrix_market(files.stiffness);
   const Sparse M = read_matrix_market(files.mass);
   if (K.rows() != M.rows()) {
-    throw SceneError(fmt::format("{} has {} rows, {} has {}", files.stiffness.string(), K.rows(),
-                                 files.mass.string(), M.rows()));
+    throw SceneError(fmt::format("{} has {}, {} has {}", files.stiffness.string(),
+                                 mesh::counted(K.rows(), "row", "rows"), files.mass.string(),
+                                 M.rows()));
   }
   const NodeRows nodes = read_node_rows(files.nodes, K.rows());
   const std::vector<Eigen::Index> rows =

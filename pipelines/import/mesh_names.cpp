@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/import/mesh_file.hpp"
 
 namespace microslip::pipelines {
@@ -71,7 +72,8 @@ std::vector<MeshName> mesh_names(const mesh::Mesh& mesh) {
 
 std::string describe_names(const mesh::Mesh& mesh, std::optional<double> unit) {
   const Eigen::Vector3d box = mesh.upper() - mesh.lower();
-  std::string text = fmt::format("{} nodes, {} elements, ", mesh.n_nodes(), mesh.n_elements());
+  std::string text = fmt::format("{} nodes, {}, ", mesh.n_nodes(),
+                                 mesh::counted(mesh.n_elements(), "element", "elements"));
   text += unit ? fmt::format("{} m; lengths below are in m\n", place(box, box.maxCoeff()))
                : fmt::format("{}; the file does not tell its unit, lengths below are in it\n",
                              size_readings(mesh));

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/import/face_choice.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -171,9 +172,9 @@ std::string describe_faces(const StepBody& body) {
   const Eigen::Vector3d extent = extent_of(body.geometry);
   const double size = extent.maxCoeff();
   std::string text = fmt::format(
-      "{}\none solid of {} faces, {} m, {:.6g} m^3; lengths below are in m\n"
+      "{}\none solid of {}, {} m, {:.6g} m^3; lengths below are in m\n"
       "{:>6}  {:<12}{:>12}  {:<30} {}\n",
-      unit_text(body), body.geometry.faces.size(),
+      unit_text(body), mesh::counted(body.geometry.faces.size(), "face", "faces"),
       fmt::format("{:.4g} x {:.4g} x {:.4g}", extent.x(), extent.y(), extent.z()),
       body.geometry.volume, "face", "kind", "area", "centre", "normal");
   for (const StepFace& face : body.geometry.faces) {

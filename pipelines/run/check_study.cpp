@@ -11,6 +11,7 @@
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
+#include "mesh/count_text.hpp"
 #include "mesh/element_shape.hpp"
 #include "mesh/mesh.hpp"
 #include "pipelines/effects/contact_effects.hpp"
@@ -152,7 +153,7 @@ void describe_points(const ModalModel& modal, std::ostream& out) {
 
 ReducedModel check_modal(const ModalModel& modal, const SceneDescription& scene,
                          std::ostream& out) {
-  fmt::print(out, "{} modes\n", modal.frequency_hz.size());
+  fmt::print(out, "{}\n", mesh::counted(modal.frequency_hz.size(), "mode", "modes"));
   ReducedModel model = reduced_model(scene);
   model.effects = contact_effects(model, scene);
   require_held(model, scene);

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "contact/dense.hpp"
+#include "mesh/count_text.hpp"
 #include "pipelines/sections/modes_section.hpp"
 
 namespace microslip::pipelines {
@@ -69,7 +70,9 @@ ChainSystem from_matrices(const SectionReader& s) {
   const Eigen::MatrixXd K = read_symmetric(s, "stiffness_matrix");
   const Eigen::MatrixXd M = read_symmetric(s, "mass_matrix");
   if (K.rows() != M.rows()) {
-    s.fail("mass_matrix", fmt::format("{} rows, and the stiffness has {}", M.rows(), K.rows()),
+    s.fail("mass_matrix",
+           fmt::format("{}, and the stiffness has {}", mesh::counted(M.rows(), "row", "rows"),
+                       K.rows()),
            s.node("mass_matrix"));
   }
   return checked_modes(s, "mass_matrix", K, M);
@@ -85,7 +88,9 @@ ChainSystem from_modes(const SectionReader& s) {
   system.frequency = 2.0 * std::numbers::pi * frequency_hz;
   const Eigen::MatrixXd rows = read_rows(s, "mode_shapes");
   if (rows.rows() != frequency_hz.size()) {
-    s.fail("mode_shapes", fmt::format("{} rows for {} modes", rows.rows(), frequency_hz.size()),
+    s.fail("mode_shapes",
+           fmt::format("{} for {}", mesh::counted(rows.rows(), "row", "rows"),
+                       mesh::counted(frequency_hz.size(), "mode", "modes")),
            s.node("mode_shapes"));
   }
   system.shapes = rows.transpose();

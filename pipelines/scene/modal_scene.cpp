@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/system/scene_error.hpp"
 #include "pipelines/text/scene_keys.hpp"
 #include "pipelines/text/units.hpp"
@@ -25,7 +26,10 @@ Eigen::VectorXd per_mode(const SectionReader& section, std::string_view key, Eig
   }
   if (list->empty()) section.fail(key, "the list is empty", &node);
   if (n_modes > 0 && static_cast<Eigen::Index>(list->size()) != n_modes) {
-    section.fail(key, fmt::format("{} values for {} modes", list->size(), n_modes), &node);
+    section.fail(key,
+                 fmt::format("{} for {}", mesh::counted(list->size(), "value", "values"),
+                             mesh::counted(n_modes, "mode", "modes")),
+                 &node);
   }
   Eigen::VectorXd values(static_cast<Eigen::Index>(list->size()));
   for (std::size_t i = 0; i < list->size(); ++i) {

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/description/element_count.hpp"
 #include "pipelines/sections/modes_section.hpp"
 #include "pipelines/sections/points_section.hpp"
@@ -277,7 +278,9 @@ ModesDescription read_modes(const SectionReader& s, int n_modes) {
   const toml::node* given = s.node("damping_ratio");
   if (given->is_array() && static_cast<int>(ratios->size()) != n_modes) {
     s.fail("damping_ratio",
-           fmt::format("{} values for {} modes; give one, or one each", ratios->size(), n_modes),
+           fmt::format("{} for {}; give one, or one each",
+                       mesh::counted(ratios->size(), "value", "values"),
+                       mesh::counted(n_modes, "mode", "modes")),
            given);
   }
   return modes;

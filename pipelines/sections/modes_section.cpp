@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/count_text.hpp"
 #include "pipelines/description/damping_ratios.hpp"
 
 namespace microslip::pipelines {
@@ -44,7 +45,9 @@ Eigen::VectorXd read_damping_ratios(const SectionReader& s, const Eigen::VectorX
   const auto n_modes = static_cast<std::size_t>(frequency.size());
   if (const toml::array* list = given.as_array(); list != nullptr && list->size() != n_modes) {
     s.fail("damping_ratio",
-           fmt::format("{} values for {} modes; give one, or one each", list->size(), n_modes),
+           fmt::format("{} for {}; give one, or one each",
+                       mesh::counted(list->size(), "value", "values"),
+                       mesh::counted(n_modes, "mode", "modes")),
            &given);
   }
   return damping_ratios(modes, frequency);

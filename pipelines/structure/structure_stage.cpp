@@ -212,10 +212,10 @@ std::string describe_mesh(const mesh::Mesh& mesh, double density) {
   const Eigen::Vector3d lower = mesh.lower();
   const Eigen::Vector3d upper = mesh.upper();
   std::string text = fmt::format(
-      "mesh: {} nodes, {} elements, volume {:.6g} m^3{}\n"
+      "mesh: {} nodes, {}, volume {:.6g} m^3{}\n"
       "bounding box: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m\n"
       "surfaces: {}",
-      mesh.n_nodes(), mesh.n_elements(), mesh.volume(),
+      mesh.n_nodes(), mesh::counted(mesh.n_elements(), "element", "elements"), mesh.volume(),
       density > 0.0 ? fmt::format(", mass {:.6g} kg", density * mesh.volume()) : "", lower.x(),
       upper.x(), lower.y(), upper.y(), lower.z(), upper.z(), fmt::join(mesh.surface_names(), ", "));
   const auto sets = mesh.node_set_names();

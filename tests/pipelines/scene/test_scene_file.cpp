@@ -771,6 +771,7 @@ TEST(SceneFile, TheLengthUnitIsThatOfTheFileUnlessItIsGmshs) {
 
 TEST(BadModalScene, ListsMustFitTheNumberOfModes) {
   expect_complaint(complaint(modal_text, {"modal.output=[1, 2, 3]"}), {"3 values for 2 modes"});
+  expect_complaint(complaint(modal_text, {"modal.output=[1]"}), {"1 value for 2 modes"});
   expect_complaint(complaint(modal_text, {"modal.frequency=[]"}), {"empty"});
   expect_complaint(complaint(modal_text, {"modal.frequency=[-1, 2]"}), {"negative"});
   expect_complaint(complaint(modal_text, {"modal.damping_ratio=[0.1, -0.1]"}), {"negative"});
