@@ -86,16 +86,17 @@ MeshOfFile read_mesh(const fs::path& file, std::optional<double> length_unit,
 }
 
 std::string unit_question(const fs::path& file, std::optional<double> of_scene,
-                          std::optional<double> of_file) {
+                          std::optional<double> of_file, double longest) {
   constexpr double same = 1e-6;
+  constexpr double longest_blade = 3.0;  // m
   if (!of_scene || !of_file || std::abs(*of_scene / *of_file - 1.0) < same) return {};
+  const bool may_be_salome = file.extension() == ".unv" && *of_file == 1.0;
+  if (may_be_salome && longest > longest_blade) return {};
   return fmt::format(
       "model.length_unit: {:g} m is written, and {} says {:g} m; it is read in {:g} m: which is "
       "right? Without length_unit what the file says is taken{}",
       *of_scene, file.filename().string(), *of_file, *of_scene,
-      file.extension() == ".unv" && *of_file == 1.0
-          ? " (Salome writes m into .unv files, whatever it draws in)"
-          : "");
+      may_be_salome ? " (Salome writes m into .unv files, whatever it draws in)" : "");
 }
 
 mesh::Mesh read_mesh(const MeshFileModel& model) {
@@ -108,7 +109,8 @@ mesh::Mesh read_mesh(const MeshFileModel& model) {
   }
   if (!model.modes && !model.matrices) require_whole(read);
   for (std::string& remark : left_out_remarks(read)) read.mesh.add_remark(std::move(remark));
-  std::string question = unit_question(model.file, model.length_unit, read.own_unit);
+  const double longest = (read.mesh.upper() - read.mesh.lower()).maxCoeff() / *read.length_unit;
+  std::string question = unit_question(model.file, model.length_unit, read.own_unit, longest);
   if (!question.empty()) read.mesh.add_remark(std::move(question));
   return std::move(read.mesh);
 }

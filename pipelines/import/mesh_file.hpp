@@ -46,10 +46,12 @@ void require_whole(const MeshOfFile& read);
 [[nodiscard]] std::vector<std::string> left_out_remarks(const MeshOfFile& read);
 
 /// A question: the scene has another unit than the file says.
-/// "": it has not, or the file does not say.
+/// "": it has not, or the file does not say; or the file is a .unv in metres, as Salome writes
+/// whatever it draws in, and no blade is as long in metres.
+/// @param longest  side of the mesh, in the unit of the file.
 [[nodiscard]] std::string unit_question(const std::filesystem::path& file,
                                         std::optional<double> of_scene,
-                                        std::optional<double> of_file);
+                                        std::optional<double> of_file, double longest);
 
 /// The mesh of a scene; its remarks tell what is left out, and where scene and file have another
 /// unit.

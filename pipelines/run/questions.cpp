@@ -509,10 +509,11 @@ std::string order_question(const SceneDescription& scene, const mesh::Mesh& mesh
 }
 
 /// Of a STEP file; those of meshes are among the remarks of the mesh.
-std::string step_unit_question(const SceneDescription& scene) {
+std::string step_unit_question(const SceneDescription& scene, const mesh::Mesh& mesh) {
   const auto* step = std::get_if<StepModel>(&scene.model);
   return step == nullptr ? std::string{}
-                         : unit_question(step->file, step->length_unit, unit_of_file(*step));
+                         : unit_question(step->file, step->length_unit, unit_of_file(*step),
+                                         longest_side(mesh) / step->length_unit.value_or(1.0));
 }
 
 }  // namespace
@@ -523,7 +524,8 @@ std::vector<std::string> questions(const SceneDescription& scene) {
 
 std::vector<std::string> questions(const SceneDescription& scene, const mesh::Mesh& mesh) {
   std::vector<std::string> sentences = mesh.remarks();
-  for (const std::string& question : {order_question(scene, mesh), step_unit_question(scene)}) {
+  for (const std::string& question :
+       {order_question(scene, mesh), step_unit_question(scene, mesh)}) {
     if (!question.empty()) sentences.push_back(question);
   }
   for (std::string& sentence : asked(Stage::mesh, {.scene = scene, .mesh = &mesh})) {

@@ -83,14 +83,16 @@ TEST_F(MeshFile, APackedOneIsToldToBeUnpacked) {
 }
 
 TEST(UnitQuestion, IsAskedWhereSceneAndFileSayAnotherUnit) {
-  EXPECT_EQ(unit_question("bar.unv", 1e-3, 1e-3), "");
-  EXPECT_EQ(unit_question("bar.unv", std::nullopt, 1e-3), "");
-  EXPECT_EQ(unit_question("bar.inp", 1e-3, std::nullopt), "");
-  EXPECT_EQ(unit_question("bar.med", 0.01, 1e-3)
+  EXPECT_EQ(unit_question("bar.unv", 1e-3, 1e-3, 80.0), "");
+  EXPECT_EQ(unit_question("bar.unv", std::nullopt, 1e-3, 80.0), "");
+  EXPECT_EQ(unit_question("bar.inp", 1e-3, std::nullopt, 80.0), "");
+  EXPECT_EQ(unit_question("bar.med", 0.01, 1e-3, 80.0)
                 .find("model.length_unit: 0.01 m is written, and "
                       "bar.med says 0.001 m"),
             0U);
-  expect_words(unit_question("bar.unv", 1e-3, 1.0), {"bar.unv says 1 m", "Salome writes m"});
+  expect_words(unit_question("bar.unv", 1e-3, 1.0, 0.08), {"bar.unv says 1 m", "Salome writes m"});
+  EXPECT_EQ(unit_question("bar.unv", 1e-3, 1.0, 80.0), "");  // no blade of 80 m
+  EXPECT_NE(unit_question("bar.med", 1e-3, 1.0, 80.0), "");
 }
 
 TEST_F(MeshFile, AMissingUnitIsAskedForWithTheSizesThereAre) {
