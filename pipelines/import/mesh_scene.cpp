@@ -87,7 +87,7 @@ class SceneMaker {
   SceneMaker(const MeshOfFile& read, const std::filesystem::path& file)
       : read_(read), names_(mesh_names(read.mesh)), extent_(read.mesh.upper() - read.mesh.lower()) {
     extent_.maxCoeff(&span_);
-    set_unit(mesh_format(file) == MeshFormat::gmsh);
+    set_unit(file);
   }
 
   void set_file(const char* key, const std::filesystem::path& file,
@@ -122,8 +122,19 @@ class SceneMaker {
   }
 
  private:
-  void set_unit(bool is_gmsh) {
+  void set_unit(const std::filesystem::path& file) {
     constexpr double longest = 3.0;  // m
+    const bool is_gmsh = mesh_format(file) == MeshFormat::gmsh;
+    const bool is_salome = file.extension() == ".unv" && read_.length_unit == 1.0;
+    if (is_salome && extent_.maxCoeff() > longest) {
+      unit_ = "mm";
+      values_["model.length_unit"] = in_quotes(unit_);
+      remarks_["model.length_unit"] = fmt::format(
+          "CHECK: the file says metre, as Salome writes whatever it draws in; in metres the mesh "
+          "is {:.3g} m long",
+          extent_.maxCoeff());
+      return;
+    }
     if (read_.length_unit) {
       values_["model.length_unit"] = "";  // the file tells it
       return;
@@ -137,7 +148,7 @@ class SceneMaker {
 
   /// The file of the modes is in the unit of the mesh, and says none itself.
   void write_unit() {
-    if (!read_.length_unit) return;
+    if (!read_.length_unit || !values_["model.length_unit"].empty()) return;
     constexpr std::array<std::pair<double, const char*>, 4> known{
         {{1.0, "m"}, {1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "in"}}};
     const auto named = std::ranges::find_if(known, [&](const auto& unit) {

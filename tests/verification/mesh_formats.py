@@ -162,6 +162,19 @@ class Formats(unittest.TestCase):
                                      capture_output=True, text=True, env=without_plots())
                 self.assertIn(question, ran.stdout + ran.stderr)
 
+    def test_init_does_not_take_salome_at_its_word(self):
+        """It writes metre into .unv files, whatever it draws in."""
+        in_millimetres = mesh_files.Mesh(1e3 * self.mesh.nodes, self.mesh.blocks, self.mesh.surfaces, self.mesh.points)
+        mesh_files.write_unv(in_millimetres, self.path("salome.unv"), millimetres=True)
+        with open(self.path("salome.unv"), encoding="ascii") as stream:
+            text = stream.read()
+        factor = text.splitlines()[3].split()[0]  # of data set 164, to divide by for metres
+        with open(self.path("salome.unv"), "w", encoding="ascii") as stream:
+            stream.write(text.replace(factor, factor.replace("D+03", "D+00").replace("E+03", "E+00").replace("1000.0", "1.0"), 1))
+        scene = self.scene_of("salome.unv")
+        self.assertIn('\nlength_unit = "mm"', scene)
+        self.assertIn("CHECK: the file says metre", scene)
+
     def test_init_writes_the_order_of_the_file(self):
         """Written otherwise it is questioned: the file counts."""
         mesh_files.write_inp(self.mesh, self.path("curved.inp"))
