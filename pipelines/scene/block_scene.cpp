@@ -82,15 +82,20 @@ Eigen::MatrixXd read_stiffness(const SectionReader& s) {
   for (const char* key : {"stiffness", "rotational_stiffness"}) {
     if (!s.given(key)) s.fail(key, "is missing: three springs and three that turn go together");
   }
+  // What is read may be refused: that comes before a matrix that is filled.
+  const Eigen::Vector3d stiffness = read_vector3(s, "stiffness");
+  const Eigen::Vector3d rotational = read_vector3(s, "rotational_stiffness");
   Vector6 springs;
-  springs << read_vector3(s, "stiffness"), read_vector3(s, "rotational_stiffness");
+  springs << stiffness, rotational;
   return springs.asDiagonal();
 }
 
 ChainSystem read_system(const LeanSections& sections) {
   const SectionReader& s = sections.model;
+  const double mass = s.number("mass");
+  const Eigen::Vector3d moments = read_vector3(s, "moments_of_inertia");
   Vector6 inertia;
-  inertia << Eigen::Vector3d::Constant(s.number("mass")), read_vector3(s, "moments_of_inertia");
+  inertia << Eigen::Vector3d::Constant(mass), moments;
   if (!(inertia.minCoeff() > 0.0)) {
     s.fail("moments_of_inertia", "all three must be above 0", s.node("moments_of_inertia"));
   }
