@@ -143,7 +143,8 @@ class Places:
         base = without_plots()
         bare = {key: value for key, value in base.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
         # The kernels of OpenBLAS that someone has chosen stay: others add up in another order, as another machine does.
-        nothing = {key: base[key] for key in ("PYTHONPATH", "OPENBLAS_CORETYPE") if key in base}
+        # What a sanitizer was told stays as well.
+        nothing = {key: base[key] for key in ("PYTHONPATH", "OPENBLAS_CORETYPE", "ASAN_OPTIONS") if key in base}
         kinds = {
             "OMP_NUM_THREADS 0": {"environment": {**base, "OMP_NUM_THREADS": "0"}},
             "OMP_NUM_THREADS 1": {"environment": {**base, "OMP_NUM_THREADS": "1"}},

@@ -83,6 +83,9 @@ TEST(SolverMemory, BeyondWhatThereIsIsRefusedAndTheOtherWayOffered) {
 }
 
 TEST(SolverMemory, BeyondBothOffersNeither) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer needs more address space itself";
+#endif
   const Room room(20.0);
   EXPECT_EQ(complaint(SolverKind::direct).find("\"iterative\""), std::string::npos);
   EXPECT_NE(complaint(SolverKind::iterative).find("modes.solver = \"iterative\" needs about"),
