@@ -1,14 +1,16 @@
 #!/bin/sh
-# Fuzzes the readers of TOML, tables, units, formulas and meshes with libFuzzer, AddressSanitizer and
-# UndefinedBehaviorSanitizer. What it finds stays in build/fuzz, and ends the script with an error.
+# Fuzzes the readers of TOML, tables, units, formulas, meshes, STEP files and matrices with libFuzzer,
+# AddressSanitizer and UndefinedBehaviorSanitizer. What it finds stays in build/fuzz, and ends the script with an error.
 #
-#   share/scripts/fuzz.sh [SECONDS [READER …]]     60 s each by default; readers: toml csv units expression msh
+#   share/scripts/fuzz.sh [SECONDS [READER …]]     60 s each by default
+#                                                  readers: toml csv units expression msh step matrix nodes
+#                                                  MICROSLIP_FUZZ_BUILD: the folder, build/fuzz by default
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 "$root/share/scripts/setup.sh" --fuzz
 seconds=${1:-60}
 [ "$#" -eq 0 ] || shift
-[ "$#" -gt 0 ] || set -- toml csv units expression msh
+[ "$#" -gt 0 ] || set -- toml csv units expression msh step matrix nodes
 build="${MICROSLIP_FUZZ_BUILD:-$root/build/fuzz}"
 mkdir -p "$build"
 cd "$root"
@@ -21,6 +23,8 @@ sources_of() {
     units) echo "$text/units.cpp $text/nearest_name.cpp" ;;
     expression) echo "$text/expression.cpp $text/nearest_name.cpp" ;;
     msh) ls mesh/body/*.cpp mesh/checks/*.cpp mesh/elements/*.cpp mesh/import/gmsh_*.cpp mesh/import/mesh_reader.cpp ;;
+    step) ls mesh/import/step_units.cpp mesh/import/step_statements.cpp ;;
+    matrix | nodes) echo "pipelines/scene/matrix_files.cpp $text/csv_table.cpp $text/units.cpp $text/nearest_name.cpp" ;;
     *) echo "fuzz: no reader is called $1" >&2; exit 1 ;;
   esac
 }
@@ -33,7 +37,7 @@ seeds_of() {
     csv) cp share/scenes/plate/nodes.csv "$build/corpus_$1" ;;
     units) for t in "210 GPa" "2.5 mm" "0.2 %" "3000 rpm" "1e12 N/m^3"; do printf '%s' "$t" >"$build/corpus_$1/$(echo "$t" | tr ' /%' '___')"; done ;;
     expression) printf '2000*(0.2 + 0.8*(2*p/L - 1)^2)' >"$build/corpus_$1/bar" ;;
-    msh) cp tests/fuzz/corpus_msh/* "$build/corpus_$1" ;;
+    *) cp "tests/fuzz/corpus_$1"/* "$build/corpus_$1" ;;
   esac
 }
 

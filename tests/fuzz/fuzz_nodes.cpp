@@ -1,0 +1,12 @@
+// Nodes of given matrices: places and rows of six unknowns.
+#include "pipelines/scene/matrix_files.hpp"
+#include "pipelines/system/scene_error.hpp"
+#include "tests/fuzz/fuzz.hpp"
+#include "tests/support/file_in_memory.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace microslip;
+  return tests::read_or_refused<pipelines::SceneError>(data, size, [](std::string_view text) {
+    static_cast<void>(pipelines::read_node_rows(test::FileInMemory(text).path(), 6));
+  });
+}
