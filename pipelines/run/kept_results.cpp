@@ -1,12 +1,15 @@
 #include "pipelines/run/kept_results.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "pipelines/files/checkpoint.hpp"
 #include "pipelines/files/model_file.hpp"
 #include "pipelines/files/result_members.hpp"
 #include "pipelines/model/curve_load.hpp"
@@ -14,6 +17,7 @@
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/result_cache.hpp"
+#include "pipelines/text/toml_text.hpp"
 
 namespace microslip::contact {
 auto members(pipelines::Is<ContactEffects> auto& value) {
@@ -63,6 +67,29 @@ std::string text_without(const Keys& keys, const std::string& scene_toml) {
     if (section != "[accuracy]" && !is_choice && !is_title) text += line + '\n';
   }
   return text;
+}
+
+/// Adds the content of every file that a part of a completed scene names, which has whole paths.
+void add_files(const toml::node& node, ByteWriter& bytes) {
+  if (const auto* text = node.as_string()) {
+    const std::filesystem::path path = text->get();
+    std::error_code none;  // a text that is no name of a file
+    if (path.is_absolute() && std::filesystem::is_regular_file(path, none)) {
+      bytes(fingerprint_of(path));
+    }
+  } else if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table) add_files(value, bytes);
+  } else if (const auto* list = node.as_array()) {
+    for (const toml::node& value : *list) add_files(value, bytes);
+  }
+}
+
+/// The model does not say all of them: stiffness of the points and of the bodies in series with it,
+/// a table between the contact points.
+std::string files_of(const SceneDescription& scene) {
+  ByteWriter bytes;
+  add_files(parse_toml(scene.complete_toml, scene.file.string()), bytes);
+  return bytes.bytes();
 }
 
 std::string settings_of(const ReducedModel& model, const SceneDescription& scene) {
@@ -124,7 +151,7 @@ KeptResults::KeptResults(const ReducedModel& model, const SceneDescription& scen
     n_points_ += static_cast<double>(patch.cells.size());
   }
   if (ResultCache::in_use() == nullptr) return;
-  const std::string settings = settings_of(model, scene);
+  const std::string settings = settings_of(model, scene) + files_of(scene);
   Keys keys{"maps", "map_phases"};
   // Bounds of a search that are not given are those of the list.
   if (scene.response->optimum && scene.response->optimum->range) keys.emplace_back("preload");

@@ -41,6 +41,34 @@ def run(name, *options, command="run", cache="cache", **changes):
     return read(name, "log.txt").decode()
 
 
+def points_scene(name, stiffness, residual):
+    """A scene whose points share a load; in series with the residual flexibility their stiffness is 1e4."""
+    folder = os.path.join(WORK, name)
+    os.makedirs(folder, exist_ok=True)
+    rows = [f"0.01,{stiffness},{stiffness},0.3,{2 + i / 100},{residual},{residual},{residual},0.8,0.1" for i in range(100)]
+    with open(os.path.join(folder, "points.csv"), "w", encoding="ascii") as file:
+        file.write("weight,tangential_stiffness,normal_stiffness,friction_coefficient,preload,"
+                   "residual_p,residual_q,residual_r,phi_u_1,phi_v_1\n")
+        file.write("\n".join(rows) + "\n")
+    scene = os.path.join(folder, "scene.toml")
+    with open(scene, "w", encoding="ascii") as file:
+        file.write("""[model]
+kind = "modal"
+[modal]
+frequency = [15.9]
+damping_ratio = 0.01
+force_sine = [1.0]
+output = [0.9]
+points = "points.csv"
+[response]
+frequency = ["12 Hz", "22 Hz"]
+harmonics = 1
+optimum = "preload"
+optimum_range = [0.2, 20]
+""")
+    return scene
+
+
 class SharedModes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -99,6 +127,22 @@ class SharedModes(unittest.TestCase):
                            ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
             self.assertEqual(taken("other", [150], **{key: value, "response.optimum": None, "response.optimum_range": None,
                                                       "accuracy.error_budget": "off"}), set(), key)
+
+    def test_a_file_that_says_more_than_the_model_is_read_again(self):
+        os.environ["MICROSLIP_CACHE"] = os.path.join(WORK, "points_cache")
+
+        def solve(*given):
+            run = microslip.run(points_scene("points", *given), folder=os.path.join(WORK, "points", "run"), without=["plots", "maps"],
+                                program=PROGRAM)
+            halved = [found for found in run.optimum["bracket"] if found["parameter"] == "contact_stiffness"][0]
+            taken = ": taken from an earlier run" in read("points", "run", "log.txt").decode()
+            return read("points", "run", "curves", "scale_1.csv"), halved["amplitude_m"], taken
+
+        curve, amplitude, _ = solve(1e4, 0)
+        self.assertEqual(solve(1e4, 0), (curve, amplitude, True))
+        other_curve, other_amplitude, taken = solve(2e4, 5e-5)  # half of the flexibility is that of the bodies, which is known
+        self.assertEqual((other_curve, taken), (curve, False))
+        self.assertGreater(abs(other_amplitude / amplitude - 1), 0.01)
 
     def test_no_folder_is_no_obstacle(self):
         open(os.path.join(WORK, "file"), "w").close()
