@@ -307,22 +307,46 @@ class Page(Case):
         self.assertIn("scene.toml is missing", text)
         self.assertEqual(len(self.data(text)["curves"]), len(self.run_.curves) - 1)
 
-    def test_a_browser_draws_it_at_two_widths(self):
+    def browser(self, width):
+        """Its command, for a window so wide."""
         browser = shutil.which("chromium") or shutil.which("chromium-browser")
         if not browser:
             self.skipTest("chromium is not installed: apt-get install chromium")
+        return [browser, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tempfile.mkdtemp(dir=WORK)}",
+                f"--window-size={width},4000", "--virtual-time-budget=2000"]
+
+    def drawn(self, page, width):
+        """The page as its scripts leave it."""
+        words = [*self.browser(width), "--dump-dom", "file://" + page]
+        return subprocess.run(words, capture_output=True, text=True, timeout=120, check=True).stdout
+
+    def measured(self, text, expression, width):
+        """What a browser makes of an expression on a page."""
+        page = os.path.join(WORK, "measured.html")
+        with open(page, "w", encoding="utf-8") as file:
+            file.write(text + f"<script>document.body.dataset.measured = {expression};</script>")
+        return re.search(r'data-measured="(.*?)"', self.drawn(page, width))[1]
+
+    def test_a_browser_draws_it_at_two_widths(self):
+        target = os.path.join(self.run_.folder, "report.html")
         for width in (1200, 420):
             picture = os.path.join(WORK, f"report_{width}.png")
-            profile = tempfile.mkdtemp(dir=WORK)
-            base = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
-                    f"--window-size={width},4000", "--virtual-time-budget=2000"]
-            target = "file://" + os.path.join(self.run_.folder, "report.html")
-            subprocess.run([*base, f"--screenshot={picture}", target], capture_output=True, timeout=120, check=True)
+            subprocess.run([*self.browser(width), f"--screenshot={picture}", "file://" + target], capture_output=True, timeout=120,
+                           check=True)
             self.assertGreater(os.path.getsize(picture), 20000)
-        drawn = subprocess.run([*base, "--dump-dom", target], capture_output=True, text=True, timeout=120, check=True).stdout
+        drawn = self.drawn(target, 420)
         paths = re.findall(r'<path d="M[^"]*L', drawn)
         self.assertGreaterEqual(len(paths), len(self.run_.curves))
         self.assertRegex(drawn, r"Hysteresis of point \d+: [\d.]+ % of the area")
+
+    def test_a_narrow_window_and_paper_hide_nothing(self):
+        text = self.page(self.run_.folder)
+        beyond = "(t => t.scrollWidth - t.clientWidth)(document.querySelector('.effects'))"
+        self.assertEqual(self.measured(text, beyond, 420), "0")  # [px]
+        height = "document.querySelector('details').offsetHeight"
+        on_paper = text.replace("@media print", "@media screen")
+        folded, unfolded = (float(self.measured(page, height, 1200)) for page in (text, on_paper))
+        self.assertGreater(unfolded, 5 * folded)
 
 
 class Numbers(unittest.TestCase):

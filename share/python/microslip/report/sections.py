@@ -21,13 +21,13 @@ LENGTH = dict(LENGTHS)
 LONGEST = 300  # characters of a value
 
 
-def table(head, rows, right=()):
-    """An HTML table of cells that are HTML already; numbers of the columns that are set right."""
+def table(head, rows, right=(), kind=""):
+    """An HTML table of cells that are HTML already; numbers of the columns that are set right; its name in page.css."""
     def cells(row, tag):
         return "".join(f'<{tag}{" class=n" if i in right else ""}>{cell}</{tag}>' for i, cell in enumerate(row))
     top = f"<thead><tr>{cells(head, 'th')}</tr></thead>" if head else ""
     body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
-    return f'<div class=wide><table>{top}<tbody>{body}</tbody></table></div>'
+    return f'<div class="wide {kind}"><table>{top}<tbody>{body}</tbody></table></div>'
 
 
 def number(value, digits=5):
@@ -119,7 +119,7 @@ def effect_row(row):
 def effects(run, data):
     rows = [effect_row(row) for row in run.summary.get("effects") or []]
     head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "why"]
-    return "" if not rows else (table(head, rows, (3, 4, 5)) +
+    return "" if not rows else (table(head, rows, (3, 4, 5), "effects") +
                      "<p class=note>Above its limit an indicator, told from the linear limits before the run, calls for the "
                      "effect; point at it to read what it is. Cost: what the curves take longer, forecast; –: not told apart.</p>")
 
@@ -145,13 +145,14 @@ def free_peak(run):
                  if curve.get("preload_N") == "free" and curve.get("peak")), None)
 
 
-def preload_text(curve):
+def preload_text(curve, unit=""):
+    """Force or scale; the unit stands behind a force."""
     scale = curve.get("preload_scale")
     value = curve.get("preload_N") if scale is None else scale
     if not is_number(value):
         return escape(str(value if value is not None else "–"))
     gap = curve.get("gap_m")
-    return number(value) + (f" (gap {number(1e6 * gap, 3)} µm)" if gap else "")
+    return number(value) + (unit if scale is None else "") + (f" (gap {number(1e6 * gap, 3)} µm)" if gap else "")
 
 
 def peaks(run, data):
@@ -259,7 +260,7 @@ def budget(run, data):
         if not bar:
             continue
         unknown = ", ".join(bar.get("not_known") or [])
-        text += (f'<div class=budget><h3>{preload_text(curve)}{"" if not is_number(curve.get("preload_N")) else " N"}: '
+        text += (f'<div class=budget><h3>{preload_text(curve, " N")}: '
                  f'amplitude ± {percent(bar.get("peak_amplitude"))}, frequency ± {percent(bar.get("peak_frequency"))}</h3>'
                  + (bars_of(rows) if rows else "<p class=note>no effect above 0.001 %</p>")
                  + energy_bars(curve, of_energy)
@@ -298,7 +299,7 @@ def problems_of(run, damage):
     lines = []
     if run.exit_code:
         lines.append(f"<b>Exit code {run.exit_code}.</b> {escape(run.message)}")
-    lines += [f"{preload_text(curve)}: incomplete: {escape(str(curve.get('diagnosis', '')))}"
+    lines += [f"{preload_text(curve, ' N')}: incomplete: {escape(str(curve.get('diagnosis', '')))}"
               for curve in run.summary["curves"] if not curve.get("complete")]
     lines += [escape(text) for text in [*run.warnings, *damage]]
     if not lines:
