@@ -39,6 +39,11 @@ bool lacks_normal_motion(const SceneDescription& scene) {
   return setting_of(scene, "normal_motion") == "off";
 }
 
+/// The linear limits alone.
+bool lacks_nonlinearity(const SceneDescription& scene) {
+  return setting_of(scene, "nonlinearity") == "off";
+}
+
 /// Somewhere the contact is open at rest.
 bool has_gap(const SceneDescription& scene) {
   if (lacks_normal_motion(scene)) return false;
@@ -127,6 +132,9 @@ constexpr std::string_view no_normal_stiffness =
 constexpr std::string_view without_normal_motion =
     "contradicts effects.normal_motion = \"off\": then the load stays that of rest";
 
+constexpr std::string_view without_nonlinearity =
+    "contradicts effects.nonlinearity = \"off\": then contact is a spring, or nothing";
+
 constexpr std::array contradictions{
     Contradiction{"nonlinearity", "on", lacks_contact, "needs a [contact]"},
     Contradiction{"nonlinearity", "off", asks_for_preloads,
@@ -137,21 +145,25 @@ constexpr std::array contradictions{
                   "contradicts contact.roughness: rough surfaces are felt by normal motion"},
     Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
     Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"separation", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"separation", "off", has_gap,
                   "contradicts a gap, which closes and opens: response.preload below 0, or preload "
                   "of a contact point"},
     Contradiction{"mean_coupling", "on", lacks_normal_motion, without_normal_motion},
     Contradiction{"mean_coupling", "on", has_constant_load, no_normal_stiffness},
+    Contradiction{"mean_coupling", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"second_direction", "on", lacks_motion_along_r,
                   "needs modes that move along r: phi_w_1 … of modal.points (kinds chain and bar "
                   "have none)"},
     Contradiction{"higher_harmonics", "on", lacks_harmonics, "needs response.harmonics above 1"},
+    Contradiction{"higher_harmonics", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"higher_harmonics", "off", has_harmonics,
                   "contradicts response.harmonics: leave that out"},
     Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
     Contradiction{"roughness", "off", is_rough, "contradicts contact.roughness: leave that out"},
     Contradiction{"rate_dependence", "on", has_constant_friction,
                   "needs a law of contact.friction_coefficient"},
+    Contradiction{"rate_dependence", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"rate_dependence", "off", is_rate_dependent,
                   "contradicts a law of contact.friction_coefficient: leave that out"},
     Contradiction{"moments", "on", lacks_area,
@@ -189,6 +201,7 @@ constexpr std::array contradictions{
     Contradiction{"coexistence", "on", goes_in_time,
                   "needs response.method = \"harmonic_balance\": integration in time follows one "
                   "motion"},
+    Contradiction{"coexistence", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"coexistence", "off", searches,
                   "contradicts response.search_starts: leave that out"},
 };

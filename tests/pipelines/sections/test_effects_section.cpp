@@ -194,6 +194,21 @@ INSTANTIATE_TEST_SUITE_P(
                       "coexistence",
                       "response.method"}));
 
+TEST(EffectsSection, WhatOnlyNonlinearContactDoesIsRefusedWithoutIt) {
+  const Overrides linear{
+      "effects.nonlinearity=off", "response.preload=[\"free\", \"stuck\"]", "response.harmonics=3",
+      "contact.friction_coefficient={ law = \"hyperbolic\", static = 0.4, rate = 1 }"};
+  EXPECT_EQ(complaint(blade, linear), "");
+  for (const char* effect :
+       {"separation", "mean_coupling", "higher_harmonics", "rate_dependence", "coexistence"}) {
+    Overrides all = linear;
+    all.push_back(std::string("effects.") + effect + "=on");
+    const std::string message = complaint(blade, all);
+    EXPECT_NE(message.find(std::string("effects.") + effect + ": "), std::string::npos) << message;
+    EXPECT_NE(message.find("effects.nonlinearity"), std::string::npos) << message;
+  }
+}
+
 TEST(EffectsSection, ASpeedWithoutAnAxisIsRefusedByBothNames) {
   const std::string message = complaint(blade, {"static.speed=\"3000 rpm\""});
   EXPECT_NE(message.find("static.speed"), std::string::npos) << message;
