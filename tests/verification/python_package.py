@@ -199,6 +199,11 @@ class Damaged(Case):
             run = microslip.open(folder)
         self.assertEqual((run.exit_code, run.optimum, run.budget.n_rows), (3, None, 0))
         self.assertGreater(run.curves["free"].n_rows, 20)
+        summary["curves"] = []
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(summary, file)
+        with self.assertWarns(microslip.RunWarning), self.assertRaisesRegex(microslip.RunError, "no finished curve"):
+            microslip.open(folder).plot_curves()
         with self.assertRaisesRegex(microslip.RunError, "summary.json is missing"):
             microslip.open(os.path.join(folder, "curves"))
 
@@ -247,6 +252,11 @@ class Running(Case):
         self.assertEqual(sweep.peaks["curve"], ["preload_50", "preload_100"])
         once = self.run_.curves["preload_100"].peak["amplitude_m"]
         self.assertAlmostEqual(sweep.peaks["amplitude_m"][1] / once, 1.0, places=8)
+
+    def test_a_sweep_takes_lists(self):
+        for one in ("1 %", 0.01):  # a text is no list of letters
+            with self.assertRaisesRegex(ValueError, "values of modes.damping_ratio: expected a list"):
+                microslip.sweep(CHAIN, {"modes.damping_ratio": one}, progress=False)
 
 
 class Page(Case):

@@ -239,7 +239,7 @@ class Run:
 
     def plot_curves(self) -> Figure:
         """plots/curves.png of the report as a matplotlib figure: draw into figure.axes, or figure.savefig(FILE)."""
-        return self._figure("curves", "its curves have one frequency each: there is none to draw")
+        return self._figure("curves", "no finished curve of more than one frequency: there is none to draw")
 
     def plot_peaks(self) -> Figure:
         """Peak against preload. RunError with less than two peaks."""

@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 import threading
-from typing import Any, Iterator, Mapping, Optional, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence
 
 from microslip.files import RunError
 from microslip.program import Call, Exhausted, Incomplete, Overrides, Path, ProgramError, find_program, words_of
@@ -145,8 +145,12 @@ def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, overrides: Option
         sweep("blade.toml", {"contact.friction_coefficient": [0.2, 0.3, 0.4]})
 
     overrides hold for all runs. folder takes run_000, run_001, …; a temporary one where not given. A run that fails
-    leaves its message in point.error and the others go on. ProgramError only where the program is not found.
+    leaves its message in point.error and the others go on. ProgramError only where the program is not found, ValueError
+    where a key has one value in place of a list.
     """
+    for key, several in values.items():
+        if isinstance(several, str) or not isinstance(several, Iterable):
+            raise ValueError(f"values of {key}: expected a list, found {several!r}; what holds for all runs belongs to overrides=")
     found = find_program(program)
     place = tempfile.mkdtemp(prefix="microslip_sweep_") if folder is None else os.path.abspath(os.fspath(folder))
     chosen = [dict(zip(values, combination)) for combination in itertools.product(*values.values())]
