@@ -13,10 +13,19 @@
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/solution_maps.hpp"
 #include "pipelines/run/solved_again.hpp"
+#include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/result_cache.hpp"
 
 namespace microslip::pipelines {
+
+namespace {
+
+double degrees_of_freedom(const Solution& solution) {
+  return solution.structure ? 3.0 * static_cast<double>(solution.structure->mesh.n_nodes()) : 0.0;
+}
+
+}  // namespace
 
 int run_study(const SceneDescription& scene, const RunOptions& options) {
   begin_in(options.output, [&] { require_response(scene); });
@@ -34,6 +43,8 @@ int run_study(const SceneDescription& scene, const RunOptions& options) {
     solution.curves = trace_family(solution.model, scene, options.jobs, record);
     record.keep_choices(scene);
     record.stage("accuracy");
+    record.progress().expect(
+        accuracy_seconds(solution.model, scene, degrees_of_freedom(solution), options.jobs));
     solution.budgets = budgets_of(solution.model, scene, solution.structure.get(), options.jobs,
                                   solution.curves, record.progress());
     keep_budgets(solution, record);

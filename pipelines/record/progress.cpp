@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <exception>
@@ -107,15 +108,57 @@ void Progress::stage(const std::string& name) {
   end_stage();
   stage_ = name;
   stage_begin_ = Clock::now();
+  expected_ = 0.0;
+  has_points_ = false;
   gauge_.emplace();
   log(Level::info, "stage " + name);
   if (terminal_) draw_live(name + " ...");
+  start_clock();
+}
+
+void Progress::expect(double seconds) {
+  const std::lock_guard lock(mutex_);
+  expected_ = seconds;
+}
+
+void Progress::start_clock() {
+  if (verbosity_ == Verbosity::quiet || clock_.joinable()) return;
+  try {
+    clock_ = std::jthread([this](const std::stop_token& stop) { tell_time(stop); });
+  } catch (const std::system_error&) {  // no memory for a thread: the run goes on without
+  }
+}
+
+std::string Progress::time_text(double elapsed) const {
+  std::string text = fmt::format("{}  {}", stage_, duration_text(elapsed));
+  if (expected_ == 0.0) return text;
+  if (elapsed < expected_) return text + ", some " + duration_text(expected_ - elapsed) + " left";
+  return text + ", where " + duration_text(expected_) + " were expected";
+}
+
+void Progress::tell_time(const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds tick{500};
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    stopped_.wait_for(lock, stop, tick, [] { return false; });
+    const std::chrono::seconds silence{terminal_ && !has_points_ ? 1 : 10};
+    const Clock::time_point now = Clock::now();
+    if (stage_.empty() || now - std::max(last_drawn_, stage_begin_) < silence) continue;
+    last_drawn_ = now;
+    const std::string line = time_text(Seconds(now - stage_begin_).count());
+    if (terminal_) {
+      draw_live(line);
+    } else {
+      print_line(line);
+    }
+  }
 }
 
 void Progress::point(const std::string& curve, const solver::ResponsePoint& point,
                      double fraction) {
   const std::lock_guard lock(mutex_);
   append_history(curve, point);
+  has_points_ = true;
   const std::string text = describe(curve, point);
   if (verbosity_ == Verbosity::verbose) return print_line("  " + text);
   constexpr std::chrono::milliseconds redraw_interval{100};  // for the eye

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <iosfwd>
@@ -12,7 +13,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "pipelines/record/run_folder.hpp"
@@ -47,6 +50,9 @@ class Progress {
 
   /// Ends the stage before and begins this one.
   void stage(const std::string& name);
+  /// What this stage is expected to take [s]; 0: not known. While it says nothing else, a stage
+  /// tells every second on a terminal, every ten elsewhere, how long it has taken and what is left.
+  void expect(double seconds);
   /// A point of a curve is finished.
   /// @param fraction  of the stage that is done, 0 … 1, for the time left; below 0: not known.
   void point(const std::string& curve, const solver::ResponsePoint& point, double fraction);
@@ -77,6 +83,9 @@ class Progress {
   void draw_live(const std::string& line);
   void clear_live();
   void end_stage();
+  void start_clock();
+  void tell_time(const std::stop_token& stop);
+  [[nodiscard]] std::string time_text(double elapsed) const;
   void open_history(RunStart start);
   void append_history(const std::string& curve, const solver::ResponsePoint& point);
   [[nodiscard]] StageRecord running_stage() const;
@@ -90,6 +99,8 @@ class Progress {
   Clock::time_point stage_begin_ = begin_;
   Clock::time_point last_drawn_{};
   std::string stage_;
+  double expected_ = 0.0;    ///< of the stage [s]; 0: not known
+  bool has_points_ = false;  ///< which tell more
   std::optional<MemoryGauge> gauge_;
   std::vector<StageRecord> stages_;
   std::vector<std::string> warnings_;
@@ -98,6 +109,8 @@ class Progress {
   std::ofstream history_;
   std::filesystem::path history_file_;
   std::map<std::string, std::size_t> history_lines_;  ///< of each curve
+  std::condition_variable_any stopped_;
+  std::jthread clock_;  // last: it reads the others
 };
 
 }  // namespace microslip::pipelines

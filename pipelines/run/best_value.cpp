@@ -13,6 +13,7 @@
 #include "pipelines/response/optimum_stage.hpp"
 #include "pipelines/run/kept_results.hpp"
 #include "pipelines/run/solution_maps.hpp"
+#include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 
@@ -71,6 +72,7 @@ void draw_maps_and_find_best_value(const Solution& solution, const RunOptions& o
     draw_maps(solution, options.jobs, record);
   }
   record.stage("optimum");
+  record.progress().expect(optimum_seconds(solution.model, scene, options.bracket));
   OptimumSearch search(solution.model, scene, solution.structure, options.jobs);
   if (const std::string text = search.warning(); !text.empty()) record.progress().warning(text);
   const KeptResults kept(solution.model, scene);

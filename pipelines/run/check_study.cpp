@@ -27,6 +27,7 @@
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/draw_scene.hpp"
 #include "pipelines/run/questions.hpp"
+#include "pipelines/run/stage_seconds.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
@@ -53,33 +54,16 @@ void add_curves(const SceneDescription& scene, const ReducedModel* model, Foreca
   }
 }
 
-/// Of a mesh that is made here, or read, and its modes.
-double mesh_and_modes(double degrees_of_freedom, const SceneDescription& scene) {
-  const double mesh = (element_size_of(scene) ? 7e-5 : 1e-5) * degrees_of_freedom;
-  if (given_modes(scene) != nullptr) return mesh;
-  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
-  constexpr double start = 0.5;  // of the mesher, of the libraries
-  return start + mesh + modes;
-}
-
-/// The same of elements twice and four times as large, which tell the error of the mesh.
-double coarser_meshes(double degrees_of_freedom, const SceneDescription& scene) {
-  if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
-  constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
-  return mesh_and_modes(degrees_of_freedom / fewer, scene) +
-         mesh_and_modes(degrees_of_freedom / (fewer * fewer), scene);
-}
-
 /// @param model  where the scene brings its modes, else nullptr.
 Forecast forecast_of(const mesh::Mesh& mesh, const SceneDescription& scene,
                      const ReducedModel* model) {
   Forecast forecast;
   forecast.degrees_of_freedom = 3.0 * static_cast<double>(mesh.n_nodes());
-  forecast.modes_seconds = mesh_and_modes(forecast.degrees_of_freedom, scene);
+  forecast.modes_seconds = mesh_and_modes_seconds(forecast.degrees_of_freedom, scene);
   forecast.solver_memory = solver_memory(mesh, scene.settings.basis.solver);
   forecast.memory_gb = memory_before_modes + 1e-3 * forecast.solver_memory->needed_mb();
   add_curves(scene, model, forecast);
-  const double more = coarser_meshes(forecast.degrees_of_freedom, scene);
+  const double more = coarser_meshes_seconds(forecast.degrees_of_freedom, scene);
   if (forecast.response.errors > 0.0) forecast.response.errors += more;
   if (forecast.response_along_r && forecast.response_along_r->errors > 0.0) {
     forecast.response_along_r->errors += more;

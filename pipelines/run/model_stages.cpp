@@ -12,6 +12,8 @@
 #include "pipelines/model/scene_places.hpp"
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/run/questions.hpp"
+#include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/text/rounded.hpp"
@@ -36,6 +38,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   tell_ranks(record.progress());
   record.stage("mesh");
+  record.progress().expect(mesh_seconds(scene));
   record.keep_inputs(scene);
   const auto finished = record.finished_mesh();
   mesh::Mesh mesh =
@@ -46,6 +49,10 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   for (const std::string& line : describe_places(mesh, scene)) record.progress().info(line);
   ask(record.progress(), scene, mesh);
   record.stage("modes");
+  if (given_modes(scene) == nullptr) {
+    record.progress().expect(
+        modes_seconds(3.0 * static_cast<double>(mesh.n_nodes()), scene.settings.basis.n_modes));
+  }
   std::optional<StructureModes> modes = record.finished_modes();
   if (!modes) modes = solve_structure(mesh, scene);
   for (const std::string& warning : modes->warnings) record.progress().warning(warning);

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -39,6 +40,22 @@ TEST(Progress, StagesAreTimedInOrderAndMeasured) {
   EXPECT_LT(stages[1].seconds, 10.0);
   EXPECT_GT(stages[1].peak_memory_mb, 200.0);
   EXPECT_EQ(stages[2].name, "curves");
+}
+
+TEST(Progress, AStageThatSaysNothingTellsWhatIsLeft) {
+  std::ostringstream out;
+  Progress progress(out, true, Verbosity::normal);
+  progress.stage("modes");
+  progress.expect(60.0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  progress.stage("optimum");
+  progress.expect(0.6);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+  progress.finish();
+  const std::regex left("modes  [1-2] s, some 5[89] s left");
+  const std::regex over("optimum  [1-2] s, where 1 s were expected");
+  EXPECT_TRUE(std::regex_search(out.str(), left)) << out.str();
+  EXPECT_TRUE(std::regex_search(out.str(), over)) << out.str();
 }
 
 TEST(Progress, HistoryGrowsWithEveryPoint) {

@@ -1,0 +1,60 @@
+#include "pipelines/run/stage_seconds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/element_count.hpp"
+#include "pipelines/effects/curve_cost.hpp"
+#include "pipelines/structure/solver_time.hpp"
+
+namespace microslip::pipelines {
+namespace {
+
+constexpr double per_meshed_freedom = 7e-5;  // [s]
+
+ResponseSeconds seconds_of(const ReducedModel& model, const SceneDescription& scene) {
+  return response_seconds(scene, curve_effects(scene, model.effects.second_direction));
+}
+
+}  // namespace
+
+double mesh_and_modes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
+  const double mesh = (element_size_of(scene) ? per_meshed_freedom : 1e-5) * degrees_of_freedom;
+  if (given_modes(scene) != nullptr) return mesh;
+  const double modes = modes_seconds(degrees_of_freedom, scene.settings.basis.n_modes);
+  constexpr double start = 0.5;  // of the mesher, of the libraries
+  return start + mesh + modes;
+}
+
+double coarser_meshes_seconds(double degrees_of_freedom, const SceneDescription& scene) {
+  if (!scene.accuracy.error_budget || !element_size_of(scene)) return 0.0;
+  constexpr double fewer = 5.0;  // a blade is thin: between the square and the cube of two
+  return mesh_and_modes_seconds(degrees_of_freedom / fewer, scene) +
+         mesh_and_modes_seconds(degrees_of_freedom / (fewer * fewer), scene);
+}
+
+double mesh_seconds(const SceneDescription& scene) {
+  const auto* blade = std::get_if<BladeModel>(&scene.model);
+  if (blade == nullptr) return 0.0;
+  constexpr double freedoms_in_cube = 32.0;  // of an edge: 69 000 of 3 mm in the default blade
+  return per_meshed_freedom * freedoms_in_cube * blade_volume(blade->geometry) /
+         std::pow(blade->sizes.element_size, 3.0);
+}
+
+double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene,
+                        double degrees_of_freedom, int jobs) {
+  if (!scene.accuracy.error_budget) return 0.0;
+  const auto curves = static_cast<double>(curve_requests(scene).size());
+  const double beside = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, curves));
+  return seconds_of(model, scene).errors / beside +
+         coarser_meshes_seconds(degrees_of_freedom, scene);
+}
+
+double optimum_seconds(const ReducedModel& model, const SceneDescription& scene, bool bracket) {
+  const ResponseSeconds seconds = seconds_of(model, scene);
+  return seconds.best_value + (bracket ? seconds.bracket : 0.0);
+}
+
+}  // namespace microslip::pipelines

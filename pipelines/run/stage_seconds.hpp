@@ -1,0 +1,30 @@
+/// @file
+/// How long the stages of a run are expected to take: what `check` forecasts,
+/// and what `run` says of the time left where nothing else tells.
+#pragma once
+
+#include "pipelines/description/scene_description.hpp"
+#include "pipelines/model/reduced_model.hpp"
+
+namespace microslip::pipelines {
+
+/// Of a mesh that is made here, or read, and its modes. Processor seconds of one core, as all here.
+[[nodiscard]] double mesh_and_modes_seconds(double degrees_of_freedom,
+                                            const SceneDescription& scene);
+
+/// The same of elements twice and four times as large, which tell the error of the mesh.
+[[nodiscard]] double coarser_meshes_seconds(double degrees_of_freedom,
+                                            const SceneDescription& scene);
+
+/// Of the mesh alone, before there is one; 0: not known.
+[[nodiscard]] double mesh_seconds(const SceneDescription& scene);
+
+/// Of the stage `accuracy`, errors of curves. @param degrees_of_freedom  0 without a mesh.
+[[nodiscard]] double accuracy_seconds(const ReducedModel& model, const SceneDescription& scene,
+                                      double degrees_of_freedom, int jobs);
+
+/// Of the stage `optimum`. @param bracket  whether its bracket is solved for.
+[[nodiscard]] double optimum_seconds(const ReducedModel& model, const SceneDescription& scene,
+                                     bool bracket);
+
+}  // namespace microslip::pipelines
