@@ -63,11 +63,13 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     } else if (auto earlier = kept_results.curve(requests[i])) {
       results[i] = std::move(*earlier);
     } else {
+      const TimeLimit limit(scene.response->time_budget);
       results[i] = trace_curve(model, scene, requests[i], observe);
       // Else it may be cut short, or have fewer harmonics than it was to have.
       if (!interrupt_requested() && !time_is_short()) {
         record.keep_finished(results[i]);
-        kept_results.keep(results[i]);
+        // With more time it may have had its harmonics checked, or other solutions beside it.
+        if (!limit.is_over()) kept_results.keep(results[i]);
       }
     }
     ++done;

@@ -140,6 +140,7 @@ std::string errors_name(const CurveResult& curve) { return "errors_" + curve.nam
 /// Errors are those of these points, whatever they took.
 std::string with_points(const std::string& inputs, const CurveResult& curve) {
   ByteWriter bytes;
+  bytes(curve.richer.has_value());  // not where its time was over before
   for (const solver::ResponsePoint& point : curve.curve.points) bytes(point.q);
   return with_load(inputs, curve.load) + bytes.bytes();
 }

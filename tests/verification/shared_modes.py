@@ -144,6 +144,18 @@ class SharedModes(unittest.TestCase):
         self.assertEqual((other_curve, taken), (curve, False))
         self.assertGreater(abs(other_amplitude / amplitude - 1), 0.01)
 
+    def test_what_its_time_has_cut_short_is_not_taken(self):
+        alone = {"response.harmonics": 3, "response.frequency": "320 Hz", "response.preload": [-500], "contact.points": 96,
+                 "effects.coexistence": "on", "accuracy.error_budget": "auto"}
+        run("hurried", cache="hurried_cache", **alone, **{"response.time_budget": "0.02 s"})  # over while others are looked for
+        run("unhurried", cache="hurried_cache", **alone)
+        run("unhurried_alone", "--no-cache", **alone)
+        found, expected = (json.loads(read(name, "summary.json")) for name in ("unhurried", "unhurried_alone"))
+        self.assertIsNotNone(expected["curves"][0]["harmonics"]["with_more"]["amplitude_m"])
+        for key in ("bar", "digits"):
+            self.assertEqual(found["curves"][0][key], expected["curves"][0][key], key)
+        self.assertEqual(found["curves"][0]["harmonics"], expected["curves"][0]["harmonics"])
+
     def test_no_folder_is_no_obstacle(self):
         open(os.path.join(WORK, "file"), "w").close()
         self.assertIn("nothing is taken from earlier runs", run("without", command="modes", cache="file"))
