@@ -10,10 +10,6 @@
 
 namespace microslip::solver {
 
-/// How closely forces of the contact are known: to rounding, or as those sampled in time, whose
-/// Jacobians err by some 1e-4.
-enum class Forces { exact, sampled };
-
 struct ContinuationOptions {
   double frequency_begin = 0.0;  ///< [rad/s], > 0
   double frequency_end = 0.0;    ///< [rad/s], > 0; may be below frequency_begin
@@ -29,7 +25,6 @@ struct ContinuationOptions {
   /// Forces alone may be several times cheaper than with derivatives: then steps are corrected with
   /// one Jacobian each (balance/few_jacobians.hpp).
   enum class Corrector { newton, few_jacobians } corrector = Corrector::newton;
-  Forces forces = Forces::exact;  ///< sampled: points need not lie closer, nor be closer to peaks
   int max_points = 20000;
   /// Looks for a proof that the curve is linear (linear_certificate.hpp) before it is walked.
   bool linear_certificate = true;

@@ -210,13 +210,6 @@ int most_meant(const ReducedModel& model, const ResponseDescription& response, i
 
 }  // namespace
 
-/// Of all forces but those in closed form derivatives take as long as the force, or longer.
-bool has_dear_jacobians(const ReducedModel& model) {
-  if (model.effects.n_harmonics > 1 || model.effects.second_direction) return true;
-  return std::ranges::any_of(model.patches,
-                             [](const contact::Patch& patch) { return !patch.rules.plain(); });
-}
-
 solver::ContinuationOptions continuation_options(const SceneDescription& scene,
                                                  const ReducedModel& model) {
   const ResponseDescription& response = *scene.response;
@@ -233,9 +226,6 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.stop = [] { return interrupt_requested() || cut_short(); };
   if (contact::is_sampled(model.patches, model.effects)) {
     options.residual_tolerance = sampled_tolerance;
-    options.forces = solver::Forces::sampled;
-  }
-  if (options.forces == solver::Forces::sampled || has_dear_jacobians(model)) {
     options.corrector = solver::ContinuationOptions::Corrector::few_jacobians;
   }
   return options;
@@ -418,7 +408,6 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
     options.residual_tolerance =
         solver::ContinuationOptions{}.residual_tolerance;  // nothing is sampled
     options.corrector = solver::ContinuationOptions::Corrector::newton;
-    options.forces = solver::Forces::exact;
     result.curve = solver::trace_linear(
         limit_scene(model),
         *limit == LimitName::free ? solver::LinearLimit::free : solver::LinearLimit::stuck,

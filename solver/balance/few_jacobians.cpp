@@ -17,11 +17,6 @@ constexpr double far = 3e-2;  // no place for a chord
 constexpr double near =
     3e-4;  // from here to the solution derivatives change by less than a plot shows
 
-// Of a tolerance this close, updates go on as long as they help: energies balance to some hundred
-// times the residual.
-constexpr double close_tolerance = 5e-11;
-constexpr double polished = 2e-13;
-
 class Corrector {
  public:
   Corrector(const EconomicSystem& system, const BranchVector& constraint, const Scaling& scaling,
@@ -30,14 +25,12 @@ class Corrector {
         constraint_(constraint),
         scaling_(scaling),
         options_(options),
-        tolerance_(std::max(options.tolerance, scaling.rounding)),
-        enough_(options.tolerance < close_tolerance ? std::max(polished, scaling.rounding)
-                                                    : tolerance_) {}
+        tolerance_(std::max(options.tolerance, scaling.rounding)) {}
 
   NewtonResult run(const BranchVector& start) {
     NewtonResult at = evaluated(system_.whole, start);
     for (int i = 0; i < most_jacobians && at.residual <= far; ++i) {
-      if (at.residual <= enough_) return finished(std::move(at));
+      if (at.residual <= tolerance_) return finished(std::move(at));
       NewtonResult best = approached(at);
       if (best.residual <= tolerance_ && at.residual <= near) {
         best.evaluation.jacobian = std::move(at.evaluation.jacobian);
@@ -100,7 +93,7 @@ class Corrector {
       ++iterations_;
       const bool fell = trial.residual < falls * best.residual;
       if (trial.residual < best.residual) best = std::move(trial);
-      if (!fell || best.residual <= enough_) return best;
+      if (!fell || best.residual <= tolerance_) return best;
       here = &best.evaluation;
       steps.push_back(std::move(next));
     }
@@ -112,7 +105,6 @@ class Corrector {
   const Scaling& scaling_;
   const NewtonOptions& options_;
   double tolerance_;
-  double enough_;                   // where updates end
   std::optional<Tangent> tangent_;  // at the last Jacobian that was factorised
   int iterations_ = 0;
   int evaluations_ = 0;

@@ -26,8 +26,7 @@ constexpr double angle_wanted = 0.13;  // rad per step
 constexpr double learned_angle = 0.2;
 constexpr double correction_limit = 0.3;  // of the step: beyond, the point may be another branch's
 constexpr int wanted_iterations = 4;
-constexpr int wanted_updates = 4;  // of Broyden's method, by forces alone
-constexpr int wanted_updates_of_sampled = 6;
+constexpr int wanted_updates = 6;  // of Broyden's method, by forces alone
 // Of a step, which is at most a fifth of a resonance wide: below it are rounding errors only.
 constexpr double exact_share = 1e-13;
 // Of a sampled force, whose Jacobian errs by some 1e-4: the square of this in the amplitude of a
@@ -121,14 +120,12 @@ void BranchWalker::accept(Trial trial) {
 }
 
 void BranchWalker::choose_step(const Trial& trial) {
-  const int updates = forces_ == Forces::sampled ? wanted_updates_of_sampled : wanted_updates;
-  const int wanted = residual_ ? updates : wanted_iterations;
+  const int wanted = residual_ ? wanted_updates : wanted_iterations;
   const double effort =
       std::sqrt(static_cast<double>(wanted) / std::max(trial.point.solution.iterations, 1));
   const double angle = std::acos(std::clamp(trial.cosine, -1.0, 1.0));
-  const double bend =
-      angle > 0.0 ? (forces_ == Forces::sampled ? learned_angle : angle_wanted) / angle : 2.0;
-  step_ = std::min(forces_ == Forces::sampled ? longest_learned_step : longest_step,
+  const double bend = angle > 0.0 ? (residual_ ? learned_angle : angle_wanted) / angle : 2.0;
+  step_ = std::min(residual_ ? longest_learned_step : longest_step,
                    step_ * std::clamp(std::min(effort, bend), 0.5, 2.0));
 }
 
@@ -227,7 +224,7 @@ bool BranchWalker::leap() {
 
 NewtonResult BranchWalker::solved_between(const BranchVector& start,
                                           const BranchVector& chord) const {
-  if (forces_ == Forces::sampled) {
+  if (residual_) {
     return solve_with_few_jacobians({system_, residual_}, start, chord, now_.scaling,
                                     {.tolerance = tolerance_});
   }
@@ -235,9 +232,7 @@ NewtonResult BranchWalker::solved_between(const BranchVector& start,
   return solve_newton(system_, start, chord, now_.scaling, {.tolerance = 1e-14});
 }
 
-double BranchWalker::resolution() const {
-  return forces_ == Forces::sampled ? sampled_share : exact_share;
-}
+double BranchWalker::resolution() const { return residual_ ? sampled_share : exact_share; }
 
 /// On the plane through the start across the chord.
 std::optional<WalkerPoint> BranchWalker::corrected(const BranchVector& start,

@@ -13,7 +13,6 @@
 #include "solver/branch/branch_geometry.hpp"
 #include "solver/branch/predictor.hpp"
 #include "solver/branch/step_states.hpp"
-#include "solver/continuation_options.hpp"
 #include "solver/diagnosis.hpp"
 
 namespace microslip::solver {
@@ -49,11 +48,7 @@ class BranchWalker {
 
   /// Steps are corrected with one Jacobian each (few_jacobians.hpp).
   /// @param residual  of the same system, may leave the derivatives empty.
-  /// @param forces    sampled: longer steps, and special points no closer than they are known.
-  void economise(ParametricSystem residual, Forces forces) {
-    residual_ = std::move(residual);
-    forces_ = forces;
-  }
+  void economise(ParametricSystem residual) { residual_ = std::move(residual); }
 
   /// One accepted step. False: no remedy helped; now() is the last good point.
   [[nodiscard]] bool advance();
@@ -116,7 +111,6 @@ class BranchWalker {
 
   ParametricSystem system_;
   ParametricSystem residual_;  ///< empty: Newton's method all the way
-  Forces forces_ = Forces::exact;
   BranchPredictor predictor_;
   ScalingRule rule_;
   double tolerance_;

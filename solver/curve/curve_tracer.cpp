@@ -178,9 +178,9 @@ BranchWalker CurveTracer::walker_from(NewtonResult start) {
       system, [this](const NewtonResult& at) { return scaling_at(at); }, std::move(start), forward,
       options_.residual_tolerance);
   if (options_.corrector == ContinuationOptions::Corrector::few_jacobians) {
-    walker.economise([this](const Eigen::VectorXd& x,
-                            double frequency) { return balance_->residual(x, frequency); },
-                     options_.forces);
+    walker.economise([this](const Eigen::VectorXd& x, double frequency) {
+      return balance_->residual(x, frequency);
+    });
   }
   if (scene_.contact) {
     walker.watch([this](const BranchVector& at, contact::ContactStates& states) {

@@ -195,8 +195,7 @@ std::optional<LocalPeak> follow_peak(HarmonicBalance& balance, const LocalPeak& 
   BranchWalker walker(system, rule, std::move(start), forward, range.residual_tolerance);
   if (range.corrector == ContinuationOptions::Corrector::few_jacobians) {
     walker.economise(
-        [&](const Eigen::VectorXd& x, double frequency) { return balance.residual(x, frequency); },
-        range.forces);
+        [&](const Eigen::VectorXd& x, double frequency) { return balance.residual(x, frequency); });
   }
   std::optional<LocalPeak> peak = climb(balance, walker, guess, range);
   work.iterations += walker.iterations();
