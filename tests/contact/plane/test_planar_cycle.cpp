@@ -151,6 +151,23 @@ TEST(PlaneEvents, InstantsAddUpToTheCoefficients) {
   EXPECT_NEAR(length, 2.0 * std::numbers::pi, 1e-12);
 }
 
+TEST(PlaneEvents, TractionAloneIsThatWithDerivatives) {
+  for (const auto& [load, regime] :
+       {std::pair{0.9, CycleRegime::separation}, std::pair{3.0, CycleRegime::stick_slip},
+        std::pair{50.0, CycleRegime::full_stick}}) {
+    const PlaneEvents law(SurfaceLaw({2.0, 1.5, 0.6, load}, 2.0));
+    PointTraction whole;
+    PointTraction alone;
+    law.traction(lissajous(), 1.0, whole);
+    law.traction_alone(lissajous(), 1.0, alone);
+    EXPECT_EQ(alone.force.vector(), whole.force.vector());
+    EXPECT_EQ(alone.regime, whole.regime);
+    EXPECT_EQ(alone.regime, regime);
+    EXPECT_EQ(alone.defect, whole.defect);
+    EXPECT_EQ(alone.jacobian.size(), 0);
+  }
+}
+
 TEST(PlaneEvents, WithoutFrictionOnlyTheLoadIsLeft) {
   PointTraction traction;
   for (const auto& [mu, k] : {std::pair{0.0, 2.0}, std::pair{0.5, 0.0}}) {
