@@ -22,6 +22,8 @@ constexpr double rounded_amplitude = 1e-7;  // relative
 constexpr double same_frequency = 1e-4;     // of the resonance width
 // Between two values the step is halved down to this share of their distance.
 constexpr double finest = 1.0 / 64.0;
+// Following may cost this part of a curve, which tells more, before it is given up.
+constexpr long worth_of_a_curve = 4;
 constexpr double rounding = 1e-6;  // of a step: what is left of the way is none of its own
 // A pair of peaks closer than this share of the step ahead tells rounding errors, not a direction.
 constexpr double shortest_base = 0.05;
@@ -359,7 +361,7 @@ bool PeakFamilies::follow_to(Followed& family, double target) const {
 bool PeakFamilies::follow_from(Followed& family, Peaks::const_iterator nearest,
                                double target) const {
   Peaks& peaks = family.peaks;
-  const long most_evaluations = family.work.contact_evaluations + curve_cost();
+  const long most_evaluations = family.work.contact_evaluations + curve_cost() / worth_of_a_curve;
   double step = target - nearest->first;
   bool failed = false;
   while (nearest->first != target) {
