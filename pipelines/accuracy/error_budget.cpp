@@ -10,6 +10,7 @@
 
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
+#include "solver/mark_shift.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -93,6 +94,38 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
            {richer.share * change.amplitude, richer.share * change.frequency,
             richer.share * change.energy},
            ErrorKind::solved, seconds_since(begin));
+}
+
+/// What located events move the peaks and folds of a curve by that are not its highest peak: the
+/// largest of all.
+void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel& located,
+               const CurveResult& result, double load) {
+  const auto begin = std::chrono::steady_clock::now();
+  ReducedModel exact = model_of(model, result.curve);
+  if (exact.effects.located) return;
+  exact.effects.located = true;
+  const solver::Scene scene = solver_scene(exact, load);
+  solver::MarkShift largest;
+  const auto keep = [](double& most, double other) {
+    if (std::abs(other) > std::abs(most)) most = other;
+  };
+  int n_told = 0;
+  for (const solver::ResponsePoint& point : result.curve.points) {
+    const bool peak = point.mark == solver::PointMark::peak;
+    if (!peak && point.mark != solver::PointMark::fold) continue;
+    const auto shift = solver::mark_shift(scene, point);
+    if (!shift) continue;
+    ++n_told;
+    keep(largest.frequency, shift->frequency);
+    if (peak) keep(largest.amplitude, shift->amplitude);
+  }
+  if (n_told == 0) return;
+  const double seconds = seconds_since(begin);
+  const std::string& source = located.source;
+  budget.rows.push_back({result.name, marked_amplitude_goal, source, largest.amplitude,
+                         ErrorKind::estimated, seconds});
+  budget.rows.push_back({result.name, marked_frequency_goal, source, largest.frequency,
+                         ErrorKind::estimated, seconds});
 }
 
 /// The choice of harmonics was cut short, or did not end.
@@ -207,6 +240,7 @@ CurveBudget error_budget(const ReducedModel& model, const SceneDescription& scen
       continue;
     }
     add_model(budget, model, scene, other, result, *load);
+    if (other.source == "instants") add_marks(budget, model, other, result, *load);
   }
   add_certificate(budget, result, *peak);
   return budget;

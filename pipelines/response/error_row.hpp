@@ -12,6 +12,9 @@ namespace microslip::pipelines {
 inline constexpr const char* peak_amplitude_goal = "peak_amplitude";
 inline constexpr const char* peak_frequency_goal = "peak_frequency";
 inline constexpr const char* dissipated_energy_goal = "dissipated_energy";  ///< at the peak
+/// Of all peaks and folds of a curve, the one that moves most; no part of a bar.
+inline constexpr const char* marked_amplitude_goal = "marked_amplitude";
+inline constexpr const char* marked_frequency_goal = "marked_frequency";
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";

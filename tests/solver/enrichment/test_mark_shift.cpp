@@ -1,0 +1,75 @@
+#include "solver/mark_shift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "solver/continuation.hpp"
+#include "tests/support/floating_point_traps.hpp"
+#include "tests/support/modal_scenes.hpp"
+
+namespace microslip::solver::test_mark_shift {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+ContinuationOptions range(ContinuationOptions::Corrector corrector) {
+  ContinuationOptions options;
+  options.frequency_begin = two_pi * 18.0;
+  options.frequency_end = two_pi * 28.0;
+  options.n_harmonics = 3;
+  options.corrector = corrector;
+  return options;
+}
+
+std::vector<ResponsePoint> marks_of(const ResponseCurve& curve) {
+  std::vector<ResponsePoint> marks;
+  std::ranges::copy_if(curve.points, std::back_inserter(marks), [](const ResponsePoint& point) {
+    return point.mark == PointMark::peak || point.mark == PointMark::fold;
+  });
+  return marks;
+}
+
+/// Peaks and folds of forces sampled coarsely, moved to where located events have them. A peak of
+/// the curve lies within its resolution of the highest place, where it is 1e-6 lower.
+TEST(MarkShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
+  const tests::UntrappedFloatingPoint lanes_divide_before_they_choose;
+  int n_folds = 0;
+  for (const double preload : {10.0, 30.0, 50.0, 100.0}) {
+    Scene located = tests::three_dof_scene(preload);
+    tests::use_event_cycles(located);
+    Scene sampled = tests::three_dof_scene(preload);
+    tests::use_lanes(sampled, 64);
+    const auto exact =
+        marks_of(trace_response(located, range(ContinuationOptions::Corrector::newton)));
+    const auto coarse =
+        marks_of(trace_response(sampled, range(ContinuationOptions::Corrector::few_jacobians)));
+    ASSERT_EQ(exact.size(), coarse.size()) << preload;
+    ASSERT_FALSE(exact.empty()) << preload;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      ASSERT_EQ(exact[i].mark, coarse[i].mark);
+      const auto shift = mark_shift(located, coarse[i]);
+      ASSERT_TRUE(shift.has_value()) << preload;
+      const bool fold = exact[i].mark == PointMark::fold;
+      n_folds += fold ? 1 : 0;
+      const double frequency = exact[i].frequency / coarse[i].frequency - 1.0;
+      const double amplitude = exact[i].amplitude / coarse[i].amplitude - 1.0;
+      std::printf("%g N, %s at %.3f Hz: frequency %+.2e told %+.2e, amplitude %+.2e told %+.2e\n",
+                  preload, fold ? "fold" : "peak", exact[i].frequency / two_pi, frequency,
+                  shift->frequency, amplitude, shift->amplitude);
+      if (fold) {
+        EXPECT_NEAR(shift->frequency, frequency, 0.15 * std::abs(frequency) + 1e-8);
+      } else {
+        EXPECT_NEAR(shift->amplitude, amplitude, 0.15 * std::abs(amplitude) + 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(n_folds, 2);
+}
+
+}  // namespace
+}  // namespace microslip::solver::test_mark_shift
