@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -255,6 +256,12 @@ struct SceneDescription {
   std::string without_contact;
   std::string complete_toml;  ///< the scene with --set and every default written out: scene.toml
   std::vector<std::pair<std::string, std::string>> effects;  ///< [effects] name → auto | on | off
+  bool areas = true;  ///< contact acts on areas; else on one point in the middle of each
+  bool uniform_static_preload = false;  ///< of a static preload its force alone counts
+  bool judges_stability = true;         ///< of points
+  /// The scene as its keys give it, where effects that are "off" are taken out of this one
+  /// (effects_left_out.hpp); nullptr: nothing is. Shared: copies of a scene were written alike.
+  std::shared_ptr<const SceneDescription> written;
   Discretisation settings;
   AccuracyRequest accuracy;
 };

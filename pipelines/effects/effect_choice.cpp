@@ -12,11 +12,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/contact_effects.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_sizes.hpp"
 #include "pipelines/effects/motion_along_r.hpp"
 #include "pipelines/model/contact_frame.hpp"
+#include "pipelines/model/contact_stage.hpp"
 #include "pipelines/text/rounded.hpp"
 
 namespace microslip::pipelines {
@@ -58,9 +60,20 @@ EffectDecision nonlinearity(const EffectFacts& facts) {
   return {undecided, text + ": the run proves that it holds, or solves", slip};
 }
 
+/// Of given points that have a gap, which then never closes.
+std::string open_points(const EffectFacts& facts) {
+  const auto* modal = std::get_if<ModalModel>(&facts.scene.model);
+  if (modal == nullptr) return {};
+  const auto n =
+      std::ranges::count_if(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
+  if (n == 0) return {};
+  return fmt::format(", so that {} of {} contact points are open at rest and never touch", n,
+                     modal->points.size());
+}
+
 EffectDecision normal_motion(const EffectFacts& facts) {
   if (facts.setting("normal_motion") == "off") {
-    EffectDecision decision = by(false, "effects.normal_motion = \"off\"");
+    EffectDecision decision = by(false, "effects.normal_motion = \"off\"" + open_points(facts));
     if (facts.reach) decision.indicator = facts.reach->load;
     return decision;
   }
@@ -262,13 +275,20 @@ EffectDecision local_frames(const EffectFacts& facts) {
 EffectDecision static_preload(const EffectFacts& facts) {
   if (!facts.has_contact) return by(false, "the scene has no contact");
   if (has_static_preload(facts.scene)) {
-    return by(true, "contact.preload = \"static\": pressure at rest is solved for, gaps and all");
+    return by(true, "contact.preload = \"static\": pressure at rest is solved for, gaps and all",
+              facts.model != nullptr ? facts.model->static_variation : std::nullopt);
   }
   const bool given = std::ranges::any_of(
       facts.scene.contacts, [](const auto& contact) { return contact.preload_field.has_value(); });
   return by(false, facts.scene.contacts.empty() ? "pressure at rest is given with the points"
                    : given                      ? "pressure at rest is contact.preload_field"
                                                 : "pressure at rest is uniform");
+}
+
+/// Square of the speed over the lowest natural frequency.
+double speed_size(const EffectFacts& facts, const fem::Rotation& rotation) {
+  const double lowest = facts.model->frequency.minCoeff();
+  return lowest > 0.0 ? std::pow(rotation.speed / lowest, 2) : HUGE_VAL;
 }
 
 EffectDecision centrifugal(const EffectFacts& facts) {
@@ -279,10 +299,7 @@ EffectDecision centrifugal(const EffectFacts& facts) {
   const auto& rotation = facts.scene.rotation;
   if (!rotation || rotation->speed == 0.0) return by(false, "no static.speed is given");
   EffectDecision decision = by(true, "the structure rotates");
-  if (facts.model != nullptr) {
-    const double lowest = facts.model->frequency.minCoeff();
-    decision.indicator = lowest > 0.0 ? std::pow(rotation->speed / lowest, 2) : HUGE_VAL;
-  }
+  if (facts.model != nullptr) decision.indicator = speed_size(facts, *rotation);
   return decision;
 }
 
@@ -353,6 +370,33 @@ EffectDecision coexistence(const EffectFacts& facts) {
       yes, "a resonance near by closes a gap or opens the contact: other solutions are looked for");
 }
 
+/// Of the modes that a scene of numbers gives, with what stands for omitted ones.
+std::optional<double> residual_of_numbers(const EffectFacts& facts) {
+  if (!std::holds_alternative<ModalModel>(facts.scene.model)) return std::nullopt;
+  const SceneDescription with = with_effect(facts.scene, "residual");
+  return residual_share(reduced_model(with), with);
+}
+
+/// What an effect that is given and left out would have for an indicator.
+std::optional<double> indicator_left_out(std::string_view name, const EffectFacts& facts) {
+  if (facts.model == nullptr) return std::nullopt;
+  if (name == "centrifugal") return speed_size(facts, *as_written(facts.scene).rotation);
+  if (name == "static_preload") return facts.model->static_variation;
+  if (name == "residual") return residual_of_numbers(facts);
+  if (!facts.has_range()) return std::nullopt;
+  if (name == "roughness") return roughness_size(*facts.model, facts.scene);
+  if (name == "rate_dependence") return friction_change(*facts.model, facts.scene);
+  if (name == "moments") return tilt_size(*facts.model, facts.scene);
+  return std::nullopt;
+}
+
+EffectDecision without(const EffectLeftOut& effect, const EffectFacts& facts) {
+  return by(false,
+            fmt::format("effects.{} = \"off\" leaves out {}: {}", effect.effect, effect.key,
+                        effect.instead),
+            indicator_left_out(effect.effect, facts));
+}
+
 struct Chooser {
   std::string_view name;
   EffectDecision (*decide)(const EffectFacts&);
@@ -420,6 +464,7 @@ bool is_single_frequency(const SceneDescription& scene) {
 EffectDecision decide(const EffectRow& row, const EffectFacts& facts) {
   const auto found = std::ranges::find(choosers, row.name, &Chooser::name);
   if (found == choosers.end()) throw std::out_of_range("no effect " + std::string(row.name));
+  if (const EffectLeftOut* effect = left_out(facts.scene, row.name)) return without(*effect, facts);
   return found->decide(facts);
 }
 

@@ -10,6 +10,7 @@
 
 #include "contact/contact_force.hpp"
 #include "contact/dense.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/model/linear_limits.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -333,9 +334,10 @@ HarmonicAnswer harmonic_answer(const ReducedModel& model, const SceneDescription
 
 double friction_change(const ReducedModel& model, const SceneDescription& scene) {
   double most = 0.0;
+  const std::vector<contact::SurfaceRules> rules = surface_rules(as_written(scene));
   for (const LimitMotion& motion : limit_motions(model, scene)) {
     for (std::size_t k = 0; k < model.patches.size(); ++k) {
-      const auto& law = model.patches[k].rules.friction;
+      const auto& law = rules[k].friction;
       if (!law || !motion.in_range) continue;
       const Eigen::MatrixX3d& amplitude = motion.patches[k].amplitude;
       const double speed =

@@ -51,7 +51,8 @@ struct HarmonicAnswer {
 [[nodiscard]] HarmonicAnswer harmonic_answer(const ReducedModel& model,
                                              const SceneDescription& scene);
 
-/// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches.
+/// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches; of
+/// the law that the scene gives, simulated or not.
 [[nodiscard]] double friction_change(const ReducedModel& model, const SceneDescription& scene);
 
 /// Attachment shapes: relative change of the stuck frequency nearest to the range without them.

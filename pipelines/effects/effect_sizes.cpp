@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
 
 namespace microslip::pipelines {
@@ -34,6 +37,17 @@ double smallest_force(const ReducedModel& model, const SceneDescription& scene) 
 
 double over(double part, double whole) { return whole > 0.0 ? part / whole : no_limit; }
 
+/// Of each patch, those that are left out as well where the scene gives them.
+std::vector<std::vector<contact::TiltedArea>> tilted_areas(const ReducedModel& model,
+                                                           const SceneDescription& scene) {
+  if (const auto* modal = std::get_if<ModalModel>(&as_written(scene).model)) {
+    return {modal->tilted_areas};
+  }
+  std::vector<std::vector<contact::TiltedArea>> areas;
+  for (const contact::Patch& patch : model.patches) areas.push_back(patch.tilted_areas);
+  return areas;
+}
+
 double half_size(const Eigen::VectorXd& places) {
   return 0.5 * (places.maxCoeff() - places.minCoeff());
 }
@@ -42,17 +56,18 @@ double half_size(const Eigen::VectorXd& places) {
 
 double roughness_size(const ReducedModel& model, const SceneDescription& scene) {
   double height = 0.0;
-  for (const contact::Patch& patch : model.patches) {
-    if (patch.rules.roughness) height = std::max(height, patch.rules.roughness->height());
+  for (const contact::SurfaceRules& rules : surface_rules(as_written(scene))) {
+    if (rules.roughness) height = std::max(height, rules.roughness->height());
   }
   return over(height * total_normal_stiffness(model), smallest_force(model, scene));
 }
 
-double tilt_size(const ReducedModel& model, const SceneDescription& scene) {
+std::optional<double> tilt_size(const ReducedModel& model, const SceneDescription& scene) {
   double most = 0.0;
   const double force = smallest_force(model, scene);
-  for (const contact::Patch& patch : model.patches) {
-    for (const contact::TiltedArea& area : patch.tilted_areas) {
+  if (!scene.areas && !scene.contacts.empty()) return std::nullopt;
+  for (const std::vector<contact::TiltedArea>& areas : tilted_areas(model, scene)) {
+    for (const contact::TiltedArea& area : areas) {
       const double load = area.share * force;
       for (const auto& [moment, places] :
            {std::pair{area.moment[0], &area.r}, std::pair{area.moment[1], &area.p}}) {

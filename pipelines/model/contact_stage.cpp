@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -11,6 +12,7 @@
 #include "pipelines/description/damping_ratios.hpp"
 #include "pipelines/model/contact_frame.hpp"
 #include "pipelines/model/contact_preload.hpp"
+#include "pipelines/model/middle_point.hpp"
 #include "pipelines/model/nodal_load.hpp"
 #include "pipelines/model/patch_shapes.hpp"
 #include "pipelines/system/scene_error.hpp"
@@ -214,6 +216,7 @@ ReducedModel reduce_to_contact(const mesh::Mesh& mesh, const SceneDescription& s
                                      contact_points(scene.settings, i), basis,
                                      residuals.empty() ? nullptr : &residuals[i]));
     warn_of_the_fit(model.patches.back(), mesh, contact, warnings);
+    if (!scene.areas) model.patches.back() = at_middle_point(std::move(model.patches.back()));
   }
   return model;
 }
@@ -256,6 +259,7 @@ ReducedModel reduced_model(const SceneDescription& scene) {
     cells.preload_field[i] = point.rest_load;
   }
   if (modal.second_stiffness.size() == n) cells.stiffness.col(2) = modal.second_stiffness;
+  if (!scene.areas && modal.positions.rows() > 1) patch = at_middle_point(std::move(patch));
   return model;
 }
 

@@ -28,6 +28,7 @@ struct ReducedModel {
   std::vector<contact::Patch> patches;                     ///< none: no contact
   std::optional<double>
       static_preload;  ///< what they carry under the static loads of the scene [N]
+  std::optional<double> static_variation;  ///< of the pressure then, over its mean [-]
   ContactEffects effects;
   contact::MotionCoordinates coordinates;  ///< of the patches, where forces are sampled in time
 };

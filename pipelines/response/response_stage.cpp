@@ -222,6 +222,7 @@ solver::ContinuationOptions continuation_options(const SceneDescription& scene,
   options.orders = harmonics.orders;
   options.harmonic_tolerance = harmonics.tolerance;
   options.search_starts = asked_starts(scene);
+  options.judge_stability = scene.judges_stability;
   options.linear_certificate = setting_of(scene, "nonlinearity") != "on";
   options.stop = [] { return interrupt_requested() || cut_short(); };
   if (contact::is_sampled(model.patches, model.effects)) {
@@ -420,6 +421,7 @@ CurveResult traced(const ReducedModel& model, const SceneDescription& scene,
     const Eigen::VectorXd factors = slowing_of(model, *scene.response);
     const auto in_modes = [&](solver::ResponsePoint point) {
       point.q.rows() *= factors.asDiagonal();
+      if (!scene.judges_stability) point.stability = solver::Stability::not_assessed;
       return point;
     };
     result.curve = integrate_curve(integrated_scene(model, *scene.response, load), scene,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/text/effect_table.hpp"
 
 namespace microslip::pipelines {
@@ -44,17 +45,33 @@ bool lacks_nonlinearity(const SceneDescription& scene) {
   return setting_of(scene, "nonlinearity") == "off";
 }
 
+/// The list of preloads, or the range searched for the best, has a gap.
+bool asks_for_gap(const ResponseDescription& response) {
+  const auto& optimum = response.optimum;
+  if (optimum && optimum->of_preload() && optimum->range && (*optimum->range)[0] < 0.0) return true;
+  return std::ranges::any_of(response.preload, [](const PreloadEntry& entry) {
+    const auto* load = std::get_if<double>(&entry);
+    return std::holds_alternative<UniformGap>(entry) || (load != nullptr && *load < 0.0);
+  });
+}
+
+/// Under some load the whole contact is open at rest.
+bool is_all_open(const SceneDescription& scene) {
+  if (const ModalModel* modal = modal_of(scene); modal != nullptr && !modal->points.empty()) {
+    if (std::ranges::all_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; })) {
+      return true;
+    }
+  }
+  return scene.response && asks_for_gap(*scene.response);
+}
+
 /// Somewhere the contact is open at rest.
 bool has_gap(const SceneDescription& scene) {
   if (lacks_normal_motion(scene)) return false;
   if (const ModalModel* modal = modal_of(scene)) {
     return std::ranges::any_of(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
   }
-  if (!scene.response) return false;
-  return std::ranges::any_of(scene.response->preload, [](const PreloadEntry& entry) {
-    const auto* load = std::get_if<double>(&entry);
-    return std::holds_alternative<UniformGap>(entry) || (load != nullptr && *load < 0.0);
-  });
+  return scene.response && asks_for_gap(*scene.response);
 }
 
 /// The motion along r of given modes; the modes of a mesh have one.
@@ -69,10 +86,16 @@ bool is_smooth(const SceneDescription& scene) { return !is_rough(scene); }
 bool has_constant_friction(const SceneDescription& scene) { return !is_rate_dependent(scene); }
 bool lacks_area(const SceneDescription& scene) { return !has_area(scene); }
 
-bool has_residual(const SceneDescription& scene) {
-  return scene.settings.basis.residual != ResidualKind::none;
+bool lacks_residual(const SceneDescription& scene) {
+  return scene.settings.basis.residual == ResidualKind::none;
 }
-bool lacks_residual(const SceneDescription& scene) { return !has_residual(scene); }
+/// The residual is the stiffness of a contact.
+bool is_rigid(const SceneDescription& scene) {
+  return !lacks_residual(as_written(scene)) &&
+         std::ranges::any_of(scene.contacts, [](const ContactDescription& contact) {
+           return !contact.normal_stiffness || !contact.tangential_stiffness;
+         });
+}
 
 bool lacks_static_preload(const SceneDescription& scene) { return !has_static_preload(scene); }
 
@@ -80,12 +103,18 @@ bool rotates(const SceneDescription& scene) {
   return scene.rotation && scene.rotation->speed > 0.0;
 }
 bool is_at_rest(const SceneDescription& scene) { return !rotates(scene); }
+bool presses_by_rotation_alone(const SceneDescription& scene) {
+  const SceneDescription& written = as_written(scene);
+  return has_static_preload(written) && rotates(written) && written.static_loads.place.empty() &&
+         std::ranges::none_of(written.contacts,
+                              [](const ContactDescription& contact) { return contact.gap < 0.0; });
+}
 
 bool lacks_wear(const SceneDescription& scene) { return !has_wear(scene); }
-bool has_maps(const SceneDescription& scene) {
-  return scene.response && !scene.response->maps.empty();
+bool lacks_maps(const SceneDescription& scene) {
+  return !scene.response || scene.response->maps.empty();
 }
-bool lacks_maps(const SceneDescription& scene) { return !has_maps(scene); }
+bool refuses_maps(const SceneDescription& scene) { return setting_of(scene, "maps") == "off"; }
 
 bool searches(const SceneDescription& scene) {
   return scene.response && scene.response->search_starts.value_or(0) > 0;
@@ -118,8 +147,6 @@ bool has_preload_moment(const SceneDescription& scene) {
   });
 }
 
-bool always(const SceneDescription&) { return true; }
-
 /// What one setting of an effect cannot stand beside.
 struct Contradiction {
   std::string_view effect, setting;
@@ -143,6 +170,10 @@ constexpr std::array contradictions{
     Contradiction{"normal_motion", "on", has_constant_load, no_normal_stiffness},
     Contradiction{"normal_motion", "off", is_rough,
                   "contradicts contact.roughness: rough surfaces are felt by normal motion"},
+    Contradiction{"normal_motion", "off", is_all_open,
+                  "contradicts a gap, which normal motion alone closes: response.preload (or its "
+                  "optimum_range) below 0, or preload of every contact point. Without it the "
+                  "contact never touches: response.preload = [\"free\"] asks for that"},
     Contradiction{"separation", "on", lacks_normal_motion, without_normal_motion},
     Contradiction{"separation", "on", has_constant_load, no_normal_stiffness},
     Contradiction{"separation", "on", lacks_nonlinearity, without_nonlinearity},
@@ -160,21 +191,16 @@ constexpr std::array contradictions{
     Contradiction{"higher_harmonics", "off", has_harmonics,
                   "contradicts response.harmonics: leave that out"},
     Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
-    Contradiction{"roughness", "off", is_rough, "contradicts contact.roughness: leave that out"},
     Contradiction{"rate_dependence", "on", has_constant_friction,
                   "needs a law of contact.friction_coefficient"},
     Contradiction{"rate_dependence", "on", lacks_nonlinearity, without_nonlinearity},
-    Contradiction{"rate_dependence", "off", is_rate_dependent,
-                  "contradicts a law of contact.friction_coefficient: leave that out"},
     Contradiction{"moments", "on", lacks_area,
                   "needs an area: cells and size in contact.points, or p and r of modal.points"},
-    Contradiction{"moments", "off", has_area,
-                  "contradicts the area of the contact (its cells and preload_moment): give one "
-                  "contact point"},
     Contradiction{"residual", "on", lacks_residual,
                   "cannot be on: modal scenes and modes.residual = \"none\" have no residual"},
-    Contradiction{"residual", "off", has_residual,
-                  "contradicts modes.residual: give modes.residual = \"none\""},
+    Contradiction{"residual", "off", is_rigid,
+                  "contradicts contact.normal_stiffness or tangential_stiffness = \"rigid\", which "
+                  "is the residual stiffness alone: give one in N/m^3"},
     Contradiction{
         "local_frames", "on", lacks_faces,
         "needs contact.surface, a face of a mesh: contact points of a modal scene have the "
@@ -185,17 +211,15 @@ constexpr std::array contradictions{
                   "contradicts contact.preload_moment, which tilts a plane face"},
     Contradiction{"static_preload", "on", lacks_static_preload,
                   "needs contact.preload = \"static\" and the loads of [static]"},
-    Contradiction{"static_preload", "off", has_static_preload,
-                  "contradicts contact.preload = \"static\": leave that out"},
     Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
-    Contradiction{"centrifugal", "off", rotates, "contradicts static.speed: leave that out"},
-    Contradiction{"stability", "off", always,
-                  "cannot be switched off: the steps along a curve use it; expected auto or on"},
+    Contradiction{"centrifugal", "off", presses_by_rotation_alone,
+                  "contradicts contact.preload = \"static\", which nothing presses without "
+                  "static.speed: expected static.forces, static.pressure or contact.gap below 0"},
     Contradiction{"wear", "on", lacks_wear, "needs contact.wear_coefficient"},
+    Contradiction{"wear", "on", refuses_maps,
+                  "contradicts effects.maps = \"off\": it is drawn in maps"},
     Contradiction{"wear", "on", lacks_maps, "needs response.maps, which it is drawn in"},
-    Contradiction{"wear", "off", has_wear, "contradicts contact.wear_coefficient: leave that out"},
     Contradiction{"maps", "on", lacks_maps, "needs response.maps"},
-    Contradiction{"maps", "off", has_maps, "contradicts response.maps: leave that out"},
     Contradiction{"coexistence", "on", refuses_to_search,
                   "contradicts response.search_starts = 0: leave that out"},
     Contradiction{"coexistence", "on", goes_in_time,
@@ -212,6 +236,7 @@ void read_effects(const SectionReader& s, SceneDescription& scene) {
   for (const EffectRow& row : effect_table) {
     scene.effects.emplace_back(row.name, s.word(row.name, settings));
   }
+  leave_out_effects(scene);
   for (const auto& [effect, setting, is_there, why] : contradictions) {
     if (setting_of(scene, effect) == setting && is_there(scene)) {
       s.fail(effect, fmt::format("\"{}\" {}", setting, why), s.node(effect));

@@ -52,6 +52,12 @@ void require_rotation(const SceneDescription& scene) {
         "direction = [x, y, z] }}",
         file));
   }
+  if (setting_of(scene, "centrifugal") == "off") {
+    throw SceneError(fmt::format(
+        "{}: effects.centrifugal: \"off\" contradicts campbell, which is of the stiffness at "
+        "every speed: leave that out",
+        file));
+  }
 }
 
 CampbellDiagram campbell_diagram(const mesh::Mesh& mesh, const SceneDescription& scene,

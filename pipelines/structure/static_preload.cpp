@@ -1,6 +1,7 @@
 #include "pipelines/structure/static_preload.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -224,6 +225,31 @@ Eigen::VectorXd rest_load(const RestingPlaces& places, const Eigen::VectorXd& po
       .select(places.pressure, point_stiffness.cwiseProduct(places.approach));
 }
 
+/// The same everywhere [Pa]: what presses, spread over the face.
+void set_uniform(const RestingPatch& resting, double unit, contact::Patch& patch) {
+  const Eigen::VectorXd& weights = resting.sampling.weights;
+  const double mean = weights.dot(resting.cells.pressure) / weights.sum();
+  patch.cells.preload_field.setConstant(patch.cells.size(), unit * mean);
+  patch.vertices.preload_field.setConstant(patch.vertices.size(), unit * mean);
+}
+
+/// Of all contacts, root mean square: deviation of the pressure from the mean of its face, over
+/// that of all. What is closed and what is open count alike.
+double pressure_variation(const std::vector<RestingPatch>& patches) {
+  double deviation = 0.0;
+  double force = 0.0;
+  double area = 0.0;
+  for (const RestingPatch& patch : patches) {
+    const Eigen::VectorXd& weights = patch.sampling.weights;
+    const double own = weights.dot(patch.cells.pressure);
+    const Eigen::ArrayXd off = patch.cells.pressure.array() - own / weights.sum();
+    deviation += weights.dot(off.square().matrix());
+    force += own;
+    area += weights.sum();
+  }
+  return std::sqrt(deviation / area) * area / force;
+}
+
 std::string line_of(const ContactDescription& contact, const RestingPatch& patch) {
   const Eigen::VectorXd& pressure = patch.cells.pressure;
   const Eigen::VectorXd& weights = patch.sampling.weights;
@@ -263,12 +289,17 @@ void set_static_preload(ReducedModel& model, const mesh::Mesh& mesh, const Scene
   const std::vector<RestingPatch> patches = patches_at_rest(mesh, scene, face);
   const double total = total_force(scene, patches);
   model.static_preload = total;
+  model.static_variation = pressure_variation(patches);
   // A patch that is open has gaps and no share of the force: patches share a load evenly, their
   // preload does not.
   const double unit = static_cast<double>(patches.size()) / total;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     contact::Patch& patch = model.patches[i];
     patch.load_share = 1.0;
+    if (scene.uniform_static_preload || !scene.areas) {
+      set_uniform(patches[i], unit, patch);
+      continue;
+    }
     patch.cells.preload_field = unit * rest_load(patches[i].cells, patch.cells.stiffness.col(1));
     patch.vertices.preload_field =
         unit * rest_load(patches[i].vertices, patch.vertices.stiffness.col(1));

@@ -19,7 +19,7 @@ namespace microslip::pipelines {
 struct EffectRow {
   std::string_view name;      ///< also its key in [effects]
   std::string_view meaning;   ///< as `init` prints it beside the key
-  std::string_view quantity;  ///< what the indicator is; empty: nothing tells before a run
+  std::string_view quantity;  ///< what the indicator is, or why there is none
   double threshold;           ///< of the indicator
   std::string_view lost;      ///< without the effect
 };
@@ -58,16 +58,20 @@ inline constexpr std::array effect_table{
     EffectRow{"local_frames", "a frame for every place of a curved face",
               "nodes off the mean plane over the size of the face", 0.01,
               "the face is plane, with one normal and one slip direction"},
-    EffectRow{"static_preload", "pressure at rest from static loads", "", no_threshold,
+    EffectRow{"static_preload", "pressure at rest from static loads",
+              "root mean square of the pressure's variation over its mean", 0.1,
               "pressure at rest has the shape the scene gives it"},
     EffectRow{"centrifugal", "stiffness and equilibrium of a rotating body",
               "square of the speed over the lowest natural frequency", 1e-3,
               "modes are those at rest"},
-    EffectRow{"stability", "stability of each point", "", no_threshold,
-              "which solutions a machine shows is not known"},
-    EffectRow{"wear", "wear depth in the maps", "", no_threshold,
+    EffectRow{"stability", "stability of each point",
+              "none: it moves no point of a curve, it says which of them a machine can show",
+              no_threshold, "which solutions a machine shows is not known"},
+    EffectRow{"wear", "wear depth in the maps",
+              "none: a depth is asked for or not, and acts back on nothing", no_threshold,
               "no map shows where material goes"},
-    EffectRow{"maps", "contact maps", "", no_threshold,
+    EffectRow{"maps", "contact maps",
+              "none: pictures of solutions that are there, which change nothing", no_threshold,
               "nothing shows where the face sticks, slips and opens"},
     EffectRow{"coexistence", "search for other solutions beside those found",
               "approach over gap, or change of load over load, at resonances near by", 1.0,

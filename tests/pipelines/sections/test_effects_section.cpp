@@ -120,6 +120,18 @@ INSTANTIATE_TEST_SUITE_P(
             {"effects.normal_motion=off", "contact.roughness={ law = \"cubic\", height = 1e-6 }"},
             "normal_motion",
             "contact.roughness"},
+        Contradicting{blade,
+                      {"effects.normal_motion=off", "response.preload=[\"free\", -100]"},
+                      "normal_motion",
+                      "response.preload"},
+        Contradicting{blade,
+                      {"effects.normal_motion=off", "response.preload=[{ gap = \"10 um\" }]"},
+                      "normal_motion",
+                      "response.preload"},
+        Contradicting{modal,
+                      {"effects.normal_motion=off", "modal.points[0].preload=-20"},
+                      "normal_motion",
+                      "preload of every contact point"},
         Contradicting{modal,
                       {"effects.separation=on", "effects.normal_motion=off"},
                       "separation",
@@ -152,9 +164,11 @@ INSTANTIATE_TEST_SUITE_P(
     OfItsOtherSections, Contradictions,
     testing::Values(
         Contradicting{modal, {"effects.moments=on"}, "moments", "contact.points"},
-        Contradicting{chain, {"effects.moments=off"}, "moments", "cells"},
         Contradicting{modal, {"effects.residual=on"}, "residual", "modes.residual"},
-        Contradicting{blade, {"effects.residual=off"}, "residual", "modes.residual"},
+        Contradicting{blade,
+                      {"effects.residual=off", "contact.normal_stiffness=rigid"},
+                      "residual",
+                      "normal_stiffness"},
         Contradicting{modal, {"effects.local_frames=on"}, "local_frames", "contact.surface"},
         Contradicting{
             blade, {"effects.local_frames=on", "contact.fit=3"}, "local_frames", "contact.fit"},
@@ -164,23 +178,19 @@ INSTANTIATE_TEST_SUITE_P(
                       "contact.preload_moment"},
         Contradicting{
             blade, {"effects.static_preload=on"}, "static_preload", "contact.preload = \"static\""},
-        Contradicting{blade,
-                      {"effects.static_preload=off", "contact.preload=static", pressing},
-                      "static_preload",
-                      "contact.preload"},
         Contradicting{blade, {"effects.centrifugal=on"}, "centrifugal", "static.speed"},
         Contradicting{blade,
-                      {"effects.centrifugal=off", "static.speed=\"3000 rpm\"",
-                       "static.axis={ direction = [1, 0, 0] }"},
+                      {"effects.centrifugal=off", "contact.preload=static",
+                       "static.speed=\"3000 rpm\"", "static.axis={ direction = [1, 0, 0] }"},
                       "centrifugal",
-                      "static.speed"},
-        Contradicting{modal, {"effects.stability=off"}, "stability", "steps along a curve"},
+                      "contact.preload"},
         Contradicting{modal, {"effects.wear=on"}, "wear", "contact.wear_coefficient"},
         Contradicting{modal, {"effects.wear=on", wear}, "wear", "response.maps"},
-        Contradicting{modal, {"effects.wear=off", wear}, "wear", "contact.wear_coefficient"},
+        Contradicting{modal,
+                      {"effects.wear=on", wear, "response.maps=[\"peak\"]", "effects.maps=off"},
+                      "wear",
+                      "effects.maps"},
         Contradicting{modal, {"effects.maps=on"}, "maps", "response.maps"},
-        Contradicting{
-            modal, {"effects.maps=off", "response.maps=[\"peak\"]"}, "maps", "response.maps"},
         Contradicting{modal,
                       {"effects.coexistence=on", "response.search_starts=0"},
                       "coexistence",
@@ -224,6 +234,8 @@ TEST(EffectsSection, SettingsThatAgreeAreTaken) {
       complaint(chain, {"effects.nonlinearity=off", "response.preload=[\"free\", \"stuck\"]"}), "");
   EXPECT_EQ(complaint(modal, {"effects.coexistence=on", "response.search_starts=4"}), "");
   EXPECT_EQ(complaint(modal, {"effects.wear=on", wear, "response.maps=[\"peak\"]"}), "");
+  EXPECT_EQ(complaint(blade, {"effects.static_preload=off", "contact.preload=static", pressing}),
+            "");
 }
 
 TEST(EffectsSection, EveryRowOfTheTableIsAKey) {

@@ -205,6 +205,15 @@ TEST(StaticPreload, ATiltedEndPressesLinearlyAndIsOpenOnTheRest) {
   EXPECT_EQ((found.array() < 0.0).count(), 24);  // of 64
   EXPECT_NEAR(total, soft * 0.5 * 5e6 * 0.625 * area, 1e-6 * total);
   EXPECT_NEAR(rest_loads(tilted.model, 0.5 * total).minCoeff(), 0.5 * found.minCoeff(), 1e-9);
+  // Rows of cells along y press by 0, 0, 0, 0.5, 1.5, … 4.5 of what a gives.
+  const double mean = 12.5 / 8.0;
+  EXPECT_NEAR(*tilted.model.static_variation, std::sqrt(41.25 / 8.0 - mean * mean) / mean, 1e-6);
+  // Left out, its force is spread over the face.
+  scene.uniform_static_preload = true;
+  const Solved even = solve(scene, mesh);
+  EXPECT_NEAR(*even.model.static_preload, total, rounding * total);
+  EXPECT_LT(off(rest_loads(even.model, total), total / area), rounding);
+  EXPECT_EQ(even.model.static_variation, tilted.model.static_variation);
 }
 
 constexpr const char* second_contact = R"(
