@@ -61,14 +61,6 @@ void add_energy(CurveBudget& budget, const solver::ResponsePoint& peak) {
   }
 }
 
-/// Of the natural frequency nearest to the peak. Models with other modes keep the first of them.
-double frequency_factor(const ReducedModel& model, const ReducedModel& other, double peak) {
-  Eigen::Index nearest = 0;
-  (model.frequency.array() - peak).abs().minCoeff(&nearest);
-  const bool usual = nearest < other.frequency.size() && model.frequency[nearest] > 0.0;
-  return usual ? other.frequency[nearest] / model.frequency[nearest] : 1.0;
-}
-
 void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescription& scene,
                const RicherModel& richer, const CurveResult& result, double load) {
   const auto begin = std::chrono::steady_clock::now();

@@ -87,6 +87,13 @@ bool is_fitted(const ReducedModel& model) {
 
 }  // namespace
 
+double frequency_factor(const ReducedModel& model, const ReducedModel& other, double peak) {
+  Eigen::Index nearest = 0;
+  (model.frequency.array() - peak).abs().minCoeff(&nearest);
+  const bool usual = nearest < other.frequency.size() && model.frequency[nearest] > 0.0;
+  return usual ? other.frequency[nearest] / model.frequency[nearest] : 1.0;
+}
+
 RicherModels richer_models(const ReducedModel& model, const SceneDescription& scene,
                            const SolvedStructure* structure,
                            const std::vector<std::string>& sources) {

@@ -40,4 +40,9 @@ struct RicherModels {
                                          const SolvedStructure* structure,
                                          const std::vector<std::string>& sources = {});
 
+/// Of the natural frequency nearest to a peak, the other model's over that of the model at hand.
+/// Models with other modes keep the first of them. @param peak  [rad/s].
+[[nodiscard]] double frequency_factor(const ReducedModel& model, const ReducedModel& other,
+                                      double peak);
+
 }  // namespace microslip::pipelines

@@ -84,7 +84,11 @@ void tell_opening(const CurveResult& curve, std::vector<EffectRecord>& effects) 
   if (!std::holds_alternative<double>(curve.load) || curve.curve.points.empty()) return;
   const auto most = std::ranges::max_element(
       curve.curve.points, {}, [](const auto& point) { return point.report.separated_share; });
-  if (!(most->report.separated_share > 0.0)) return;
+  if (!(most->report.separated_share > 0.0)) {
+    effect->bound = 0.0;  // the same equations
+    return;
+  }
+  effect->bound.reset();
   effect->simulated = Simulated::yes;
   effect->objection = fmt::format(
       "contact opens all the same, on {:.2g} % of area and period of curve {} at {:.6g} Hz: curves "

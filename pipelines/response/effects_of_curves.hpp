@@ -17,8 +17,8 @@ namespace microslip::pipelines {
 void tell_curves(const SceneDescription& scene, const std::vector<CurveSummary>& curves,
                  std::vector<EffectRecord>& effects);
 
-/// Whether contact that was not to open, effects.separation = "off", has opened on a curve:
-/// an objection then.
+/// Whether contact that was not to open, effects.separation = "off", has opened on a curve: an
+/// objection then. As long as none does, having it changes nothing: the bound is 0.
 void tell_opening(const CurveResult& curve, std::vector<EffectRecord>& effects);
 
 }  // namespace microslip::pipelines

@@ -134,6 +134,9 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
       !std::ranges::all_of(known, [](const auto& budget) { return budget.has_value(); });
   const RicherModels richer = models_to_compare(model, scene, structure, any_unknown);
   if (!richer.note.empty()) progress.info(richer.note);
+  const RicherModels others =
+      any_unknown && !cut_short() ? models_left_out(model, scene, structure) : RicherModels{};
+  if (!others.note.empty()) progress.info(others.note);
   std::vector<CurveBudget> budgets(curves.size());
   in_parallel(curves.size(), jobs, [&](std::size_t i) {
     stop_if_interrupted("curves");
@@ -143,7 +146,7 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     }
     budgets[i] = error_budget(model, scene, richer, curves[i]);
     if (cut_short()) return;
-    budgets[i].left_out = rows_left_out(model, scene, curves[i]);
+    budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
     kept.keep(budgets[i], curves[i]);
   });
   borrow_unknown(budgets);

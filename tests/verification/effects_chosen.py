@@ -6,6 +6,7 @@ what both runs leave open alike (the tolerance of a chosen set of harmonics is t
 
 usage: effects_chosen.py MICROSLIP SOURCE_FOLDER RUN_FOLDER          (MICROSLIP_CAMPAIGNS=whole: thirty scenes)
 """
+import csv
 import functools
 import json
 import os
@@ -268,6 +269,89 @@ class WhatMattersIsPutBack(unittest.TestCase):
     def test_nothing_is_put_back_where_nothing_is_asked_of_the_errors(self):
         unasked = self.runs("hidden_unasked", "accuracy.error_budget=off")
         self.assertIs(effect(unasked, "normal_motion")["simulated"], False)
+
+
+class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
+    """An effect that other keys give, "off": the curves are those without, and the bound is what having it changes."""
+
+    LAW = 'contact.friction_law={ law = "exponential", static = 0.5, kinetic = 0.4, rate = 2 }'
+    ROUGH = 'contact.roughness={ law = "cubic", height = "1 mm" }'
+    # The third "mode" is a static shape that stands for omitted ones.
+    SHAPE = ["modal.frequency=[20, 52, 300]", "modal.attachment=1", "modal.force_sine=[7, 0.5, 0]", "modal.output=[0.75, 0.5, 0]",
+             "modal.force_static=[0, 0, 0]", "modal.points[0].phi_u_3=0.6"]
+    BLADE = ['model.element_size="15 mm"', "response.harmonics=1",
+             'response.preload=["static"]', 'response.frequency=["330 Hz", "430 Hz"]', 'static.speed="2000 rpm"', "response.maps=[]"]
+
+    def compare(self, name, path, settings, without):
+        """@param without  settings under which no other key gives the effect; None: no scene is without."""
+        settings = [*settings, "response.harmonics=3"] if "response.harmonics=1" not in settings else settings
+        off = run(name + "_off", path, *settings, f"effects.{name}=off")
+        on = run(name + "_given", path, *settings)
+        if without is not None:
+            gone = run(name + "_gone", path, *without, "response.harmonics=3")
+            self.assertEqual(peaks(off), peaks(gone))
+        row = effect(off, name)
+        self.assertIs(row["simulated"], False)
+        self.assertIs(effect(on, name)["simulated"], True)
+        self.assertIn(f'effects.{name} = "off" leaves out', row["reason"])
+        solved = [curve for curve in peaks(off) if curve not in ("free", "stuck")]
+        change = max(abs(peaks(on)[curve] / peaks(off)[curve] - 1) for curve in solved)
+        print(f"{name:16} changes the peak by {100 * change:.3f} %, stated {100 * row['bound']:.3f} %, indicator {row['indicator']}")
+        self.assertGreater(change, 1e-3)  # else nothing is compared
+        self.assertGreaterEqual(row["bound"], (1 - 1e-5) * change)
+        self.assertLess(row["bound"], 1.2 * change + 0.02)  # frequencies count as well
+        self.assertEqual(row["objection"] != "", row["bound"] > 0.02)
+        return off
+
+    def test_roughness(self):
+        self.compare("roughness", scene("rough", normal=0.2), [self.ROUGH], [])
+
+    def test_a_law_of_the_speed(self):
+        off = self.compare("rate_dependence", scene("law"), [self.LAW], [])
+        self.assertGreater(effect(off, "rate_dependence")["indicator"], 0.01)
+
+    def test_static_shapes(self):
+        self.compare("residual", scene("shape"), self.SHAPE, [])
+
+    def test_moments(self):
+        path, settings = f"{SCENES}/chain_2dof_moment.toml", ["response.preload=[50]", "response.maps=[]"]
+        off = self.compare("moments", path, settings, None)
+        row = effect(off, "moments")
+        self.assertGreater(row["indicator"], row["threshold"])
+
+    def test_the_shape_of_a_static_preload(self):
+        off = self.compare("static_preload", f"{SCENES}/blade_static_preload.toml", self.BLADE, None)
+        self.assertGreater(effect(off, "static_preload")["indicator"], 0.1)
+
+    def test_rotation(self):
+        off = self.compare("centrifugal", f"{SCENES}/blade_static_preload.toml", [s.replace("2000", "500") for s in self.BLADE], None)
+        self.assertGreater(effect(off, "centrifugal")["indicator"], 1e-4)
+
+    def test_stability_wear_and_maps_change_no_curve(self):
+        path, given = scene("told_off"), ['response.maps=["peak"]', "response.limits=true", "contact.wear_coefficient=1e-13", "response.harmonics=3"]
+        on = run("told_given", path, *given)
+        off = run("told_off", path, *given, "effects.stability=off", "effects.wear=off", "effects.maps=off")
+        self.assertEqual(peaks(off), peaks(on))
+        for name in ("stability", "wear", "maps"):
+            self.assertIs(effect(on, name)["simulated"], True)
+            self.assertIs(effect(off, name)["simulated"], False)
+        verdicts = {name: self.column(name, "scale_1", "stable") for name in ("told_given", "told_off")}
+        self.assertEqual(set(verdicts["told_off"]), {"-1"})
+        self.assertIn("1", verdicts["told_given"])
+        self.assertEqual(len(verdicts["told_off"]), len(verdicts["told_given"]))
+        self.assertEqual(set(self.column("told_off", "stuck", "stable")), {"-1"})
+        self.assertTrue(os.listdir(os.path.join(FOLDER, "told_given", "maps")))
+        self.assertFalse(os.path.exists(os.path.join(FOLDER, "told_off", "maps")))
+
+    def column(self, run_name, curve, name):
+        with open(os.path.join(FOLDER, run_name, "curves", curve + ".csv"), encoding="utf-8") as file:
+            return [row[name] for row in csv.DictReader(file)]
+
+    def test_separation_that_does_not_come_changes_nothing(self):
+        summary = run("closed", scene("closed", normal=0.01), "effects.separation=off", "response.harmonics=3", NORMAL)
+        row = effect(summary, "separation")
+        self.assertIs(row["simulated"], False)
+        self.assertEqual(row["bound"], 0)
 
 
 class NothingIsHidden(unittest.TestCase):
