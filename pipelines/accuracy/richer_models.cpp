@@ -5,7 +5,6 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/coarser_mesh.hpp"
-#include "pipelines/model/contact_stage.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
@@ -72,10 +71,8 @@ std::optional<RicherModel> with_more_shapes(const ReducedModel& model,
   if (!structure.modes.richer) return std::nullopt;
   const fem::RicherBasis& richer = *structure.modes.richer;
   std::vector<std::string> warnings;
-  RicherModel result{
-      "basis",
-      reduce_to_contact(structure.mesh, scene, richer.basis, structure.modes.residuals, warnings),
-      richer.embedding};
+  RicherModel result{"basis", model_on_basis(scene, structure, richer.basis, warnings),
+                     richer.embedding};
   result.model.effects = model.effects;
   return result;
 }

@@ -43,18 +43,21 @@ SolvedStructure solved_structure(const SceneDescription& scene,
   return {std::move(mesh), std::move(modes)};
 }
 
+ReducedModel model_on_basis(const SceneDescription& scene, const SolvedStructure& structure,
+                            const fem::ModalBasis& basis, std::vector<std::string>& warnings) {
+  ReducedModel model =
+      reduce_to_contact(structure.mesh, scene, basis, structure.modes.residuals, warnings);
+  if (structure.modes.static_face) {
+    set_static_preload(model, structure.mesh, scene, *structure.modes.static_face);
+  }
+  return model;
+}
+
 ReducedModel model_of(const SceneDescription& scene, const SolvedStructure* structure,
                       std::vector<std::string>& warnings) {
-  ReducedModel model;
-  if (structure == nullptr) {
-    model = reduced_model(scene);
-  } else {
-    model = reduce_to_contact(structure->mesh, scene, structure->modes.basis,
-                              structure->modes.residuals, warnings);
-    if (structure->modes.static_face) {
-      set_static_preload(model, structure->mesh, scene, *structure->modes.static_face);
-    }
-  }
+  ReducedModel model = structure == nullptr
+                           ? reduced_model(scene)
+                           : model_on_basis(scene, *structure, structure->modes.basis, warnings);
   model.effects = contact_effects(model, scene);
   model.coordinates = contact_coordinates(model, scene);
   return model;

@@ -27,6 +27,15 @@ struct SolvedStructure {
 [[nodiscard]] SolvedStructure solved_structure(const SceneDescription& scene,
                                                const std::filesystem::path& mesh_file);
 
+/// Modes, contact and preload at rest, effects not decided.
+/// @param basis     of the structure, its own or a richer one.
+/// @param warnings  sentences for the log are appended.
+/// @throws SceneError, RefusedError  as reduce_to_contact(), set_static_preload().
+[[nodiscard]] ReducedModel model_on_basis(const SceneDescription& scene,
+                                          const SolvedStructure& structure,
+                                          const fem::ModalBasis& basis,
+                                          std::vector<std::string>& warnings);
+
 /// The model the response stage solves, effects decided.
 /// @param structure  of the scene; nullptr: a kind that gives its modes itself.
 /// @param warnings   sentences for the log are appended.

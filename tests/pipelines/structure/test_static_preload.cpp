@@ -12,6 +12,7 @@
 
 #include "contact/patch/patch_load.hpp"
 #include "fem/elements/polynomial_tractions.hpp"
+#include "pipelines/accuracy/richer_models.hpp"
 #include "pipelines/effects/model_family.hpp"
 #include "pipelines/import/named_points.hpp"
 #include "pipelines/model/curve_load.hpp"
@@ -214,6 +215,20 @@ TEST(StaticPreload, ATiltedEndPressesLinearlyAndIsOpenOnTheRest) {
   EXPECT_NEAR(*even.model.static_preload, total, rounding * total);
   EXPECT_LT(off(rest_loads(even.model, total), total / area), rounding);
   EXPECT_EQ(even.model.static_variation, tilted.model.static_variation);
+}
+
+// What more shapes do is asked of the same blade, pressed alike.
+TEST(StaticPreload, IsThatOfTheModelWithMoreShapesAsWell) {
+  const SceneDescription scene =
+      bar_scene(R"(forces = [ { at = "x1", direction = [1, 1, 0], amplitude = 300 } ])", 1e13);
+  const SolvedStructure solved{bar(), solve_structure(bar(), scene)};
+  std::vector<std::string> warnings;
+  const ReducedModel model = model_of(scene, &solved, warnings);
+  const RicherModels richer = richer_models(model, scene, &solved, {"basis"});
+  ASSERT_EQ(richer.models.size(), 1U);
+  const contact::PatchSamples& cells = model.patches[0].cells;
+  EXPECT_EQ(richer.models[0].model.patches[0].cells.preload_field, cells.preload_field);
+  EXPECT_GT(cells.preload_field.maxCoeff(), 1.1 * cells.preload_field.mean()) << "not uniform";
 }
 
 constexpr const char* second_contact = R"(
