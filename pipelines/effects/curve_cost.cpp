@@ -6,6 +6,7 @@
 
 #include "contact/contact_force.hpp"
 #include "pipelines/description/curve_request.hpp"
+#include "pipelines/description/effects_left_out.hpp"
 
 namespace microslip::pipelines {
 namespace {
@@ -29,6 +30,10 @@ constexpr int harmonics_of_a_choice = 7;       // about, where contact slips
 constexpr double period_map = 2e-3;            // of a point of a curve in scenes of few states
 constexpr double states_of_a_period_map = 16;  // at most (solver/stability/stability.hpp)
 constexpr double factorisation = 6e-11;        // over the cube of the unknowns
+// Hill's exponents of a point, over the cube of the unknowns up to where states are condensed; a
+// part of what evaluations take.
+constexpr double hill = 2e-10;
+constexpr double hill_of_many = 4e-3;
 
 // A motion integrated in time, until it is periodic.
 constexpr double periods_from_rest = 250.0;
@@ -41,18 +46,39 @@ struct Size {
   int harmonics = 1;
 };
 
-Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
-  constexpr double attachment_shapes = 4.0;  // of a patch, about
-  Size size;
+/// Shapes that stand for omitted modes, of a scene that has or had them.
+double n_shapes(const SceneDescription& scene) {
+  constexpr double of_a_patch = 4.0;  // about
+  const SceneDescription& written = as_written(scene);
+  if (const auto* modal = std::get_if<ModalModel>(&written.model)) {
+    return static_cast<double>(modal->n_attachment);
+  }
+  return written.settings.basis.residual == ResidualKind::attachment ? of_a_patch : 0.0;
+}
+
+double n_free_modes(const SceneDescription& scene) {
+  const auto* modal = std::get_if<ModalModel>(&scene.model);
+  if (modal == nullptr) return scene.settings.basis.n_modes;
+  return static_cast<double>(modal->frequency_hz.size() - modal->n_attachment);
+}
+
+/// @param areas  else each is one point.
+double n_points(const SceneDescription& scene, bool areas) {
   if (const auto* modal = std::get_if<ModalModel>(&scene.model)) {
-    size.points = static_cast<double>(modal->points.size());
-    size.modes = static_cast<double>(modal->frequency_hz.size());
-  } else {
-    size.modes = scene.settings.basis.n_modes + attachment_shapes;
+    const bool lumped = !areas && modal->positions.rows() > 1;
+    return lumped ? 1.0 : static_cast<double>(modal->points.size());
   }
+  double n = 0.0;
   for (std::size_t i = 0; i < scene.settings.patches.size(); ++i) {
-    size.points += contact_points(scene.settings, i);
+    n += areas ? contact_points(scene.settings, i) : 1;
   }
+  return n;
+}
+
+Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
+  Size size;
+  size.points = n_points(scene, effects.areas);
+  size.modes = n_free_modes(scene) + (effects.residual ? n_shapes(scene) : 0.0);
   const HarmonicSettings& given = scene.settings.harmonics;
   const int n_given = given.orders.empty() ? given.highest : static_cast<int>(given.orders.size());
   const bool chosen = effects.chosen_harmonics || (effects.several_harmonics && n_given == 1);
@@ -62,9 +88,9 @@ Size size_of(const SceneDescription& scene, const CurveEffects& effects) {
 
 /// Force and Jacobian of one point, with its share of the step,
 /// by the method that contact would choose.
-double point_seconds(const SceneDescription& scene, const CurveEffects& effects, const Size& size) {
-  const bool rough = is_rough(scene);
-  const bool plain = !effects.second_direction && !rough && !is_rate_dependent(scene);
+double point_seconds(const CurveEffects& effects, const Size& size) {
+  const bool rough = effects.roughness;
+  const bool plain = !effects.second_direction && !rough && !effects.rate_dependence;
   const double more = size.harmonics - 1;  // harmonics
   switch (contact::method_for(std::llround(size.points), plain, size.harmonics)) {
     case contact::Method::closed_form:
@@ -79,18 +105,23 @@ double point_seconds(const SceneDescription& scene, const CurveEffects& effects,
   return (rough ? 250.0 : 140.0) * size.harmonics * microsecond;
 }
 
-double evaluation_seconds(const SceneDescription& scene, const CurveEffects& effects,
-                          const Size& size) {
+double cube_of_unknowns(const Size& size) {
   const double unknowns = size.modes * (2.0 * size.harmonics + 1.0);
-  return size.points * point_seconds(scene, effects, size) +
-         factorisation * unknowns * unknowns * unknowns;
+  return unknowns * unknowns * unknowns;
 }
 
-/// Of one point of a curve, where the multipliers of its period are looked at.
+double evaluation_seconds(const CurveEffects& effects, const Size& size) {
+  return size.points * point_seconds(effects, size) + factorisation * cube_of_unknowns(size);
+}
+
+/// Of one point of a curve, beside its evaluations: where the multipliers of its period are looked
+/// at. Below 0 where it is not judged, and evaluations are said to take more than they do.
 double stability_seconds(const CurveEffects& effects, const Size& size) {
-  const bool in_time = size.harmonics > 1 && !effects.second_direction &&
-                       2.0 * size.modes + size.points <= states_of_a_period_map;
-  return in_time ? period_map : 0.0;
+  if (size.harmonics == 1) return 0.0;
+  const bool in_time =
+      !effects.second_direction && 2.0 * size.modes + size.points <= states_of_a_period_map;
+  if (in_time) return effects.stability ? period_map : 0.0;
+  return effects.stability ? 0.0 : -std::min(hill * cube_of_unknowns(size), hill_of_many);
 }
 
 bool is_one_frequency(const SceneDescription& scene) {
@@ -110,7 +141,7 @@ double check_seconds(const SceneDescription& scene, CurveEffects effects, Size s
   if (given.chosen() || !given.checked || size.points == 0.0) return 0.0;
   size.harmonics = given.highest + harmonics_of_a_check;
   effects.several_harmonics = true;
-  return of_a_check * evaluation_seconds(scene, effects, size);
+  return of_a_check * evaluation_seconds(effects, size);
 }
 
 double seconds_in_time(const SceneDescription& scene, const Size& size) {
@@ -123,12 +154,19 @@ double seconds_in_time(const SceneDescription& scene, const Size& size) {
 
 CurveEffects curve_effects(const SceneDescription& scene, bool second_direction) {
   const HarmonicSettings& harmonics = scene.settings.harmonics;
-  return {second_direction, harmonics.highest > 1, harmonics.chosen()};
+  return {.second_direction = second_direction,
+          .several_harmonics = harmonics.highest > 1,
+          .chosen_harmonics = harmonics.chosen(),
+          .roughness = is_rough(scene),
+          .rate_dependence = is_rate_dependent(scene),
+          .areas = scene.areas,
+          .residual = scene.settings.basis.residual != ResidualKind::none,
+          .stability = scene.judges_stability};
 }
 
 ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffects& effects) {
   const Size size = size_of(scene, effects);
-  const double evaluation = evaluation_seconds(scene, effects, size);
+  const double evaluation = evaluation_seconds(effects, size);
   const double stability = stability_seconds(effects, size);
   const bool one = is_one_frequency(scene);
   ResponseSeconds seconds;
@@ -139,8 +177,10 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
                                : effects.chosen_harmonics ? of_a_choosing_curve
                                                           : of_a_curve;
     seconds.curves =
-        n_curves(scene) * (evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability +
-                           check_seconds(scene, effects, size));
+        n_curves(scene) *
+        (std::max(0.5 * evaluations * evaluation,
+                  evaluations * evaluation + (one ? 1.0 : points_of_a_curve) * stability) +
+         check_seconds(scene, effects, size));
     const bool told = scene.accuracy.error_budget && !scene.contacts.empty();
     if (told) seconds.errors = n_curves(scene) * of_error_rows * evaluation;
   }
@@ -148,7 +188,7 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
     constexpr double stable_curves =
         10.0;  // about: peaks alone are judged, and the curves of its error
     seconds.best_value = curves_of_a_search * of_a_curve * evaluation +
-                         stable_curves * points_of_a_curve * stability;
+                         stable_curves * points_of_a_curve * std::max(stability, 0.0);
     seconds.bracket = searches_of_a_bracket * seconds.best_value;
   }
   return seconds;
@@ -157,8 +197,7 @@ ResponseSeconds response_seconds(const SceneDescription& scene, const CurveEffec
 double search_seconds(const SceneDescription& scene, const CurveEffects& effects, int n_starts) {
   const double frequencies = is_one_frequency(scene) ? 1.0 : frequencies_of_a_search;
   const Size size = size_of(scene, effects);
-  return n_curves(scene) * frequencies * n_starts * of_a_start *
-         evaluation_seconds(scene, effects, size);
+  return n_curves(scene) * frequencies * n_starts * of_a_start * evaluation_seconds(effects, size);
 }
 
 }  // namespace microslip::pipelines

@@ -7,11 +7,17 @@
 
 namespace microslip::pipelines {
 
-/// What decides the method of the contact points (contact::method_for) beside the surfaces.
+/// What decides how many unknowns and points there are, and by which method the points are
+/// evaluated (contact::method_for).
 struct CurveEffects {
   bool second_direction = false;
   bool several_harmonics = false;
   bool chosen_harmonics = false;
+  bool roughness = false;
+  bool rate_dependence = false;
+  bool areas = true;     ///< contact acts on areas where the scene has any; else on points
+  bool residual = true;  ///< the modes have those shapes for omitted ones that the scene has
+  bool stability = true;
 };
 
 /// What a scene has. @param second_direction  as decided.

@@ -1,12 +1,14 @@
 #include "pipelines/effects/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "pipelines/description/effects_left_out.hpp"
 #include "pipelines/effects/curve_cost.hpp"
 #include "pipelines/effects/effect_choice.hpp"
 #include "pipelines/text/effect_table.hpp"
@@ -18,19 +20,45 @@ using enum Simulated;
 
 constexpr double in_percent = 100.0;
 
+bool can_have_residual(const SceneDescription& scene) {
+  return as_written(scene).settings.basis.residual != ResidualKind::none;
+}
+
+/// An effect by which the method of the contact points, or the number of unknowns, goes.
+struct Costly {
+  std::string_view name;
+  bool CurveEffects::*member;
+  bool (*needs)(const SceneDescription&);  ///< for its cost to be told; nullptr: nothing
+};
+
+const Costly* costly(std::string_view name) {
+  static constexpr std::array effects{
+      Costly{"second_direction", &CurveEffects::second_direction, nullptr},
+      Costly{"roughness", &CurveEffects::roughness, nullptr},
+      Costly{"rate_dependence", &CurveEffects::rate_dependence, nullptr},
+      Costly{"moments", &CurveEffects::areas, has_area},
+      Costly{"residual", &CurveEffects::residual, can_have_residual},
+      Costly{"stability", &CurveEffects::stability, nullptr}};
+  const auto found = std::ranges::find(effects, name, &Costly::name);
+  return found == effects.end() ? nullptr : &*found;
+}
+
 /// What the curves take longer with an effect than without, where the method of the points tells.
 std::optional<double> cost_of(std::string_view name, const EffectFacts& facts) {
   if (!facts.scene.response || !facts.has_contact || in_time(facts.scene)) return std::nullopt;
+  if (name == "coexistence") return seconds_of_search(facts);
+  if (name == "separation") return 0.0;  // the equations are those of contact that cannot open
   CurveEffects with = curve_effects(facts.scene, facts.both_directions);
+  const double all = response_seconds(facts.scene, with).total();
+  if (name == "nonlinearity") return all;  // the limits take nothing
   CurveEffects without = with;
-  if (name == "second_direction") {
-    with.second_direction = true;
-    without.second_direction = false;
-  } else if (name == "higher_harmonics") {
+  if (name == "higher_harmonics") {
     with.several_harmonics = with.chosen_harmonics = true;
     without.several_harmonics = without.chosen_harmonics = false;
-  } else if (name == "coexistence") {
-    return seconds_of_search(facts);
+  } else if (const Costly* effect = costly(name); effect != nullptr) {
+    if (effect->needs != nullptr && !effect->needs(facts.scene)) return std::nullopt;
+    with.*effect->member = true;
+    without.*effect->member = false;
   } else {
     return std::nullopt;
   }

@@ -49,6 +49,28 @@ TEST(CurveCost, MoreEffectsCostMore) {
   EXPECT_GT(seconds({"response.harmonics=1"}, true).curves, one);
 }
 
+TEST(CurveCost, EveryEffectOfTheMethodCosts) {
+  const SceneDescription scene = parse_scene(
+      chain, "scene.toml", "/nowhere",
+      {"contact.points=[{ slip = \"m1\", tangential_stiffness = 4e4, friction_coefficient = 0.5, "
+       "cells = [3, 3], size = [0.1, 0.1] }]"});
+  const CurveEffects given = curve_effects(scene, false);
+  EXPECT_TRUE(given.areas && given.stability);
+  EXPECT_FALSE(given.roughness || given.rate_dependence || given.residual);
+  const double seconds = response_seconds(scene, given).total();
+  for (bool CurveEffects::*effect : {&CurveEffects::roughness, &CurveEffects::rate_dependence}) {
+    CurveEffects more = given;
+    more.*effect = true;
+    EXPECT_GT(response_seconds(scene, more).total(), seconds);
+  }
+  for (bool CurveEffects::*effect : {&CurveEffects::areas, &CurveEffects::stability}) {
+    CurveEffects less = given;
+    less.*effect = false;
+    EXPECT_LT(response_seconds(scene, less).total(), seconds);
+    EXPECT_GT(response_seconds(scene, less).total(), 0.0);
+  }
+}
+
 TEST(CurveCost, ABestValueIsToldApart) {
   EXPECT_EQ(seconds({}).best_value, 0.0);
   const ResponseSeconds searched =

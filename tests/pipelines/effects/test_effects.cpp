@@ -270,6 +270,52 @@ TEST(Effects, ContactThatOpensThoughItWasNotToIsTold) {
   EXPECT_NE(effects[0].objection.find("25 %"), std::string::npos) << effects[0].objection;
 }
 
+// Whether it is simulated or not.
+TEST(Effects, TheForecastTellsWhatAnEffectCosts) {
+  const std::string rough = "contact.roughness={ law = \"cubic\", height = 1e-3 }";
+  for (const Overrides& overrides : {Overrides{rough}, Overrides{rough, "effects.roughness=off"}}) {
+    const SceneDescription scene = parse_scene(text, "scene.toml", "/nowhere", overrides);
+    const ReducedModel model = model_in(scene);
+    const std::vector<EffectRecord> told = effects_of(scene, &model);
+    for (const char* name :
+         {"nonlinearity", "second_direction", "higher_harmonics", "roughness", "coexistence"}) {
+      EXPECT_GT(effect_in(told, name).seconds.value_or(0.0), 0.0) << name;
+    }
+    EXPECT_EQ(effect_in(told, "separation").seconds, 0.0);
+    for (const char* name : {"normal_motion", "mean_coupling", "moments", "residual", "maps"}) {
+      EXPECT_FALSE(effect_in(told, name).seconds) << name;
+    }
+  }
+}
+
+// Above its limit an effect that is given is missed.
+TEST(Effects, WhatIsOffThoughItIsGivenIsObjectedTo) {
+  const auto told = [](const char* height) {
+    const SceneDescription scene =
+        scene_of({std::string("contact.roughness={ law = \"cubic\", height = ") + height + " }",
+                  "effects.roughness=off"});
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "roughness");
+  };
+  const EffectRecord high = told("1e-3");  // 0.5 of the compression, 4 Pa over 2e3 N/m^3
+  EXPECT_EQ(high.simulated, Simulated::no);
+  EXPECT_NEAR(*high.indicator, 0.5, 1e-12);
+  EXPECT_NE(high.objection.find("0.5, above 0.1"), std::string::npos) << high.objection;
+  EXPECT_NE(high.reason.find("contact.roughness"), std::string::npos) << high.reason;
+  EXPECT_EQ(told("1e-5").objection, "");
+}
+
+TEST(Effects, PointsThatStayOpenAreCounted) {
+  const SceneDescription scene =
+      parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});
+  const ReducedModel model = model_in(scene);
+  const EffectRecord told = effect_in(effects_of(scene, &model), "normal_motion");
+  EXPECT_NE(told.reason.find("1 of 2 contact points are open at rest and never touch"),
+            std::string::npos)
+      << told.reason;
+  EXPECT_FALSE(told.objection.empty());
+}
+
 TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
   const SceneDescription scene = scene_of({});
   for (const char* name : {"nonlinearity", "normal_motion", "second_direction", "coexistence"}) {
