@@ -60,15 +60,19 @@ EffectDecision nonlinearity(const EffectFacts& facts) {
   return {undecided, text + ": the run proves that it holds, or solves", slip};
 }
 
-/// Of given points that have a gap, which then never closes.
+/// Of the contact points, where some are open under a load that presses others: without normal
+/// motion they never close.
 std::string open_points(const EffectFacts& facts) {
-  const auto* modal = std::get_if<ModalModel>(&facts.scene.model);
-  if (modal == nullptr) return {};
-  const auto n =
-      std::ranges::count_if(modal->points, [](const auto& p) { return p.rest_load < 0.0; });
-  if (n == 0) return {};
-  return fmt::format(", so that {} of {} contact points are open at rest and never touch", n,
-                     modal->points.size());
+  if (facts.model == nullptr) return {};
+  Eigen::Index n_open = 0;
+  Eigen::Index n = 0;
+  for (const contact::Patch& patch : facts.model->patches) {
+    n_open += (patch.cells.preload_field.array() < 0.0).count();
+    n += patch.cells.size();
+  }
+  if (n_open == 0) return {};
+  return fmt::format(", so that {} of {} contact points are open at rest and never touch", n_open,
+                     n);
 }
 
 EffectDecision normal_motion(const EffectFacts& facts) {

@@ -45,6 +45,11 @@ bool lacks_nonlinearity(const SceneDescription& scene) {
   return setting_of(scene, "nonlinearity") == "off";
 }
 
+bool searches_for_speed(const SceneDescription& scene) {
+  return scene.response && scene.response->optimum &&
+         scene.response->optimum->key == "static.speed";
+}
+
 /// The list of preloads, or the range searched for the best, has a gap.
 bool asks_for_gap(const ResponseDescription& response) {
   const auto& optimum = response.optimum;
@@ -212,6 +217,8 @@ constexpr std::array contradictions{
     Contradiction{"static_preload", "on", lacks_static_preload,
                   "needs contact.preload = \"static\" and the loads of [static]"},
     Contradiction{"centrifugal", "on", is_at_rest, "needs static.speed and static.axis"},
+    Contradiction{"centrifugal", "off", searches_for_speed,
+                  "contradicts response.optimum = \"static.speed\", which searches for it"},
     Contradiction{"centrifugal", "off", presses_by_rotation_alone,
                   "contradicts contact.preload = \"static\", which nothing presses without "
                   "static.speed: expected static.forces, static.pressure or contact.gap below 0"},
