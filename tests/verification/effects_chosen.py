@@ -13,7 +13,9 @@ import os
 import random
 import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 
 from program_run import whole_campaigns, without_plots
 
@@ -342,6 +344,19 @@ class WhatOtherKeysGiveIsSwitchedOff(unittest.TestCase):
         self.assertEqual(set(self.column("told_off", "stuck", "stable")), {"-1"})
         self.assertTrue(os.listdir(os.path.join(FOLDER, "told_given", "maps")))
         self.assertFalse(os.path.exists(os.path.join(FOLDER, "told_off", "maps")))
+
+    def test_results_that_are_kept_are_those_of_the_same_scene(self):
+        settings = ['model.element_size="15 mm"', "response.harmonics=3", "response.preload=[100]", "response.optimum=",
+                    "response.optimum_range=", "response.maps=[]", 'contact.roughness={ law = "cubic", height = "20 um" }']
+
+        def kept(number, setting):
+            return run(f"kept_{number}", f"{SCENES}/blade_to_ground.toml", *settings, f"effects.roughness={setting}")["curves"][0]
+
+        with tempfile.TemporaryDirectory() as cache, unittest.mock.patch.dict(os.environ, MICROSLIP_CACHE=cache):
+            first, off, again = kept(1, "on"), kept(2, "off"), kept(3, "on")
+        self.assertEqual(again["seconds"], first["seconds"])  # as it took when it was solved
+        self.assertEqual(again["peak"], first["peak"])
+        self.assertGreater(abs(off["peak"]["amplitude_m"] / first["peak"]["amplitude_m"] - 1), 0.02)
 
     def column(self, run_name, curve, name):
         with open(os.path.join(FOLDER, run_name, "curves", curve + ".csv"), encoding="utf-8") as file:
