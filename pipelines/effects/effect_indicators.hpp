@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "pipelines/description/scene_description.hpp"
 #include "pipelines/model/reduced_model.hpp"
@@ -50,6 +51,12 @@ struct HarmonicAnswer {
 /// of the free limit at its ends.
 [[nodiscard]] HarmonicAnswer harmonic_answer(const ReducedModel& model,
                                              const SceneDescription& scene);
+
+/// Moment of the load that turning changes on each patch, over half its size, about p or r
+/// through the middle [N]: the largest in the range, of the stuck limit. Infinite where that has no
+/// bound.
+[[nodiscard]] std::vector<double> turning_forces(const ReducedModel& model,
+                                                 const SceneDescription& scene);
 
 /// |μ(σ) − μ(0)|/μ(0) at the highest speed σ of the linear limits, the largest of all patches; of
 /// the law that the scene gives, simulated or not.

@@ -7,6 +7,8 @@
 
 #include "pipelines/description/curve_request.hpp"
 #include "pipelines/description/effects_left_out.hpp"
+#include "pipelines/effects/effect_indicators.hpp"
+#include "pipelines/model/contact_stage.hpp"
 #include "pipelines/model/curve_load.hpp"
 
 namespace microslip::pipelines {
@@ -37,15 +39,30 @@ double smallest_force(const ReducedModel& model, const SceneDescription& scene) 
 
 double over(double part, double whole) { return whole > 0.0 ? part / whole : no_limit; }
 
-/// Of each patch, those that are left out as well where the scene gives them.
-std::vector<std::vector<contact::TiltedArea>> tilted_areas(const ReducedModel& model,
-                                                           const SceneDescription& scene) {
-  if (const auto* modal = std::get_if<ModalModel>(&as_written(scene).model)) {
-    return {modal->tilted_areas};
+/// Of a load that presses, on one patch [-].
+double share_of(const ReducedModel& model, std::size_t patch) {
+  double all = 0.0;
+  double own = 0.0;
+  for (std::size_t k = 0; k < model.patches.size(); ++k) {
+    const contact::PatchSamples& cells = model.patches[k].cells;
+    const double share = in_newtons(model) ? model.patches[k].load_share
+                                           : cells.preload_field.cwiseMax(0.0).dot(cells.weights);
+    all += share;
+    if (k == patch) own = share;
   }
-  std::vector<std::vector<contact::TiltedArea>> areas;
-  for (const contact::Patch& patch : model.patches) areas.push_back(patch.tilted_areas);
-  return areas;
+  return all > 0.0 ? own / all : 0.0;
+}
+
+/// That of the motion: 0 without normal motion, or where the places of points are not known.
+double turning_size(const ReducedModel& model, const SceneDescription& scene) {
+  if (setting_of(scene, "normal_motion") == "off") return 0.0;
+  const double force = smallest_force(model, scene);
+  const std::vector<double> turning = turning_forces(model, scene);
+  double most = 0.0;
+  for (std::size_t k = 0; k < turning.size(); ++k) {
+    if (turning[k] > 0.0) most = std::max(most, over(turning[k], share_of(model, k) * force));
+  }
+  return most;
 }
 
 double half_size(const Eigen::VectorXd& places) {
@@ -63,11 +80,15 @@ double roughness_size(const ReducedModel& model, const SceneDescription& scene) 
 }
 
 std::optional<double> tilt_size(const ReducedModel& model, const SceneDescription& scene) {
-  double most = 0.0;
-  const double force = smallest_force(model, scene);
   if (!scene.areas && !scene.contacts.empty()) return std::nullopt;
-  for (const std::vector<contact::TiltedArea>& areas : tilted_areas(model, scene)) {
-    for (const contact::TiltedArea& area : areas) {
+  if (!scene.areas) {
+    const SceneDescription with = with_effect(scene, "moments");
+    return tilt_size(reduced_model(with), with);
+  }
+  double most = turning_size(model, scene);
+  const double force = smallest_force(model, scene);
+  for (const contact::Patch& patch : model.patches) {
+    for (const contact::TiltedArea& area : patch.tilted_areas) {
       const double load = area.share * force;
       for (const auto& [moment, places] :
            {std::pair{area.moment[0], &area.r}, std::pair{area.moment[1], &area.p}}) {

@@ -1,6 +1,6 @@
 /// @file
-/// Dimensionless sizes of what a contact is like at rest: roughness, moments. Under the smallest
-/// load that presses, of those a scene asks for.
+/// Dimensionless sizes of roughness and of moments, under the smallest load that presses, of those
+/// a scene asks for.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,8 @@ namespace microslip::pipelines {
 /// surfaces at rest. Infinite without load.
 [[nodiscard]] double roughness_size(const ReducedModel& model, const SceneDescription& scene);
 
-/// Moment of the preload over load times half the size of its area, the larger about p and r.
+/// Moment over load times half the size of its area, the larger about p and r: that of the preload,
+/// or of the load that the motion of the stuck limit changes.
 /// Infinite without load. None: areas of a mesh are left out, and with them their size.
 [[nodiscard]] std::optional<double> tilt_size(const ReducedModel& model,
                                               const SceneDescription& scene);

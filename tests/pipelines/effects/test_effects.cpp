@@ -305,6 +305,30 @@ TEST(Effects, WhatIsOffThoughItIsGivenIsObjectedTo) {
   EXPECT_EQ(told("1e-5").objection, "");
 }
 
+// Two points of 4 N, half a metre on both sides of the middle, whose loads change unequally.
+TEST(Effects, TurningIsWhatMomentsAreFor) {
+  const Overrides area{
+      "modal.points=[{ weight = 1, tangential_stiffness = 3e3, normal_stiffness = "
+      "2e3, friction_coefficient = 0.5, preload = 4, phi_u_1 = 1, phi_v_1 = 0.5, "
+      "p = 0, r = 0 }, { weight = 1, tangential_stiffness = 3e3, normal_stiffness "
+      "= 2e3, friction_coefficient = 0.5, preload = 4, phi_u_1 = 1, phi_v_1 = 0.1, "
+      "p = 1, r = 0 }]"};
+  const auto told = [&](const char* setting, const Overrides& more) {
+    Overrides all = area;
+    all.insert(all.end(), more.begin(), more.end());
+    all.push_back(std::string("effects.moments=") + setting);
+    const SceneDescription scene = scene_of(all);
+    const ReducedModel model = model_in(scene);
+    return effect_in(effects_of(scene, &model), "moments");
+  };
+  const double stuck = amplitude(2.0 * 3e3 + 2e3 * (0.25 + 0.01), 12.0);
+  const double moment = 2e3 * (0.5 - 0.1) * 0.5 * stuck;
+  EXPECT_NEAR(*told("auto", {}).indicator, moment / (8.0 * 0.5), 1e-12);
+  EXPECT_EQ(told("off", {}).indicator, told("auto", {}).indicator);
+  EXPECT_FALSE(told("off", {"modal.force_cosine=[100]"}).objection.empty());
+  EXPECT_EQ(told("auto", {"effects.normal_motion=off"}).indicator, 0.0);
+}
+
 TEST(Effects, PointsThatStayOpenAreCounted) {
   const SceneDescription scene =
       parse_scene(text, "scene.toml", "/nowhere", {"effects.normal_motion=off"});
