@@ -11,6 +11,7 @@
 
 #include "pipelines/files/checkpoint.hpp"
 #include "pipelines/files/model_file.hpp"
+#include "pipelines/files/model_members.hpp"
 #include "pipelines/files/result_members.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/system/byte_archive.hpp"
@@ -19,23 +20,8 @@
 #include "pipelines/system/result_cache.hpp"
 #include "pipelines/text/toml_text.hpp"
 
-namespace microslip::contact {
-auto members(pipelines::Is<ContactEffects> auto& value) {
-  auto& [n_harmonics, normal_motion, second_direction, located, motion_ratio] = value;
-  return std::tie(n_harmonics, normal_motion, second_direction, located, motion_ratio);
-}
-auto members(pipelines::Is<MotionCoordinates> auto& value) {
-  auto& [of_modes, motion] = value;
-  return std::tie(of_modes, motion);
-}
-}  // namespace microslip::contact
-
 namespace microslip::pipelines {
 
-auto members(Is<HarmonicSettings> auto& value) {
-  auto& [highest, orders, tolerance, checked] = value;
-  return std::tie(highest, orders, tolerance, checked);
-}
 auto members(Is<CurveBudget> auto& value) {
   auto& [rows, unknown, left_out, dissipated_energy, energy_ratio] = value;
   return std::tie(rows, unknown, left_out, dissipated_energy, energy_ratio);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -25,6 +27,10 @@ namespace microslip::pipelines {
 template <typename T, typename U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
+/// A value that only a function of its own makes, which tells no members: its bytes are the value.
+template <typename T>
+concept OnlyAsBytes = std::is_trivially_copyable_v<T> && !std::is_default_constructible_v<T>;
+
 /// FNV-1a, 64 bits.
 [[nodiscard]] inline std::uint64_t fingerprint(std::string_view bytes,
                                                std::uint64_t seed = 0xcbf29ce484222325U) {
@@ -36,7 +42,7 @@ class ByteWriter {
  public:
   template <typename T>
   void operator()(const T& value) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || OnlyAsBytes<T>) {
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     } else {
       std::apply([this](const auto&... member) { ((*this)(member), ...); }, members(value));
@@ -122,6 +128,15 @@ class ByteReader {
     bool has_value = false;
     (*this)(has_value);
     if (has_value) (*this)(value.emplace());
+  }
+  template <OnlyAsBytes T>
+  void operator()(std::optional<T>& value) {
+    bool has_value = false;
+    (*this)(has_value);
+    if (!has_value) return;
+    std::array<std::byte, sizeof(T)> bytes;
+    copy(bytes.data(), bytes.size());
+    value.emplace(std::bit_cast<T>(bytes));
   }
   template <typename A, typename B>
   void operator()(std::variant<A, B>& value) {
