@@ -28,9 +28,13 @@
 #include "pipelines/import/step_mesh.hpp"
 #include "pipelines/import/step_scene.hpp"
 #include "pipelines/record/failed_start.hpp"
+#include "pipelines/run/shared_curves.hpp"
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/scene/scene_template.hpp"
 #include "pipelines/sections/static_section.hpp"
+#include "pipelines/structure/campbell.hpp"
+#include "pipelines/structure/on_all_ranks.hpp"
+#include "pipelines/structure/structure_task.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/interrupt.hpp"
 #include "pipelines/system/mesh_format.hpp"
@@ -425,6 +429,16 @@ int cycle(const Arguments& arguments) {
   put_out(arguments, json);
   if (arguments.plot_folder) draw_cycle_plots(plots, *arguments.plot_folder);
   return 0;
+}
+
+int serve_rank_zero() {
+  static constexpr std::array parts{
+      Part{modes_work,
+           [](std::string_view bytes) { static_cast<void>(solve(structure_task(bytes))); }},
+      Part{campbell_work, take_part_in_campbell},
+      Part{curves_work, take_part_in_curves},
+  };
+  return serve_rank_zero(parts);
 }
 
 }  // namespace microslip::pipelines

@@ -62,4 +62,8 @@ int init(const Arguments& arguments);
 int columns(const Arguments& arguments);
 int cycle(const Arguments& arguments);
 
+/// What a rank above 0 of an MPI start does while rank 0 answers a command.
+/// @return the exit code of rank 0.
+int serve_rank_zero();
+
 }  // namespace microslip::pipelines

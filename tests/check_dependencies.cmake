@@ -20,7 +20,7 @@ set(uses_pipelines mesh fem contact solver)
 set(face_mesh blade_geometry count_text element_block element_shape element_type face_frame mesh mesh_error mesh_reader
   mesher_process outer_faces shape_functions step_geometry surface)
 set(face_fem attachment given_matrices machine_memory material memory_forecast modal_analysis modal_basis modal_mass
-  petsc_error ranks rotation slepc_session solver_kind surface_load)
+  petsc_error rank_messages ranks rotation slepc_session solver_kind surface_load)
 set(face_contact contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
   motion_coordinates patch phase point_cycle spare_cores transient_force)
 set(face_solver continuation continuation_options diagnosis mark_shift optimum response_curve richer_peak scene time_integration
@@ -81,7 +81,7 @@ set(uses_pipelines_run system text description scene import model structure effe
 set(uses_pipelines_cycle system text files)
 set(uses_pipelines_face system text description sections scene import model structure effects response accuracy files
   record run cycle)
-set(uses_pipelines_command_line system text structure cycle face)
+set(uses_pipelines_command_line system text cycle face)
 
 # Doors that stay open: what a scene and a mesh say about a patch (fields over it, fitted mode shapes, preload that
 # can be balanced) becomes arrays with the tools of contact/patch. Everything else of contact/ is its face.

@@ -85,6 +85,7 @@ SlepcSession::SlepcSession() {
   // as well.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   if (!started_in_parallel()) stay_alone();
+  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;  // for rank_messages.hpp
   {
     const QuietOptions quiet;
     check(SlepcInitialize(nullptr, nullptr, nullptr, nullptr));

@@ -18,7 +18,6 @@
 #include "pipelines/command_line/command_line.hpp"
 #include "pipelines/command_line/command_options.hpp"
 #include "pipelines/commands.hpp"
-#include "pipelines/structure/on_all_ranks.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/little_memory.hpp"
 #include "pipelines/system/scene_error.hpp"

@@ -7,12 +7,16 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "contact/contact_force.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/run/kept_results.hpp"
+#include "pipelines/run/shared_curves.hpp"
 #include "pipelines/system/deadline.hpp"
 #include "pipelines/system/in_parallel.hpp"
 #include "pipelines/system/interrupt.hpp"
@@ -36,6 +40,11 @@ void stop_if_interrupted(const std::string& kept) {
                          " are kept: the same command with --resume goes on");
 }
 
+void tell_shares(const std::vector<int>& solved, Progress& progress) {
+  if (solved.size() == 1) return;
+  progress.info(fmt::format("curves solved on each MPI rank: {}", fmt::join(solved, ", ")));
+}
+
 }  // namespace
 
 std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDescription& scene,
@@ -48,7 +57,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
   std::vector<bool> finished(requests.size(), false);
   std::size_t kept = 0;
   std::atomic<std::size_t> done{0};
-  in_parallel(requests.size(), jobs, [&](std::size_t i) {
+  const auto trace = [&](std::size_t i, const CurveSolver& solve) {
     stop_if_interrupted("points");
     const auto observe = [&](const solver::ResponsePoint& point) {
       record.note_point(requests[i].name, load_of(requests[i], model), point);
@@ -64,7 +73,7 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
       results[i] = std::move(*earlier);
     } else {
       const TimeLimit limit(scene.response->time_budget);
-      results[i] = trace_curve(model, scene, requests[i], observe);
+      results[i] = solve(requests[i], observe, nullptr);
       // Else it may be cut short, or have fewer harmonics than it was to have.
       if (!interrupt_requested() && !time_is_short()) {
         record.keep_finished(results[i]);
@@ -78,7 +87,8 @@ std::vector<CurveResult> trace_family(const ReducedModel& model, const SceneDesc
     for (; kept < finished.size() && finished[kept]; ++kept) {
       record.keep_curve(results[kept], model);
     }
-  });
+  };
+  tell_shares(share_curves(model, scene, requests.size(), jobs, trace), record.progress());
   stop_if_interrupted("points");
   return results;
 }
@@ -89,16 +99,17 @@ std::vector<CurveResult> trace_unkept(const ReducedModel& model, const SceneDesc
                                       int jobs, Progress& progress) {
   std::vector<CurveResult> results(requests.size());
   std::atomic<std::size_t> done{0};
-  in_parallel(requests.size(), jobs, [&](std::size_t i) {
+  const auto trace = [&](std::size_t i, const CurveSolver& solve) {
     stop_if_interrupted("curves");
     const auto observe = [&](const solver::ResponsePoint& point) {
       progress.point(requests[i].name, point,
                      static_cast<double>(done) / static_cast<double>(requests.size()));
       return goes_on();
     };
-    results[i] = trace_curve(model, scene, requests[i], observe, near.empty() ? nullptr : near[i]);
+    results[i] = solve(requests[i], observe, near.empty() ? nullptr : near[i]);
     ++done;
-  });
+  };
+  tell_shares(share_curves(model, scene, requests.size(), jobs, trace), progress);
   stop_if_interrupted("curves");
   return results;
 }

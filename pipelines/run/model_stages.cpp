@@ -23,8 +23,9 @@ namespace {
 
 void tell_ranks(Progress& progress) {
   if (fem::n_ranks() == 1) return;
-  progress.info(fmt::format("{} MPI ranks solve for the modes together, rank 0 does the rest",
-                            fem::n_ranks()));
+  progress.info(fmt::format(
+      "{} MPI ranks solve for modes together and share the curves, rank 0 does the rest",
+      fem::n_ranks()));
   if (fem::n_ranks_here() <= fem::n_cores()) return;
   progress.warning(fmt::format(
       "{} MPI ranks share {} cores of this machine and wait for each other: {} would be faster",
@@ -35,8 +36,8 @@ void tell_ranks(Progress& progress) {
 
 StructurePointer solved_structure(const SceneDescription& scene, RunRecord& record) {
   ask(record.progress(), scene);
-  if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   tell_ranks(record.progress());
+  if (std::holds_alternative<ModalModel>(scene.model)) return nullptr;
   record.stage("mesh");
   record.progress().expect(mesh_seconds(scene));
   record.keep_inputs(scene);

@@ -1,6 +1,5 @@
 #include "pipelines/structure/on_all_ranks.hpp"
 
-#include <array>
 #include <csignal>
 #include <exception>
 #include <optional>
@@ -11,26 +10,13 @@
 
 #include "fem/petsc_error.hpp"
 #include "fem/ranks.hpp"
-#include "pipelines/structure/campbell.hpp"
-#include "pipelines/structure/structure_task.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/scene_error.hpp"
 
 namespace microslip::pipelines {
 namespace {
 
-/// The part of the other ranks in each kind of work, which they know by its name.
-struct Part {
-  std::string_view name;
-  void (*take)(std::string_view bytes);
-};
-constexpr std::array parts{
-    Part{modes_work,
-         [](std::string_view bytes) { static_cast<void>(solve(structure_task(bytes))); }},
-    Part{campbell_work, take_part_in_campbell},
-};
-
-void take_part(const std::string& work) {
+void take_part(std::span<const Part> parts, const std::string& work) {
   const std::size_t end = work.find('\n');
   const std::string_view name = std::string_view(work).substr(0, end);
   for (const Part& part : parts) {
@@ -38,17 +24,19 @@ void take_part(const std::string& work) {
   }
 }
 
+}  // namespace
+
 std::optional<fem::Failure> failure_of(const std::function<void()>& work) {
   try {
     work();
     return std::nullopt;
   } catch (const std::exception& error) {
-    return fem::Failure{static_cast<int>(exit_code_of(error)), error.what()};
+    return fem::Failure{static_cast<int>(exit_code_of(error)), message_of(error)};
   }
 }
 
-[[noreturn]] void throw_error(const fem::Failure& failure) {
-  const std::string message = "on another rank: " + failure.message;
+[[noreturn]] void throw_failure(const fem::Failure& failure) {
+  const std::string& message = failure.message;
   switch (static_cast<ExitCode>(failure.code)) {
     case ExitCode::bad_input:
       throw SceneError(message);
@@ -62,8 +50,6 @@ std::optional<fem::Failure> failure_of(const std::function<void()>& work) {
       throw std::runtime_error(message);
   }
 }
-
-}  // namespace
 
 void on_all_ranks(std::string_view name, const std::function<std::string()>& bytes,
                   const std::function<void()>& work) {
@@ -80,16 +66,16 @@ void on_all_ranks(std::string_view name, const std::function<std::string()>& byt
   });
   const auto first = fem::agree(failure);
   if (own) std::rethrow_exception(own);
-  if (first) throw_error(*first);
+  if (first) throw_failure({first->code, "on another rank: " + first->message});
 }
 
-int serve_rank_zero() {
+int serve_rank_zero(std::span<const Part> parts) {
   std::signal(SIGINT, SIG_IGN);  // rank 0 answers, and ends all
   std::signal(SIGTERM, SIG_IGN);
   fem::Order order;
   const auto failure = failure_of([&] {
     for (order = fem::await_order(); order.work; order = fem::await_order()) {
-      static_cast<void>(fem::agree(failure_of([&] { take_part(*order.work); })));
+      static_cast<void>(fem::agree(failure_of([&] { take_part(parts, *order.work); })));
     }
   });
   if (failure) fem::end_all(*failure);

@@ -17,8 +17,10 @@ std::atomic<bool> was_cut{false};
 
 }  // namespace
 
-void begin_deadline(double seconds) {
-  begin = Clock::now();
+void begin_deadline(double seconds, double spent) {
+  const auto before =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(spent));
+  begin = Clock::now() - before;
   allowed = seconds;
   was_cut = false;
 }

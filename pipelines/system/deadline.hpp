@@ -7,7 +7,8 @@
 namespace microslip::pipelines {
 
 /// From now on. @param seconds  > 0; infinite: no end.
-void begin_deadline(double seconds);
+///              @param spent    so many of them are over: of a run that has begun elsewhere.
+void begin_deadline(double seconds, double spent = 0.0);
 /// Seconds since begin_deadline(), and how many are left; infinite without an end.
 [[nodiscard]] double seconds_spent();
 [[nodiscard]] double seconds_left();

@@ -35,6 +35,8 @@ PromptEnd::PromptEnd() { end_is_promised = 1; }
 PromptEnd::~PromptEnd() { end_is_promised = 0; }
 
 bool interrupt_requested() { return requested != 0; }
+void request_interrupt() { requested = 1; }
+void withdraw_interrupt() { requested = 0; }
 bool interrupt_insisted() { return insisted != 0; }
 
 }  // namespace microslip::pipelines

@@ -30,6 +30,10 @@ class PromptEnd {
 };
 
 [[nodiscard]] bool interrupt_requested();
+/// As if a signal had come: for another rank than 0, which hears of none.
+void request_interrupt();
+/// For what it does next.
+void withdraw_interrupt();
 /// A second signal came: nothing is waited for any more.
 [[nodiscard]] bool interrupt_insisted();
 

@@ -6,6 +6,7 @@ usage: mpi_ranks.py MICROSLIP SOURCE WORK_FOLDER
 import csv
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -23,10 +24,14 @@ from plate_model import plate_model
 
 SCENES = os.path.join(SOURCE, "share", "scenes")
 BLADE = os.path.join(SCENES, "blade_to_ground.toml")
+NUMPY = os.path.join(SCENES, "plate_numpy.toml")
 PLATE = os.path.join(SCENES, "plate_matrices.toml")
 COARSE = ["--set", "model.element_size=10 mm", "--set", "response.harmonics=1", "--set", "response.optimum=", "--set",
           "response.optimum_range=", "--set", "response.preload=[300]", "--set", "response.maps=[]", "--set",
           "accuracy.error_budget=off", "--without", "plots"]
+SEVERAL = ["--set", "response.preload=[9, 10]", "--set", "response.maps=[]", "--without", "plots"]
+# Four curves of some seconds each.
+SLOW = [*COARSE, "--set", "response.harmonics=15", "--set", "response.preload=[100, 200, 300, 500]"]
 ENVIRONMENT = {**without_plots(), "MICROSLIP_CACHE": "off", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 SOLVED = 1e-9  # of a sum in another order, after the solver's tolerance
 MPIRUN = shutil.which("mpirun")
@@ -65,6 +70,30 @@ def rank_of(pid):
         return next(int(entry[21:]) for entry in file.read().split("\0") if entry.startswith("OMPI_COMM_WORLD_RANK="))
 
 
+def starve(process, rank, spare=0):
+    """Of mpirun's, this one may not grow any more, but for some spare bytes."""
+    pid = next(int(pid) for pid in children_of(process.pid) if rank_of(pid) == rank)
+    with open(f"/proc/{pid}/statm", encoding="utf-8") as file:
+        size = int(file.read().split()[0]) * resource.getpagesize() + spare
+    resource.prlimit(pid, resource.RLIMIT_AS, (size, size))
+
+
+def history(folder):
+    with open(path(f"{folder}/history.csv"), encoding="utf-8") as file:
+        return list(csv.reader(file))[1:]
+
+
+def started(folder, scene, *options, command="run"):
+    """On two ranks."""
+    return subprocess.Popen(on_ranks(2, command, scene, *options, "-q", "-o", path(folder)), env=ENVIRONMENT,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def await_file(name):
+    while not os.path.exists(path(name)):
+        time.sleep(0.02)
+
+
 def table(*names):
     with open(path(os.path.join(*names)), encoding="utf-8") as file:
         return [[float(value) for value in row] for row in list(csv.reader(file))[1:]]
@@ -100,6 +129,53 @@ class Ranks(unittest.TestCase):
         self.compare(PLATE, "--set", "response.preload=[20]", "--set", "response.maps=[]", "--set", "accuracy.error_budget=off",
                      "--without", "plots")
 
+    def test_curves_are_shared_and_the_same_to_the_last_bit(self):
+        """Of given modes, which do not depend on the ranks; at first and where the accuracy asked for has them solved again."""
+        for n in (1, 2):
+            error = call(on_ranks(n, "run", NUMPY, *SEVERAL, "--tolerance", "0.2%", "-o", path(f"shared_{n}")))
+        shares = re.findall(r"curves solved on each MPI rank: (\d+), (\d+)", error)
+        self.assertEqual(shares, [("1", "1")] * 2, error)
+        names = sorted(os.listdir(path("shared_1/curves")))
+        self.assertEqual(sorted(os.listdir(path("shared_2/curves"))), names)
+        for name in names:
+            with open(path(f"shared_1/curves/{name}"), "rb") as one, open(path(f"shared_2/curves/{name}"), "rb") as two:
+                self.assertTrue(one.read() == two.read(), f"{name} differs")
+        self.assertEqual(sorted(row[:9] for row in history("shared_2")), sorted(row[:9] for row in history("shared_1")))
+
+    def test_a_budget_ends_all(self):
+        for n in (1, 2):
+            begin = time.monotonic()
+            error = call(on_ranks(n, "run", BLADE, *SLOW, "--budget", "4s", "-o", path(f"late_{n}")), code=4)
+            self.assertLess(time.monotonic() - begin, 15.0)
+            self.assertIn("out of time", error)
+            self.assertNotIn("was ended", error)  # every curve has ended by itself
+            self.assertEqual(len(summary(f"late_{n}")["curves"]), 4)
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "AddressSanitizer ends what may not grow")
+    def test_a_curve_that_fails_on_another_rank_fails_the_run(self):
+        """Rank 1 has memory to read the scene, which rank 0 still does, and not for so many harmonics."""
+        process = started("unlucky", NUMPY, *SEVERAL, "--set", "response.harmonics=25")
+        await_file("unlucky/summary.json")
+        starve(process, 1, spare=8_000_000)
+        error = process.communicate(timeout=100)[1]
+        self.assertEqual(process.returncode, 4, error)
+        self.assertEqual(summary("unlucky")["exit_code"], 4)
+        self.assertIn("memory", summary("unlucky")["message"])
+
+    def test_an_interrupt_within_curves_ends_all_and_keeps_points(self):
+        process = started("stopped_in_curves", BLADE, *SLOW)
+        await_file("stopped_in_curves/history.csv")
+        while len({row[0] for row in history("stopped_in_curves")}) < 2:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertEqual(summary("stopped_in_curves")["exit_code"], 3)
+        self.assertIn("interrupted", summary("stopped_in_curves")["message"])
+        curves = summary("stopped_in_curves")["curves"]
+        self.assertGreaterEqual(len(curves), 2)
+        self.assertFalse(any(curve["complete"] for curve in curves))
+
     def test_speeds_one_after_the_other(self):
         scene = path("rotating.toml")
         with open(scene, "w", encoding="utf-8") as file:
@@ -127,24 +203,18 @@ class Ranks(unittest.TestCase):
     @unittest.skipIf("ASAN_OPTIONS" in os.environ, "AddressSanitizer ends what may not grow")
     def test_what_fails_on_one_rank_alone_ends_all(self):
         """Rank 1 may not grow any more while rank 0 still meshes: it fails within what both solve."""
-        process = subprocess.Popen(on_ranks(2, "modes", BLADE, "--set", "model.element_size=6 mm", "-q", "-o", path("starved")),
-                                   env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        while not os.path.exists(os.path.join(path("starved"), "summary.json")):
-            time.sleep(0.02)
-        ranks = {rank_of(pid): int(pid) for pid in children_of(process.pid)}
-        with open(f"/proc/{ranks[1]}/statm", encoding="utf-8") as file:
-            size = int(file.read().split()[0]) * resource.getpagesize()
-        resource.prlimit(ranks[1], resource.RLIMIT_AS, (size, size))
+        process = started("starved", BLADE, "--set", "model.element_size=6 mm", command="modes")
+        await_file("starved/summary.json")
+        starve(process, 1)
         error = process.communicate(timeout=100)[1]
         self.assertEqual(process.returncode, 4, error)
 
     def test_an_interrupt_ends_all_and_leaves_a_summary(self):
-        process = subprocess.Popen(on_ranks(2, "run", BLADE, "-q", "-o", path("stopped")), env=ENVIRONMENT,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while not os.path.exists(os.path.join(path("stopped"), "summary.json")):
-            time.sleep(0.05)
+        process = started("stopped", BLADE)
+        await_file("stopped/summary.json")
         process.send_signal(signal.SIGINT)
-        self.assertNotEqual(process.wait(timeout=30), 0)
+        process.communicate(timeout=30)
+        self.assertNotEqual(process.returncode, 0)
         self.assertEqual(summary("stopped")["exit_code"], 3)
         self.assertIn("interrupted", summary("stopped")["message"])
 
