@@ -9,6 +9,7 @@
 #include "pipelines/files/plot_script.hpp"
 #include "pipelines/files/write_campbell.hpp"
 #include "pipelines/run/questions.hpp"
+#include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/exit_code.hpp"
 #include "pipelines/system/output_file.hpp"
@@ -28,6 +29,7 @@ int campbell_study(const SceneDescription& scene, const CampbellRequest& request
   };
   const ResultCache cache(options.cache, [&](const std::string& line) { say(line + '\n'); });
   const TemporaryFolder scratch;
+  require_memory_before_mesh(scene);
   const mesh::Mesh mesh = obtain_mesh(scene, scratch.path() / "mesh.msh");
   check_names(mesh, scene);
   SceneDescription fastest = scene;

@@ -28,6 +28,7 @@
 #include "pipelines/run/draw_scene.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
@@ -229,6 +230,7 @@ std::optional<ReducedModel> check_meshed(const SceneDescription& scene,
                                          const std::filesystem::path& picture, CheckResult& result,
                                          std::ostream& out) {
   const TemporaryFolder folder;
+  require_memory_before_mesh(scene);
   const mesh::Mesh mesh = obtain_mesh(scene, folder.path() / "mesh.msh");
   if (interrupt_requested()) throw InterruptedError("interrupted");
   check_names(mesh, scene);

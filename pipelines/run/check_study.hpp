@@ -38,6 +38,8 @@ struct CheckResult {
 /// no curve is solved for.
 /// @param picture  of the blade with its places marked is drawn into this file; empty: none.
 /// @throws SceneError  the scene cannot be used, or has no mesh to draw.
+/// @throws fem::MemoryError  as require_memory_before_mesh(): nothing is meshed, so that names and
+///         places are not checked.
 /// @throws as solve_structure(), require_held() and require_curves(), where modes are known.
 CheckResult check_study(const SceneDescription& scene, const std::filesystem::path& picture,
                         std::ostream& out);

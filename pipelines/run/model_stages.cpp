@@ -13,6 +13,7 @@
 #include "pipelines/model/scene_warnings.hpp"
 #include "pipelines/run/questions.hpp"
 #include "pipelines/run/stage_seconds.hpp"
+#include "pipelines/structure/memory_before_mesh.hpp"
 #include "pipelines/structure/solver_time.hpp"
 #include "pipelines/structure/static_preload.hpp"
 #include "pipelines/structure/structure_stage.hpp"
@@ -42,6 +43,7 @@ StructurePointer solved_structure(const SceneDescription& scene, RunRecord& reco
   record.progress().expect(mesh_seconds(scene));
   record.keep_inputs(scene);
   const auto finished = record.finished_mesh();
+  if (!finished) require_memory_before_mesh(scene);
   mesh::Mesh mesh =
       finished ? reread_mesh(scene, *finished) : obtain_mesh(scene, record.mesh_file());
   check_names(mesh, scene);

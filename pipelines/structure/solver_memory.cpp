@@ -13,11 +13,15 @@ std::string gigabytes(double megabytes) { return fmt::format("{:.1f} GB", 1e-3 *
 
 }  // namespace
 
-SolverMemory solver_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
-  SolverMemory memory{solver, fem::direct_memory(mesh).total(), fem::iterative_memory(mesh).total(),
-                      fem::available_memory_here()};
-  memory.available.megabytes *= static_cast<double>(fem::n_ranks()) / fem::n_ranks_here();
+fem::AvailableMemory available_memory() {
+  fem::AvailableMemory memory = fem::available_memory_here();
+  memory.megabytes *= static_cast<double>(fem::n_ranks()) / fem::n_ranks_here();
   return memory;
+}
+
+SolverMemory solver_memory(const mesh::Mesh& mesh, fem::SolverKind solver) {
+  return {solver, fem::direct_memory(mesh).total(), fem::iterative_memory(mesh).total(),
+          available_memory()};
 }
 
 std::string memory_warning(const SolverMemory& memory) {

@@ -23,7 +23,9 @@ struct SolverMemory {
   }
 };
 
-/// @note Memory of all machines where there are several ranks, as if each had what this one has.
+/// Of all machines where there are several ranks, as if each had what this one has.
+[[nodiscard]] fem::AvailableMemory available_memory();
+
 [[nodiscard]] SolverMemory solver_memory(const mesh::Mesh& mesh, fem::SolverKind solver);
 
 /// What does not fit and what would; "" where the forecast is below what is available.

@@ -689,6 +689,21 @@ TEST_F(Program, LittleAddressSpaceOfAMeshedSceneIsExitFour) {
   EXPECT_EQ(run("modes scene.toml -q -o out", "ulimit -v 900000; timeout -s KILL 60").code, 0);
 }
 
+TEST_F(Program, WhatMemoryClearlyDoesNotHoldIsNotMeshed) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer needs more address space itself";
+#endif
+  const std::string scene = "'" MICROSLIP_SCENES "/blade_to_ground.toml'";
+  const std::string limit = "MICROSLIP_CACHE=off; ulimit -v 3000000; timeout -s KILL 60";
+  for (const char* command : {"check ", "modes -o out ", "run -o out "}) {
+    const Outcome outcome = run(command + scene + " --set model.element_size='1 mm'", limit);
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("nothing is meshed"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("ulimit -v"), std::string::npos) << outcome.err;
+  }
+  EXPECT_FALSE(exists("out/mesh.msh"));
+}
+
 TEST_F(Program, ALimitOfTheFileSizeIsExitFour) {
   write(path("scene.toml"), scene_text);
   ASSERT_EQ(run("run scene.toml -q -o out").code, 0);
