@@ -319,10 +319,10 @@ class Page(Case):
 
     def browser(self, width):
         """Its command, for a window so wide."""
-        browser = shutil.which("chromium") or shutil.which("chromium-browser")
+        browser = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
         if not browser:
-            self.skipTest("chromium is not installed: apt-get install chromium")
-        return [browser, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tempfile.mkdtemp(dir=WORK)}",
+            self.skipTest("no browser is installed: apt-get install chromium-headless-shell")
+        return [browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tempfile.mkdtemp(dir=WORK)}",
                 f"--window-size={width},4000", "--virtual-time-budget=2000"]
 
     def drawn(self, page, width):
