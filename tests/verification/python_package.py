@@ -349,6 +349,26 @@ class Page(Case):
         self.assertGreaterEqual(len(paths), len(self.run_.curves))
         self.assertRegex(drawn, r"Hysteresis of point \d+: [\d.]+ % of the area")
 
+    def test_a_browser_draws_cells_part_by_part(self):
+        """Of a row of squares half of the first slips, at every phase."""
+        text = self.page(self.run_.folder)
+        data = self.data(text)
+        entry, n = data["maps"][0], data["maps"][0]["n"]
+        corners = [[i // 2, i % 2] for i in range(2 * n + 2)]
+        m = len(entry["phases"])
+        halves = np.array([[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]])
+        part = {"cells": [0], "states": [0, 1], "sizes": [3, 3],
+                "corners": {"unit": 1.0, "data": base64.b64encode(halves.astype("<i2").tobytes()).decode()}}
+        entry.update(cells=[[2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1] for i in range(n)], corners=sum(corners, []), boundaries=[],
+                     arrows=[], period={}, parted=[part] * m, states=base64.b64encode(bytes(n * m)).decode())
+        data["maps"] = [entry]
+        start, end = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).span(1)
+        pixels = ("(c => { const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0;"
+                  "for (let i = 0; i < d.length; i += 4) if (d[i] > 200 && d[i + 2] < 120) ++n;"
+                  "return n / c.height ** 2; })(document.querySelector('[data-chart=maps] canvas'))")
+        share = float(self.measured(text[:start] + json.dumps(data) + text[end:], pixels, 1000))
+        self.assertLess(abs(share / 0.5 - 1), 0.02)  # of a square; a ring lies on one
+
     def test_a_narrow_window_and_paper_hide_nothing(self):
         text = self.page(self.run_.folder)
         beyond = "(t => t.scrollWidth - t.clientWidth)(document.querySelector('.effects'))"
@@ -386,6 +406,44 @@ class OverMaps(unittest.TestCase):
         _, times = np.unique(np.round(lines.reshape(-1, 2), 9), axis=0, return_counts=True)
         self.assertEqual(set(times), {2})
         self.assertEqual(zero_line(np.column_stack([x, y]), triangles_of(cells), 1 + x**2).shape, (0, 2, 2))
+
+    def test_cells_are_parted_where_the_boundary_crosses_them(self):
+        """A disc that slips, as large as its boundary has it: whole cells err by more than linear interpolation does."""
+        from microslip.boundaries import Vertices, parted_cells, triangles_of
+        n = 21
+        x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n)))
+        first = np.array([i * n + j for i in range(n - 1) for j in range(n - 1)])
+        cells = np.column_stack([first, first + 1, first + n + 1, first + n])
+        ahead = 20 * (x**2 + y**2 - 0.5321)  # [deg] until slip begins
+        never = np.full((n * n, 1), np.nan)
+        vertices = Vertices(np.column_stack([x, y]), triangles_of(cells), np.array([90.0]), np.where(ahead < 0, 1, 0)[:, None],
+                            [never, 90.0 + ahead[:, None], never, never, never])
+        centres = np.column_stack([x, y])[cells].mean(axis=1)
+        in_disc = np.where((centres**2).sum(axis=1) < 0.5321, 1, 0)
+        parted, polygons, states = parted_cells(vertices, 0, in_disc)
+        self.assertEqual(set(states), {0, 1})
+
+        def area(polygon):
+            return 0.5 * abs(np.sum(polygon[:, 0] * np.roll(polygon[:, 1], -1) - polygon[:, 1] * np.roll(polygon[:, 0], -1)))
+
+        size = (2 / (n - 1)) ** 2
+        self.assertAlmostEqual(sum(map(area, polygons)), len(parted) * size, places=12)
+        whole = np.setdiff1d(np.arange(len(cells)), parted)
+        slips = size * in_disc[whole].sum() + sum(area(polygon) for polygon, state in zip(polygons, states) if state == 1)
+        self.assertLess(0, 1 - slips / (np.pi * 0.5321))
+        self.assertLess(1 - slips / (np.pi * 0.5321), 0.5 * size / 0.5321)  # of linear interpolation, which lies above
+        for polygon, state in zip(polygons, states):
+            self.assertEqual(state, int((polygon.mean(axis=0)**2).sum() < 0.5321))
+
+    def test_a_band_between_two_boundaries_has_the_state_that_began_last(self):
+        from microslip.boundaries import Vertices, parted_cells
+        corners = np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]])
+        never = np.full((3, 1), np.nan)
+        sticks, slips = np.array([[-20.0], [10.0], [10.0]]), np.array([[-25.0], [-10.0], [5.0]])
+        vertices = Vertices(corners, np.array([[0, 1, 2]]), np.array([0.0]), np.array([[0], [1], [3]]), [sticks, slips, never, never, never])
+        _, polygons, states = parted_cells(vertices, 0, np.array([3]))
+        self.assertEqual(sorted(states), [0, 1, 3])
+        self.assertAlmostEqual(sum(0.5 * abs(np.sum(p[:, 0] * np.roll(p[:, 1], -1) - p[:, 1] * np.roll(p[:, 0], -1))) for p in polygons), 4.5)
 
     def test_arrows_point_where_the_slider_moves(self):
         from microslip.arrows import BOTH_DIRECTIONS, arrows_at

@@ -55,23 +55,88 @@ def nearest_to_zero(values):
     return np.take_along_axis(values, size.argmin(axis=1)[:, None], axis=1)[:, 0]
 
 
-def instant_boundaries(vertices, phase):
-    """Boundaries of the states at one phase (its number), as zero_line() gives them: where a state begins, θ_k − θ,
-    in triangles where it begins at every corner (and its angle does not leap around the period); the guards of
-    the period in triangles where one corner slips, opens or touches now and another never does."""
-    lines, state = [], vertices.state[:, phase]
+def cuts(vertices, phase):
+    """What parts the states at one phase (its number): triangles (a mask), a function at the corners of the cells whose zero line
+    parts them there, and the state that begins where it passes zero downwards (None: a guard). That is θ_k − θ, where a state
+    begins, in triangles where it begins at every corner (and its angle does not leap around the period); and the guards of the period in
+    triangles where one corner slips, opens or touches now and another never does."""
+    found, state = [], vertices.state[:, phase]
     for number, starts in enumerate(vertices.starts):
         ahead = nearest_to_zero((starts - vertices.phase[phase] + 180.0) % 360.0 - 180.0)
         at_corners = ahead[vertices.triangles]
         is_here = (state == number)[vertices.triangles]  # else the line parts two starts of the same state
         smooth = (np.isfinite(at_corners).all(axis=1) & (np.ptp(np.nan_to_num(at_corners), axis=1) < 90)
                   & is_here.any(axis=1) & ~is_here.all(axis=1))
-        lines.append(zero_line(vertices.corners, vertices.triangles[smooth], ahead))
+        found.append((smooth, ahead, number))
     for name, values in vertices.guards.items():
         never, now = sides(vertices, name, state)
         mixed = never[vertices.triangles].any(axis=1) & now[vertices.triangles].any(axis=1)
-        lines.append(zero_line(vertices.corners, vertices.triangles[mixed], values))
+        found.append((mixed, values, None))
+    return found
+
+
+def instant_boundaries(vertices, phase):
+    """Boundaries of the states at one phase (its number), as zero_line() gives them."""
+    lines = [zero_line(vertices.corners, vertices.triangles[here], values) for here, values, _ in cuts(vertices, phase)]
     return np.concatenate(lines) if lines else np.zeros((0, 2, 2))
+
+
+def halves(polygon, values):
+    """A convex polygon (rows of shares of the corners of its triangle) parted by the zero line of a function that has these values at
+    the corners: what is above, and what is below; a zero counts as above."""
+    at = [sum(share * value for share, value in zip(row, values)) for row in polygon]
+    above, below = [], []
+    for i, row in enumerate(polygon):
+        following = (i + 1) % len(polygon)
+        (above if at[i] >= 0 else below).append(row)
+        if (at[i] >= 0) != (at[following] >= 0):
+            share = at[i] / (at[i] - at[following])
+            crossing = [(1 - share) * x + share * y for x, y in zip(row, polygon[following])]
+            above.append(crossing)
+            below.append(crossing)
+    return [part for part in (above, below) if len(part) > 2]
+
+
+WHOLE = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+
+
+def state_in(piece, states, functions):
+    """Of a piece of a triangle: that of its corner; without one the state that has begun last. None: its corners disagree, or
+    nothing tells."""
+    own = {states[row.index(1.0)] for row in piece if 1.0 in row}
+    if own:
+        return own.pop() if len(own) == 1 else None
+    centre = np.mean(piece, axis=0)
+    begun = [(centre @ values, number) for values, number in functions if number is not None and centre @ values <= 0]
+    return max(begun)[1] if begun else None
+
+
+def pieces_in(corners, states, functions, cell_state):
+    """Polygons (k × 2) into which functions part a triangle, with their states; where nothing tells, that of the cell."""
+    if not functions:
+        return [(corners, cell_state)]
+    pieces = [WHOLE]
+    for values, _ in functions:
+        pieces = [half for piece in pieces for half in halves(piece, values)]
+    found = [state_in(piece, states, functions) for piece in pieces]
+    return [(np.array(piece) @ corners, cell_state if own is None else int(own)) for piece, own in zip(pieces, found)]
+
+
+def parted_cells(vertices, phase, cell_states):
+    """Cells that boundaries of the states cross at one phase (its number): their numbers; the polygons (k × 2) into which they are
+    parted, and the state of each."""
+    states, n_cells, functions = vertices.state[:, phase], len(cell_states), {}
+    for here, values, number in cuts(vertices, phase):
+        at = values[vertices.triangles]
+        for triangle in np.flatnonzero(here & (at >= 0).any(axis=1) & (at < 0).any(axis=1)):
+            functions.setdefault(triangle, []).append((at[triangle].tolist(), number))
+    parted = sorted({int(triangle) % n_cells for triangle in functions})
+    found = []
+    for triangle in np.flatnonzero(np.isin(np.arange(len(vertices.triangles)) % n_cells, parted)):
+        corners = vertices.triangles[triangle]
+        found += pieces_in(vertices.corners[corners], states[corners].tolist(), functions.get(triangle, []),
+                           int(cell_states[triangle % n_cells]))
+    return parted, [polygon for polygon, _ in found], [own for _, own in found]
 
 
 def sides(vertices, guard, state):

@@ -2,12 +2,29 @@
 
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
-from microslip.boundaries import instant_boundaries, period_boundaries
+import numpy as np
+
+from microslip.boundaries import instant_boundaries, parted_cells, period_boundaries
 
 GUARD_LINES = {"slip_guard": ("slips at times", "solid"), "smallest_load": ("open at times", "dashed"),
                "largest_load": ("open throughout", "dotted")}
 INSTANT = {"colors": "black", "linewidths": 0.9}
+
+
+def draw_areas(axes, cells, states, vertices, phase, colours):
+    """States at one phase (its number): cells (polygons) in theirs, but those that boundaries cross part by part. One area per state:
+    side by side, polygons of one colour would show their edges."""
+    polygons, own = list(cells), list(states)
+    if vertices is not None:
+        parted, pieces, of_pieces = parted_cells(vertices, phase, states)
+        whole = np.setdiff1d(np.arange(len(cells)), parted)
+        polygons, own = [cells[i] for i in whole] + pieces, [states[i] for i in whole] + of_pieces
+    for state in sorted(set(own)):
+        closed = [Path(np.append(polygon, polygon[:1], axis=0), closed=True) for polygon, its in zip(polygons, own) if its == state]
+        axes.add_patch(PathPatch(Path.make_compound_path(*closed), color=colours[state], linewidth=0.25, joinstyle="round"))
 
 
 def draw_boundaries(axes, vertices, phase):

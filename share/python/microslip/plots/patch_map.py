@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from microslip.arrows import arrows_at
-from microslip.plots.boundaries import draw_boundaries, draw_guards, guard_handles, instant_handle
+from microslip.plots.boundaries import draw_areas, draw_boundaries, draw_guards, guard_handles, instant_handle
 from microslip.plots.style import STATE_COLOURS, state_legend, subplots
 
 STATE_RGBA = to_rgba_array(STATE_COLOURS)
@@ -15,22 +15,25 @@ ARROW = Line2D([], [], color="white", markeredgecolor="black", markeredgewidth=0
                linestyle="none", label="direction and speed of slip")
 
 
+def frame_patch(axes, contact):
+    """Leaves a little room about the patch, in its own proportions."""
+    pad = 0.02 * max(np.max(contact.high - contact.low), 1e-3)
+    axes.set_xlim(contact.low[0] - pad, contact.high[0] + pad)
+    axes.set_ylim(contact.low[1] - pad, contact.high[1] + pad)
+    axes.set_aspect("equal")
+
+
 def draw_patch(axes, contact, colours=None, values=None, cmap=None):
-    """Cells in given colours, or coloured by values; lone points where there are no cells."""
+    """Cells coloured by values; lone points, where there are no cells, so or in given colours."""
     if contact.cells is None:
         result = axes.scatter(contact.points[:, 0], contact.points[:, 1], s=22, marker="s",
                               c=colours if values is None else values, cmap=cmap,
                               edgecolor="0.6", linewidth=0.3)
     else:
-        result = PolyCollection(contact.cells, linewidth=0.25, cmap=cmap,
-                                facecolors=colours, edgecolors="face")
-        if values is not None:
-            result.set_array(values)
+        result = PolyCollection(contact.cells, linewidth=0.6, cmap=cmap, edgecolors="face", joinstyle="round")  # thinner: white shows
+        result.set_array(values)
         axes.add_collection(result)
-    pad = 0.02 * max(np.max(contact.high - contact.low), 1e-3)
-    axes.set_xlim(contact.low[0] - pad, contact.high[0] + pad)
-    axes.set_ylim(contact.low[1] - pad, contact.high[1] + pad)
-    axes.set_aspect("equal")
+    frame_patch(axes, contact)
     return result
 
 
@@ -44,7 +47,12 @@ def layout_of(contact):
 def draw_states(axes, contact, angle):
     """The patch at the phase nearest to an angle [deg]. Entries of the legend for what lies over the cells."""
     phase = contact.phase_near(angle)
-    draw_patch(axes, contact, colours=STATE_RGBA[contact.state[:, phase].astype(int)])
+    states = contact.state[:, phase].astype(int)
+    if contact.cells is None:
+        draw_patch(axes, contact, colours=STATE_RGBA[states])
+    else:
+        draw_areas(axes, contact.cells, states, contact.vertices, phase, STATE_RGBA)
+        frame_patch(axes, contact)
     has_lines = contact.vertices is not None and draw_boundaries(axes, contact.vertices, phase)
     has_arrows = contact.slider is not None and draw_arrows(axes, contact, phase)
     stick, slip, apart = contact.shares(phase)

@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from microslip.arrows import arrows_at
-from microslip.boundaries import GUARDS, Vertices, instant_boundaries, period_boundaries, triangles_of
+from microslip.boundaries import GUARDS, Vertices, instant_boundaries, parted_cells, period_boundaries, triangles_of
 from microslip.files import RunError, trace_in
 from microslip.plots.numbers import is_number, length_unit, plain
 from microslip.states import STATES
@@ -192,10 +192,17 @@ def vertices_of(contact, corners, cells):
     return Vertices(corners, triangles_of(cells), contact["phase_deg"], contact["vertex_state"], starts, guards)
 
 
+def parted_entry(cells, polygons, states):
+    """Cells that are drawn part by part: the state of each part, how many corners it has, and all corners."""
+    corners = np.concatenate(polygons) if polygons else np.zeros((0, 2))
+    return {"cells": cells, "states": states, "sizes": [len(polygon) for polygon in polygons], "corners": words_of(corners.ravel())}
+
+
 def lines_over(contact, vertices, flat, numbers_chosen):
-    """What lies over the cells: boundaries of the states at each phase and of the period, arrows of slip."""
-    over = {"boundaries": [], "period": {}, "arrows": []}
+    """What lies over the cells: those that boundaries part, boundaries of the states at each phase and of the period, arrows of slip."""
+    over = {"boundaries": [], "parted": [], "period": {}, "arrows": []}
     if vertices is not None:
+        over["parted"] = [parted_entry(*parted_cells(vertices, phase, contact["state"][:, phase])) for phase in numbers_chosen]
         over["boundaries"] = [numbers(instant_boundaries(vertices, phase).ravel(), 5) for phase in numbers_chosen]
         over["period"] = {name: numbers(lines.ravel(), 5) for name, lines in period_boundaries(vertices).items()}
     if "slip_r_m" in contact:

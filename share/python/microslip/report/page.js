@@ -164,23 +164,46 @@ class ContactMap {
   draw(canvas, what, phase) {
     const ratio = window.devicePixelRatio || 1, width = (canvas.parentNode.clientWidth || 700) * ratio, pen = canvas.getContext("2d");
     canvas.width = width;
-    if (this.cells.length) { this.drawPatch(canvas, pen, this.colours(what, phase)); this.drawOver(canvas, pen, what, phase, ratio); }
+    if (this.cells.length) { this.drawPatch(canvas, pen, this.colours(what, phase), what < 0 && this.parted[phase]); this.drawOver(canvas, pen, what, phase, ratio); }
     else this.drawRows(canvas, pen, what, phase, ratio);
   }
 
-  drawPatch(canvas, pen, colours) {
+  // Cells in their colours; of those that boundaries part, each part in the colour of its state.
+  drawPatch(canvas, pen, colours, parted) {
     const x = this.corners.filter((_, i) => i % 2 === 0), y = this.corners.filter((_, i) => i % 2);
     const [x0, x1, y0, y1] = [rangeOf(x, false, 0), rangeOf(y, false, 0)].flat();
     const scale = Math.min(canvas.width / (x1 - x0), 0.55 * canvas.width / (y1 - y0));
     canvas.height = scale * (y1 - y0);
     this.at = (px, py) => [(px - x0) * scale, canvas.height - (py - y0) * scale];
-    this.cells.forEach((cell, i) => {
-      pen.beginPath();
-      for (const corner of cell) pen.lineTo(...this.at(x[corner], y[corner]));
-      pen.closePath();
-      pen.fillStyle = pen.strokeStyle = colours[i];
-      pen.fill(); pen.stroke();
+    const areas = new Map(), add = (colour, corners) => (areas.get(colour) || areas.set(colour, []).get(colour)).push(corners);
+    const whole = new Set(this.cells.keys());
+    if (parted) {
+      parted.cells.forEach((i) => whole.delete(i));
+      this.partsOf(parted).forEach(([state, corners]) => add(data.states[state][1], corners));
+    }
+    for (const i of whole) add(colours[i], this.cells[i].map((corner) => this.at(x[corner], y[corner])));
+    areas.forEach((polygons, colour) => this.fillArea(pen, polygons, colour));
+  }
+
+  partsOf({ states, sizes, corners }) {
+    const flat = words(corners);
+    let from = 0;
+    return states.map((state, i) => {
+      const part = Array.from({ length: sizes[i] }, (_, k) => this.at(flat[from + 2 * k], flat[from + 2 * k + 1]));
+      from += 2 * sizes[i];
+      return [state, part];
     });
+  }
+
+  // As one: side by side, polygons of one colour would show their edges.
+  fillArea(pen, polygons, colour) {
+    pen.beginPath(); pen.lineJoin = "round";
+    for (const corners of polygons) {
+      corners.forEach((corner, k) => (k ? pen.lineTo(...corner) : pen.moveTo(...corner)));
+      pen.closePath();
+    }
+    pen.fillStyle = pen.strokeStyle = colour;
+    pen.fill(); pen.stroke();
   }
 
   // Boundaries, arrows and the chosen point, over the cells.
