@@ -220,6 +220,7 @@ void RunRecord::show_stage() {
   place_.publish();
   place_.remove_superseded();
   shown_ = summary_.curves;
+  write_summary_so_far();
 }
 
 void RunRecord::show_what_is_new() {
@@ -231,6 +232,7 @@ void RunRecord::show_what_is_new() {
 void RunRecord::maps_are_drawn() {
   const std::lock_guard lock(mutex_);
   show_what_is_new();
+  write_summary_so_far();
 }
 
 void RunRecord::keep_mesh(const mesh::Mesh& mesh, double density) {
@@ -398,6 +400,7 @@ void RunRecord::keep_curve(const CurveResult& result, const ReducedModel& model)
   summary_.curves.push_back(std::move(summary));
   write_curve(staged_, result, model.frequency.size());
   show_what_is_new();
+  write_summary_so_far();
 }
 
 void RunRecord::note_point(const std::string& curve, const std::variant<double, LimitName>& load,
@@ -512,6 +515,14 @@ void RunRecord::write_summary_file() {
   summary_.stages = progress_.stages();
   summary_.warnings = progress_.warnings();
   if (begun_) write_summary(folder_ / "summary.json", summary_);
+}
+
+void RunRecord::write_summary_so_far() {
+  RunSummary so_far = summary_;
+  so_far.curves = shown_;
+  so_far.stages = progress_.stages();
+  so_far.warnings = progress_.warnings();
+  if (begun_) write_summary(folder_ / "summary.json", so_far);
 }
 
 void RunRecord::fail(ExitCode code, const std::string& message) {

@@ -116,6 +116,8 @@ class RunRecord {
   void keep_preload(CurveSummary& summary, const ReducedModel& model, double load);
   void warn_of_unsolved(const CurveResult& result);
   void write_summary_file();
+  /// Of what stands in its place so far. Under the mutex.
+  void write_summary_so_far();
   /// The files of the stage take their places; those of an earlier run that they succeed are
   /// removed.
   void show_stage();

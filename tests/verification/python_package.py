@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import warnings
 from unittest import mock
@@ -27,6 +28,11 @@ import microslip
 
 CHAIN = os.path.join(SOURCE, "share", "scenes", "chain_2dof.toml")
 ONE_CURVE = {"response.harmonics": 1, "response.preload": [50], "response.optimum": None, "response.optimum_range": None}
+BLADE = os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml")
+# Six curves, one after the other, all but the first of a second or more.
+SLOW = ["-j", "1", "--no-cache", *(word for setting in (
+    "model.element_size=10 mm", "response.harmonics=9", "response.optimum=", "response.optimum_range=",
+    'response.preload=["free", 60, 100, 150, 300, 500]') for word in ("--set", setting))]
 ENVIRONMENT = {**os.environ, "MICROSLIP": PROGRAM, "PYTHONPATH": os.path.join(SOURCE, "share", "python"),
                "MPLBACKEND": "agg", "PYTHONDONTWRITEBYTECODE": "1"}
 
@@ -124,7 +130,7 @@ class Results(Case):
 
     def blade(self):
         if not hasattr(Case, "blade_"):
-            Case.blade_ = microslip.run(os.path.join(SOURCE, "share", "scenes", "blade_to_ground.toml"),
+            Case.blade_ = microslip.run(BLADE,
                                         {"model.element_size": "20 mm", "modes.count": 2, "response.preload": [300],
                                          "response.frequency": 320, "response.optimum": None, "response.maps": ["peak"],
                                          "response.optimum_range": None, "accuracy.error_budget": "off"},
@@ -206,6 +212,31 @@ class Damaged(Case):
             microslip.open(folder).plot_curves()
         with self.assertRaisesRegex(microslip.RunError, "summary.json is missing"):
             microslip.open(os.path.join(folder, "curves"))
+
+    def test_a_run_that_is_being_written_has_its_finished_curves(self):
+        folder = fresh("running")
+        process = subprocess.Popen([PROGRAM, "run", BLADE, *SLOW, "-q", "-o", folder], env=ENVIRONMENT)
+        try:
+            path = os.path.join(folder, "summary.json")
+            while not os.path.exists(path) or not microslip.files.read_summary(path)["curves"]:
+                self.assertIsNone(process.poll(), "it has ended before it was looked at")
+                time.sleep(0.05)
+            with self.assertWarnsRegex(microslip.RunWarning, r"still being written: (1 curve is|\d+ curves are) there so far"):
+                run = microslip.open(folder)
+            self.assertTrue(run.is_running)
+            self.assertIn("still being written", repr(run))
+            self.assertLess(len(run.curves), 6)
+            curve = run.curves["free"]
+            self.assertTrue(curve.summary["complete"])
+            self.assertGreater(curve.n_rows, 20)
+            self.assertEqual(run.peaks["curve"], list(run.curves))
+        finally:
+            process.kill()
+            process.wait()
+        with self.assertWarnsRegex(microslip.RunWarning, "goes on, or was killed"):
+            ended = microslip.open(folder)
+        self.assertFalse(ended.is_running)
+        self.assertIn("free", ended.curves)
 
     def test_packages_that_are_missing_are_named(self):
         for package, use in (("matplotlib", self.run_.plot_curves), ("pandas", self.run_.frame),

@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import fcntl
 import json
 import math
 import os
@@ -20,6 +21,18 @@ class RunError(Exception):
 def shown(path):
     """A file of the run as messages call it: with the folder it stands in."""
     return os.path.join(*path.split(os.sep)[-2:])
+
+
+def is_held(folder):
+    """Whether a run is writing there, on this machine: it keeps its lock as long as it lives."""
+    try:
+        with open(os.path.join(folder, ".lock"), "rb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:  # no lock, or one that cannot be asked
+        return False
+    return False
 
 
 def read_summary(path):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping, Optional, Ty
 import numpy as np
 
 from microslip.energy import energies
-from microslip.files import AGAIN, RunError, data_file, read_summary, read_table, shown
+from microslip.files import AGAIN, RunError, data_file, is_held, read_summary, read_table, shown
 from microslip.program import Path
 from microslip.tables import Table, package, table_of
 
@@ -59,6 +59,8 @@ class Curve(Table):
     def __init__(self, run: Run, summary: Mapping[str, Any]) -> None:
         path = os.path.join(run.folder, "curves", summary["name"] + ".csv")
         super().__init__(read_table(path, ("frequency_Hz", "amplitude_m", "stable", "mark")))
+        if self.n_rows < summary["points"] and run.is_running:
+            raise RunError(f"{shown(path)}: written anew since the folder was opened; open it again")
         if self.n_rows < summary["points"]:
             raise RunError(f"{shown(path)}: {self.n_rows} rows, summary.json counts {summary['points']} points: {AGAIN}")
         self.run, self.summary, self.name = run, summary, summary["name"]
@@ -168,11 +170,13 @@ class Modes(Table):
 
 
 class Run:
-    """The folder of a run. `summary` is its summary.json, `exit_code` 0 where every curve is complete."""
+    """The folder of a run. `summary` is its summary.json, `exit_code` 0 where every curve is complete; `is_running` tells that it was
+    still being written when it was opened: what was finished by then is there."""
 
     def __init__(self, folder: Path, summary: Optional[Path] = None) -> None:
         """summary: file to read in place of that in the folder."""
         self.folder = os.path.abspath(os.fspath(folder))
+        self.is_running = is_held(self.folder)  # before its summary: a run that ends in between has written the whole
         self.summary = read_summary(os.fspath(summary or os.path.join(self.folder, "summary.json")))
         entries = {curve["name"]: curve for curve in self.summary["curves"] if curve["points"] > 0}
         self.curves: Parts[Curve] = Parts("curve", list(entries), lambda name: Curve(self, entries[name]))
@@ -184,11 +188,15 @@ class Run:
             warnings.warn(f"{self.folder}: {self.message}", RunWarning, stacklevel=2)
 
     def __repr__(self) -> str:
-        return f"<Run {self.folder}: {len(self.curves)} curves, {len(self.maps)} maps>"
+        still = ", still being written" if self.is_running else ""
+        return f"<Run {self.folder}: {len(self.curves)} curves, {len(self.maps)} maps{still}>"
 
     @property
     def message(self) -> str:
         """Why the run has not come to its end; empty where it has."""
+        if self.is_running and self.exit_code == 3:
+            there = "1 curve is" if len(self.curves) == 1 else f"{len(self.curves)} curves are"
+            return f"the run is still being written: {there} there so far; open the folder again for more"
         return self.summary.get("message") or ""
 
     @property
