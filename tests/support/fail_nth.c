@@ -3,7 +3,7 @@
  *   FAIL_CALL   malloc | open | write | rename | fsync | mkdir
  *   FAIL_AT     n, from 1; 0: none fails
  *   FAIL_ON     1: all calls from the n-th on (a disk that stays full)
- *   FAIL_NOT_IN part of the name of a library whose own calls are spared
+ *   FAIL_NOT_IN parts of the names of libraries whose own calls are spared, one or two, with a comma between
  *   FAIL_COUNT  a file: their number is written there at the end
  *
  * Calls count from main() on: before, the loader and static constructors have no one to tell. Processes that the
@@ -29,10 +29,16 @@ static atomic_int watching;
 
 /* A call made by a library that takes no failure. */
 static int is_spared(const void *caller) {
-  static const char *spared = NULL;
+  static char spared[2][64];
+  static int known = 0;
   Dl_info from;
-  if (!spared) spared = getenv("FAIL_NOT_IN");
-  return spared && dladdr(caller, &from) && strstr(from.dli_fname, spared) != NULL;
+  if (!known) {
+    const char *names = getenv("FAIL_NOT_IN");
+    if (names) sscanf(names, "%63[^,],%63s", spared[0], spared[1]);
+    known = 1;
+  }
+  if (!spared[0][0] || !dladdr(caller, &from)) return 0;
+  return strstr(from.dli_fname, spared[0]) || (spared[1][0] && strstr(from.dli_fname, spared[1]));
 }
 
 /* Whether this call of `name` is to fail. */
@@ -61,6 +67,13 @@ void *malloc(size_t size) { return fails("malloc", CALLER) ? none() : __libc_mal
 void *calloc(size_t n, size_t size) { return fails("malloc", CALLER) ? none() : __libc_calloc(n, size); }
 void *realloc(void *old, size_t size) { return fails("malloc", CALLER) ? none() : __libc_realloc(old, size); }
 void *aligned_alloc(size_t to, size_t size) { return fails("malloc", CALLER) ? none() : __libc_memalign(to, size); }
+/* That of the C library would allocate in its own name. */
+char *strdup(const char *text) {
+  if (fails("malloc", CALLER)) return none();
+  const size_t size = strlen(text) + 1;
+  char *copy = __libc_malloc(size);
+  return copy ? memcpy(copy, text, size) : NULL;
+}
 int posix_memalign(void **result, size_t to, size_t size) {
   if (fails("malloc", CALLER)) return ENOMEM;
   *result = __libc_memalign(to, size);
