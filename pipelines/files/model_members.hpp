@@ -55,9 +55,9 @@ auto members(Is<HarmonicSettings> auto& value) {
 }
 auto members(Is<ReducedModel> auto& value) {
   auto& [frequency, n_attachment, damping, sine, cosine, force_static, output, patches, preload,
-         effects, coordinates] = value;
+         variation, effects, coordinates] = value;
   return std::tie(frequency, n_attachment, damping, sine, cosine, force_static, output, patches,
-                  preload, effects, coordinates);
+                  preload, variation, effects, coordinates);
 }
 }  // namespace pipelines
 }  // namespace microslip
