@@ -23,7 +23,7 @@ set(face_fem attachment given_matrices machine_memory material memory_forecast m
   petsc_error rank_messages ranks rotation slepc_session solver_kind surface_load)
 set(face_contact contact_effects contact_force contact_map contact_state contact_states dense harmonics modal_force
   motion_coordinates patch phase point_cycle spare_cores transient_force)
-set(face_solver continuation continuation_options diagnosis mark_shift optimum response_curve richer_peak scene time_integration
+set(face_solver continuation continuation_options diagnosis point_shift optimum response_curve richer_peak scene time_integration
   time_options)
 set(face_pipelines study commands)
 

@@ -12,10 +12,14 @@
 namespace microslip::pipelines {
 namespace {
 
+bool tells_change(const ErrorRow& row, std::string_view source) {
+  return row.source == source && row.goal != std::string_view(largest_indicator_goal);
+}
+
 std::optional<double> largest_change(const std::vector<ErrorRow>& rows, const std::string& source) {
   std::optional<double> largest;
   for (const ErrorRow& row : rows) {
-    if (row.source != source) continue;
+    if (!tells_change(row, source)) continue;
     largest = std::max(std::abs(row.effect), largest.value_or(0.0));
   }
   return largest;
@@ -45,7 +49,7 @@ std::optional<double> missed_change(const std::vector<ErrorRow>& rows, std::stri
                                     double tolerance) {
   std::optional<double> largest;
   for (const ErrorRow& row : rows) {
-    if (row.source != source || !(std::abs(row.effect) > tolerance)) continue;
+    if (!tells_change(row, source) || !(std::abs(row.effect) > tolerance)) continue;
     largest = std::max(change_without(row.effect), largest.value_or(0.0));
   }
   return largest;
@@ -60,12 +64,26 @@ std::string switched_on_text(double change) {
       100.0 * change);
 }
 
+/// Of the motion along all curves, and the curve where it is largest.
+const ErrorRow* largest_indicator(const std::vector<ErrorRow>& rows, const std::string& source) {
+  const ErrorRow* largest = nullptr;
+  for (const ErrorRow& row : rows) {
+    if (row.source != source || row.goal != std::string_view(largest_indicator_goal)) continue;
+    if (largest == nullptr || row.effect > largest->effect) largest = &row;
+  }
+  return largest;
+}
+
 }  // namespace
 
 void tell_bounds(const std::vector<ErrorRow>& rows, double tolerance,
                  std::vector<EffectRecord>& effects) {
   for (EffectRecord& effect : effects) {
     if (effect.simulated == Simulated::yes) continue;
+    if (const ErrorRow* most = largest_indicator(rows, effect.name)) {
+      effect.reason += fmt::format("; along the curves its indicator is {:.2g} at most ({})",
+                                   most->effect, most->curve);
+    }
     const bool harmonics = effect.name == "higher_harmonics";
     const auto change = largest_change(rows, harmonics ? "harmonics" : effect.name);
     if (!change) continue;

@@ -10,7 +10,7 @@
 
 #include "pipelines/response/response_stage.hpp"
 #include "pipelines/system/deadline.hpp"
-#include "solver/mark_shift.hpp"
+#include "solver/point_shift.hpp"
 #include "solver/richer_peak.hpp"
 
 namespace microslip::pipelines {
@@ -97,7 +97,7 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
   if (exact.effects.located) return;
   exact.effects.located = true;
   const solver::Scene scene = solver_scene(exact, load);
-  solver::MarkShift largest;
+  solver::PointShift largest;
   const auto keep = [](double& most, double other) {
     if (std::abs(other) > std::abs(most)) most = other;
   };
@@ -105,7 +105,7 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
   for (const solver::ResponsePoint& point : result.curve.points) {
     const bool peak = point.mark == solver::PointMark::peak;
     if (!peak && point.mark != solver::PointMark::fold) continue;
-    const auto shift = solver::mark_shift(scene, point);
+    const auto shift = solver::point_shift(scene, point);
     if (!shift) continue;
     ++n_told;
     keep(largest.frequency, shift->frequency);

@@ -15,6 +15,9 @@ inline constexpr const char* dissipated_energy_goal = "dissipated_energy";  ///<
 /// Of all peaks and folds of a curve, the one that moves most; no part of a bar.
 inline constexpr const char* marked_amplitude_goal = "marked_amplitude";
 inline constexpr const char* marked_frequency_goal = "marked_frequency";
+/// Of an effect that is left out, along a whole curve, and not relative to anything: the number of
+/// the table of effects.
+inline constexpr const char* largest_indicator_goal = "largest_indicator";
 inline constexpr const char* best_value_goal = "best_value";
 inline constexpr const char* best_amplitude_goal = "best_amplitude";
 inline constexpr const char* best_frequency_goal = "best_frequency";

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "contact/contact_force.hpp"
+#include "pipelines/accuracy/along_curve.hpp"
 #include "pipelines/accuracy/error_budget.hpp"
 #include "pipelines/accuracy/left_out.hpp"
 #include "pipelines/model/curve_load.hpp"
@@ -158,6 +159,10 @@ std::vector<CurveBudget> budgets_of(const ReducedModel& model, const SceneDescri
     budgets[i] = error_budget(model, scene, richer, curves[i]);
     if (cut_short()) return;
     budgets[i].left_out = rows_left_out(model, scene, others.models, curves[i]);
+    for (const RicherModels* with : {&others, &richer}) {
+      const std::vector<ErrorRow> along = rows_along_curve(model, with->models, curves[i]);
+      budgets[i].left_out.insert(budgets[i].left_out.end(), along.begin(), along.end());
+    }
     kept.keep(budgets[i], curves[i]);
   });
   borrow_unknown(budgets);

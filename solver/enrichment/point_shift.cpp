@@ -1,4 +1,4 @@
-#include "solver/mark_shift.hpp"
+#include "solver/point_shift.hpp"
 
 #include "solver/balance/newton.hpp"
 #include "solver/balance/output_amplitude.hpp"
@@ -6,13 +6,13 @@
 
 namespace microslip::solver {
 
-std::optional<MarkShift> mark_shift(const Scene& scene, const ResponsePoint& mark) {
-  HarmonicBalance balance(scene, HarmonicSet(mark.orders));
-  const Eigen::VectorXd x = balance.unknowns(mark.q);
-  const Scaling scaling = natural_scaling(balance, x, mark.frequency);
-  const BalanceEvaluation at = balance.evaluate(x, mark.frequency);
+std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point) {
+  HarmonicBalance balance(scene, HarmonicSet(point.orders));
+  const Eigen::VectorXd x = balance.unknowns(point.q);
+  const Scaling scaling = natural_scaling(balance, x, point.frequency);
+  const BalanceEvaluation at = balance.evaluate(x, point.frequency);
   const std::optional<BranchVector> along = null_vector(at, scaling, 1.0);
-  if (!along || !(mark.amplitude > 0.0)) return std::nullopt;
+  if (!along || !(point.amplitude > 0.0)) return std::nullopt;
   const Eigen::Index n = x.size();
   Eigen::VectorXd right(n + 1);
   right << -at.residual / scaling.residual, 0.0;
@@ -20,8 +20,8 @@ std::optional<MarkShift> mark_shift(const Scene& scene, const ResponsePoint& mar
   if (!step.allFinite()) return std::nullopt;
   const OutputAmplitude output = output_amplitude(balance.harmonics(x), scene.output);
   const Eigen::VectorXd gradient = balance.unknowns(output.gradient);
-  return MarkShift{scaling.parameter * step[n] / mark.frequency,
-                   scaling.x * gradient.dot(step.head(n)) / mark.amplitude};
+  return PointShift{scaling.parameter * step[n] / point.frequency,
+                    scaling.x * gradient.dot(step.head(n)) / point.amplitude};
 }
 
 }  // namespace microslip::solver

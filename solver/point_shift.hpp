@@ -1,11 +1,12 @@
 /// @file
-/// What other forces of the same contact move a solved peak or fold by, to first order: one
+/// What other forces, in the same modes, move a solved point of a curve by, to first order: one
 /// evaluation and one Newton step across the branch,
 ///
 ///   [∂R/∂x  ∂R/∂ω; tᵀ] δ = −(R, 0),   t the null vector of the rows above
 ///
 /// A peak's amplitude and a fold's frequency are stationary along the branch, so that a step across
-/// it tells their change. Source: theory section 24.
+/// it tells their change; where the branch is steep, it tells how far the curve moves and not what
+/// amplitudes at one frequency do. Source: theory section 24.
 #pragma once
 
 #include <optional>
@@ -15,14 +16,14 @@
 
 namespace microslip::solver {
 
-struct MarkShift {
-  double frequency = 0.0;  ///< relative to that of the mark, signed
+struct PointShift {
+  double frequency = 0.0;  ///< relative to that of the point, signed
   double amplitude = 0.0;  ///< likewise
 };
 
 /// @param scene  with the other forces, in the same modes.
-/// @param mark   solved without them; its harmonics are taken.
+/// @param point  solved without them; its harmonics are taken.
 /// @return empty: the branch has no direction there, or the output does not move.
-[[nodiscard]] std::optional<MarkShift> mark_shift(const Scene& scene, const ResponsePoint& mark);
+[[nodiscard]] std::optional<PointShift> point_shift(const Scene& scene, const ResponsePoint& point);
 
 }  // namespace microslip::solver

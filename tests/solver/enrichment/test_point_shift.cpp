@@ -1,4 +1,4 @@
-#include "solver/mark_shift.hpp"
+#include "solver/point_shift.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "tests/support/floating_point_traps.hpp"
 #include "tests/support/modal_scenes.hpp"
 
-namespace microslip::solver::test_mark_shift {
+namespace microslip::solver::test_point_shift {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -36,7 +36,7 @@ std::vector<ResponsePoint> marks_of(const ResponseCurve& curve) {
 
 /// Peaks and folds of forces sampled coarsely, moved to where located events have them. A peak of
 /// the curve lies within its resolution of the highest place, where it is 1e-6 lower.
-TEST(MarkShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
+TEST(PointShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
   const tests::UntrappedFloatingPoint lanes_divide_before_they_choose;
   int n_folds = 0;
   for (const double preload : {10.0, 30.0, 50.0, 100.0}) {
@@ -52,7 +52,7 @@ TEST(MarkShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
     ASSERT_FALSE(exact.empty()) << preload;
     for (std::size_t i = 0; i < exact.size(); ++i) {
       ASSERT_EQ(exact[i].mark, coarse[i].mark);
-      const auto shift = mark_shift(located, coarse[i]);
+      const auto shift = point_shift(located, coarse[i]);
       ASSERT_TRUE(shift.has_value()) << preload;
       const bool fold = exact[i].mark == PointMark::fold;
       n_folds += fold ? 1 : 0;
@@ -72,4 +72,4 @@ TEST(MarkShift, TellsWhereLocatedEventsHavePeaksAndFolds) {
 }
 
 }  // namespace
-}  // namespace microslip::solver::test_mark_shift
+}  // namespace microslip::solver::test_point_shift
