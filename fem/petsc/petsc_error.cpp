@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <petscsys.h>
@@ -15,6 +16,11 @@ std::string& last_message() {
   return message;
 }
 
+// PETSc 3.18 gives the line of its caller as the code where malloc fails.
+bool is_allocation(const char* function) {
+  return function != nullptr && std::string_view(function) == "PetscMallocAlign";
+}
+
 PetscErrorCode keep_message(MPI_Comm /*comm*/, int line, const char* function, const char* /*file*/,
                             PetscErrorCode code, PetscErrorType type, const char* message,
                             void* /*context*/) {
@@ -22,7 +28,7 @@ PetscErrorCode keep_message(MPI_Comm /*comm*/, int line, const char* function, c
     last_message() = std::string(message == nullptr ? "" : message) + " [" +
                      (function == nullptr ? "?" : function) + ':' + std::to_string(line) + ']';
   }
-  return code;
+  return is_allocation(function) ? PETSC_ERR_MEM : code;
 }
 
 std::string words_of(int code) {

@@ -1,5 +1,6 @@
 #include "fem/petsc_error.hpp"
 
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,16 @@ TEST(PetscError, ForgetsTheWordsOfAnEarlierError) {
     FAIL() << "a code that is not 0 passed";
   } catch (const PetscError& error) {
     EXPECT_EQ(std::string(error.what()).find("no_such_type"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PetscError, MemoryThatIsNotThereIsAMemoryError) {
+  double* values = nullptr;
+  try {
+    check(PetscMalloc1(std::size_t{1} << 45, &values));  // 2^48 bytes: more than an address space
+    FAIL() << "it was there";
+  } catch (const MemoryError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("out of memory: ", 0), 0U) << error.what();
   }
 }
 
