@@ -400,6 +400,30 @@ class Page(Case):
         share = float(self.measured(text[:start] + json.dumps(data) + text[end:], pixels, 1000))
         self.assertLess(abs(share / 0.5 - 1), 0.02)  # of a square; a ring lies on one
 
+    def test_bars_of_one_budget_start_at_one_place(self):
+        text = self.page(self.run_.folder)
+        starts = ("Math.max(...[...document.querySelectorAll('.budget')].map(b => new Set([...b.querySelectorAll('.bar i')]"
+                  ".map(bar => Math.round(bar.getBoundingClientRect().left))).size))")
+        self.assertGreater(text.count("<div class=bar>"), 3)
+        for width in (1200, 420):
+            self.assertEqual(self.measured(text, starts, width), "1")
+
+    def test_the_limits_are_lines_beside_a_single_gap(self):
+        text = self.page(self.run_.folder)
+        data = self.data(text)
+        next(peak for peak in data["peaks"] if peak["preload"] == 50).update(preload=-50, gap=8.0)
+        start, end = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).span(1)
+        longest = ("Math.max(...[...document.querySelectorAll('[data-chart=peaks] svg[aria-label$=\"gap [µm]\"] path')]"
+                   ".map(line => line.getBoundingClientRect().width))")
+        self.assertGreater(float(self.measured(text[:start] + json.dumps(data) + text[end:], longest, 1000)), 100)  # [px]
+
+    def test_a_unit_stands_behind_numbers_alone(self):
+        from microslip.report.sections import setting_row
+        for key, value, told in (("preload", ["free", -500, "stuck"], "free, −500 N, stuck"), ("preload", [20, 30], "20, 30 N"),
+                                 ("frequency", [285, 340], "285, 340 Hz"), ("frequency", ["285 Hz", "340 Hz"], "285 Hz, 340 Hz"),
+                                 ("phase", 90, "90 °"), ("count", 10, "10"), ("clamped", ["root"], "root")):
+            self.assertEqual(setting_row(key, value)[1], told)
+
     def test_a_narrow_window_and_paper_hide_nothing(self):
         text = self.page(self.run_.folder)
         beyond = "(t => t.scrollWidth - t.clientWidth)(document.querySelector('.effects'))"

@@ -74,7 +74,7 @@ function peakSeries(what, sign) {
   const trace = sign > 0 && data.trace && data.trace.parameter === "preload" ? [traceSeries(what)] : [];
   const range = [...points, ...trace].flatMap((s) => s.x);
   if (!range.length) return [];
-  const ends = [Math.min(...range), Math.max(...range)];
+  const ends = rangeOf(range, true, 0);  // of one value: some way about it
   const lowest = (p) => data.peaks.every((q) => q.preload !== null || q[what] >= p[what]);
   const limits = data.peaks.filter((p) => p.preload === null).map((p) => ({ label: p.label, name: p.label, below: lowest(p), colour: p.colour, width: 1.4, x: ends,
     y: [p[what], p[what]], kind: [1, 1], mark: ["", ""], tip: () => at(p) }));

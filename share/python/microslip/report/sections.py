@@ -45,8 +45,12 @@ def percent(value, digits=2):
     return f"{100 * value:.{digits}g} %" if value >= 1e-5 else "< 0.001 %"
 
 
-def value_text(value):
-    """A value of the scene in words: tables as key value, …"""
+def value_text(value, unit=""):
+    """A value of the scene in words: tables as key value, …; the unit of its numbers behind a list of numbers, or behind each."""
+    if isinstance(value, list) and unit and not all(map(is_number, value)):
+        return ", ".join(value_text(item, unit) for item in value)
+    if unit and is_number(value) or isinstance(value, list) and unit:
+        return value_text(value) + unit
     if isinstance(value, dict):
         return ", ".join(f"{key.replace('_', ' ')} {value_text(item)}" for key, item in value.items())
     if isinstance(value, list):
@@ -56,11 +60,9 @@ def value_text(value):
 
 
 def setting_row(key, value):
-    text = value_text(value)
+    text = value_text(value, f" {UNITS[key]}" if key in UNITS else "")
     text = text if len(text) <= LONGEST else f"{len(value) if isinstance(value, list) else 'many'} entries (scene.toml)"
-    has_number = is_number(value) or isinstance(value, list) and any(map(is_number, value))
-    unit = f" {UNITS[key]}" if key in UNITS and has_number else ""
-    return [escape(key.replace("_", " ")), escape(text + unit)]
+    return [escape(key.replace("_", " ")), escape(text)]
 
 
 def parts_of(scene):
@@ -121,7 +123,8 @@ def effects(run, data):
     head = ["effect", "simulated", "setting", "indicator", "limit", "cost", "why"]
     return "" if not rows else (table(head, rows, (3, 4, 5), "effects") +
                      "<p class=note>Above its limit an indicator, told from the linear limits before the run, calls for the "
-                     "effect; point at it to read what it is. Cost: what the curves take longer, forecast; –: not told apart.</p>")
+                     "effect; point at it to read what it is. Cost: what curves, their errors, a best value and its bracket take "
+                     "longer, forecast; –: not told apart.</p>")
 
 
 def state_of(curve):
@@ -217,14 +220,18 @@ def maps(run, data):
             'where the slider stands. Where the whole face moves alike, the area of the loop is the energy of a period.</p>')
 
 
+def signed(value):
+    return f"{value:+.2g}".replace("-", "−")
+
+
 def bars_of(rows):
     """Effects on one goal of one curve, the largest first, as bars from a hundredth of a percent."""
     worst = max(abs(row["effect"]) for row in rows) or 1.0
     lines = ""
     for row in sorted(rows, key=lambda row: -abs(row["effect"])):
         lines += (f'<div class=bar><span>{escape(row["source"].replace("_", " "))}</span>'
-                  f'<i style="width:{60 * abs(row["effect"]) / worst:.1f}%"></i>'
-                  f'<em>{100 * row["effect"]:+.2g} % {escape(row.get("kind", ""))}</em></div>')
+                  f'<i style="--share:{abs(row["effect"]) / worst:.3f}"></i>'
+                  f'<em>{signed(100 * row["effect"])} % {escape(row.get("kind", ""))}</em></div>')
     return lines
 
 
