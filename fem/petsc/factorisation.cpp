@@ -39,6 +39,16 @@ bool workspace_too_small(PetscInt code) {
   throw PetscError(text);
 }
 
+// Of a solve, whose workspace MUMPS allocates then.
+void check_solution(int code, Mat factor) {
+  try {
+    check(code);
+  } catch (const PetscError&) {
+    if (info(factor, 1) < 0) fail(factor, "the solution");
+    throw;
+  }
+}
+
 void refuse_beyond(double available_mb, PetscInt needed_mb) {
   if (static_cast<double>(needed_mb) <= available_mb) return;
   throw MemoryError(
@@ -83,12 +93,12 @@ Eigen::MatrixXd Factorisation::solve(const Eigen::MatrixXd& rhs) const {
                        load.data(), B.out()));
   check(MatCreateDense(PETSC_COMM_WORLD, n_local, PETSC_DECIDE, PETSC_DETERMINE, n_columns,
                        solution.data(), X.out()));
-  check(MatMatSolve(factor_.get(), B.get(), X.get()));
+  check_solution(MatMatSolve(factor_.get(), B.get(), X.get()), factor_.get());
   return solution;
 }
 
 void Factorisation::apply(Vec rhs, Vec solution) const {
-  check(MatSolve(factor_.get(), rhs, solution));
+  check_solution(MatSolve(factor_.get(), rhs, solution), factor_.get());
 }
 
 Inertia Factorisation::inertia() const {

@@ -8,6 +8,8 @@
 #include "fem/assembly/fe_system.hpp"
 #include "fem/eigen/mode_search.hpp"
 #include "fem/petsc_error.hpp"
+#include "fem/ranks.hpp"
+#include "tests/support/address_space.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/dense_system.hpp"
 
@@ -55,6 +57,41 @@ TEST(Factorisation, ThatDoesNotFitIsRefusedWithItsSize) {
               std::string::npos)
         << error.what();
   }
+}
+
+/// K of a string of springs, held at its first end.
+MatHandle springs(PetscInt n) {
+  MatHandle matrix;
+  check(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 3, nullptr, matrix.out()));
+  for (PetscInt i = 0; i < n; ++i) {
+    check(MatSetValue(matrix.get(), i, i, i + 1 < n ? 2.0 : 1.0, INSERT_VALUES));
+    if (i + 1 == n) break;
+    check(MatSetValue(matrix.get(), i, i + 1, -1.0, INSERT_VALUES));
+    check(MatSetValue(matrix.get(), i + 1, i, -1.0, INSERT_VALUES));
+  }
+  check(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+  return matrix;
+}
+
+// Met with a run under ulimit -v: MUMPS needs a third array of the size of loads and solution.
+TEST(Factorisation, ASolutionThatDoesNotFitIsOutOfMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer takes terabytes of address space";
+#endif
+  if (n_ranks() > 1) GTEST_SKIP() << "the matrix is that of one rank";
+  const Factorisation factor(springs(140'000).get(), FactorKind::positive_definite);
+  const Eigen::MatrixXd loads = Eigen::MatrixXd::Ones(140'000, 32);
+  std::string message = "it fitted";
+  try {
+    const test::Room room(2.5 * 8e-6 * static_cast<double>(loads.size()));
+    static_cast<void>(factor.solve(loads));
+  } catch (const MemoryError& error) {
+    message = error.what();
+  } catch (const std::exception& error) {
+    message = std::string("told otherwise: ") + error.what();
+  }
+  EXPECT_EQ(message.rfind("out of memory: MUMPS failed in the solution", 0), 0U) << message;
 }
 
 }  // namespace

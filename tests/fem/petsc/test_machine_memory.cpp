@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "fem/ranks.hpp"
+#include "tests/support/address_space.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microslip::fem::test_machine_memory {
@@ -71,15 +72,6 @@ TEST(MachineMemory, IsWhatTheAddressSpaceLeaves) {
   }
 }
 
-/// Address space of this process [MB].
-double size_now() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmSize:")) return 1.024e-3 * std::stod(line.substr(7));
-  }
-  return 0.0;
-}
-
 // The machine is one for all ranks, an address space is not: two ranks have twice that of one.
 TEST(MachineMemory, OfEveryRankIsAnAddressSpaceOfItsOwn) {
   constexpr double left = 500.0;  // [MB], of each
@@ -87,7 +79,7 @@ TEST(MachineMemory, OfEveryRankIsAnAddressSpaceOfItsOwn) {
   if (without < 2.0 * left * n_ranks()) GTEST_SKIP() << "the machine has " << without << " MB";
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  const rlimit little{.rlim_cur = static_cast<rlim_t>(1e6 * (size_now() + left)),
+  const rlimit little{.rlim_cur = static_cast<rlim_t>(1e6 * (test::address_space_mb() + left)),
                       .rlim_max = before.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
   const AvailableMemory here = available_memory_here();

@@ -1,9 +1,6 @@
 // A forecast beyond memory ends before anything is solved, and names the way that fits.
 #include "pipelines/structure/solver_memory.hpp"
 
-#include <sys/resource.h>
-
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,40 +9,13 @@
 #include "pipelines/scene/scene_file.hpp"
 #include "pipelines/structure/structure_stage.hpp"
 #include "pipelines/system/exit_code.hpp"
+#include "tests/support/address_space.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace microslip::pipelines::test_solver_memory {
 namespace {
 
 using fem::SolverKind;
-
-/// Address space of this process [MB].
-double size_now() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmSize:")) return 1.024e-3 * std::stod(line.substr(7));
-  }
-  return 0.0;
-}
-
-/// Leaves so much address space while it lives.
-class Room {
- public:
-  explicit Room(double megabytes) {
-    getrlimit(RLIMIT_AS, &before_);
-    rlimit little = before_;
-    little.rlim_cur = static_cast<rlim_t>(1e6 * (size_now() + megabytes));
-    setrlimit(RLIMIT_AS, &little);
-  }
-  ~Room() { setrlimit(RLIMIT_AS, &before_); }
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
-  Room(Room&&) = delete;
-  Room& operator=(Room&&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 /// Compact: 89 000 unknowns, whose factor is far larger than what an iterative solution takes.
 const mesh::Mesh& cube() {
@@ -73,7 +43,7 @@ TEST(SolverMemory, OfTheIterativeWayIsLessForACompactBody) {
 
 TEST(SolverMemory, BeyondWhatThereIsIsRefusedAndTheOtherWayOffered) {
   const SolverMemory memory = solver_memory(cube(), SolverKind::direct);
-  const Room room(0.5 * (memory.iterative_mb + 0.7 * memory.direct_mb));
+  const test::Room room(0.5 * (memory.iterative_mb + 0.7 * memory.direct_mb));
   const std::string text = complaint(SolverKind::direct);
   for (const char* part : {"out of memory: modes.solver = \"direct\" needs about", "ulimit -v",
                            "modes.solver = \"iterative\" needs about", "coarser mesh"}) {
@@ -86,7 +56,7 @@ TEST(SolverMemory, BeyondBothOffersNeither) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "AddressSanitizer needs more address space itself";
 #endif
-  const Room room(20.0);
+  const test::Room room(20.0);
   EXPECT_EQ(complaint(SolverKind::direct).find("\"iterative\""), std::string::npos);
   EXPECT_NE(complaint(SolverKind::iterative).find("modes.solver = \"iterative\" needs about"),
             std::string::npos);
