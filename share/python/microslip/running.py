@@ -146,7 +146,7 @@ def sweep(scene: Path, values: Mapping[str, Sequence[Any]], *, overrides: Option
 
     overrides hold for all runs. folder takes run_000, run_001, …; a temporary one where not given. A run that fails
     leaves its message in point.error and the others go on. ProgramError only where the program is not found, ValueError
-    where a key has one value in place of a list.
+    where a key has one value in place of a list. without=[] has pictures, maps and bracket as well, which a sweep leaves out.
     """
     for key, several in values.items():
         if isinstance(several, str) or not isinstance(several, Iterable):
