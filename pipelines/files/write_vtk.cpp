@@ -161,6 +161,12 @@ Eigen::MatrixXd skin_shapes(const Skin& skin, const Eigen::MatrixXd& shapes) {
   return rows;
 }
 
+/// What ParaView colours by its size as it opens the file, and "Warp By Vector" takes first.
+void show_first(vtkPointData& data, const char* name) {
+  data.SetActiveVectors(name);
+  data.SetActiveScalars(name);
+}
+
 }  // namespace
 
 void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
@@ -170,7 +176,7 @@ void write_modes_vtu(const std::filesystem::path& file, const mesh::Mesh& mesh,
     add_array(*grid->GetPointData(), "mode_" + std::to_string(mode + 1),
               per_node(basis.shapes.col(mode)));
   }
-  grid->GetPointData()->SetActiveVectors("mode_1");  // what "Warp By Vector" takes first
+  show_first(*grid->GetPointData(), "mode_1");
   add_names(*grid->GetPointData(), mesh, "surface_", mesh.surface_names());
   add_names(*grid->GetPointData(), mesh, "set_", mesh.node_set_names());
   add_array(*grid->GetFieldData(), "frequency_Hz", basis.frequency / (2.0 * std::numbers::pi));
@@ -190,7 +196,7 @@ void write_motion(const std::filesystem::path& folder, const std::string& name,
     vtkNew<vtkPolyData> frame;
     frame->ShallowCopy(skin.surface);
     add_float_array(*frame->GetPointData(), "displacement_m", per_node(displacement));
-    frame->GetPointData()->SetActiveVectors("displacement_m");
+    show_first(*frame->GetPointData(), "displacement_m");
     add_array(*frame->GetFieldData(), "frequency_Hz", Eigen::VectorXd::Constant(1, frequency_hz));
     const std::string frame_name = step_name(name, step, ".vtp");
     write_vtk_file(folder / frame_name, *frame);

@@ -209,6 +209,23 @@ TEST(WriteVtk, SkinOfAllSolidsEnclosesTheirVolume) {
   }
 }
 
+/// What ParaView colours by and warps with as it opens the file.
+void expect_shown(vtkPointData& data, const char* name) {
+  ASSERT_NE(data.GetScalars(), nullptr);
+  ASSERT_NE(data.GetVectors(), nullptr);
+  EXPECT_STREQ(data.GetScalars()->GetName(), name);
+  EXPECT_STREQ(data.GetVectors()->GetName(), name);
+}
+
+TEST(WriteVtk, MotionAndModesOpenInColour) {
+  const synthetic::Folder folder("shown");
+  const mesh::Mesh mesh = two_tets();
+  write_modes_vtu(folder.path() / "modes.vtu", mesh, basis_for(mesh));
+  expect_shown(*read_vtu(folder.path() / "modes.vtu")->GetPointData(), "mode_1");
+  write_motion(folder.path(), "peak", mesh, basis_for(mesh), contact::Harmonics(1, 2), 296.5, 4);
+  expect_shown(*read_vtp(folder.path() / "peak_000.vtp")->GetPointData(), "displacement_m");
+}
+
 TEST(WriteVtk, MotionIsDrawnOnTheOuterFacesOverOnePeriod) {
   const synthetic::Folder folder("motion");
   const mesh::Mesh mesh = two_tets();
