@@ -140,14 +140,19 @@ bool asks_for_preloads(const SceneDescription& scene) {
          });
 }
 
+bool asks_for_best_value(const SceneDescription& scene) {
+  return scene.response && scene.response->optimum.has_value();
+}
+
 bool lacks_faces(const SceneDescription& scene) { return scene.contacts.empty(); }
 bool has_fit_degree(const SceneDescription& scene) {
   return std::ranges::any_of(scene.settings.patches, [](const PatchSettings& patch) {
     return patch.fit == PatchSettings::Fit::degree;
   });
 }
+/// Left out with the areas as well: there would be no scene to put it back into.
 bool has_preload_moment(const SceneDescription& scene) {
-  return std::ranges::any_of(scene.contacts, [](const ContactDescription& contact) {
+  return std::ranges::any_of(as_written(scene).contacts, [](const ContactDescription& contact) {
     return contact.preload_moment != std::array{0.0, 0.0};
   });
 }
@@ -172,6 +177,10 @@ constexpr std::array contradictions{
     Contradiction{"nonlinearity", "off", asks_for_preloads,
                   "contradicts response.preload (or preload_scale): contact without it is one of "
                   "the limits, response.preload = [\"free\", \"stuck\"]"},
+    Contradiction{
+        "nonlinearity", "off", asks_for_best_value,
+        "contradicts response.optimum, which searches along curves of contact that slips: "
+        "leave that out"},
     Contradiction{"normal_motion", "on", has_constant_load, no_normal_stiffness},
     Contradiction{"normal_motion", "off", is_rough,
                   "contradicts contact.roughness: rough surfaces are felt by normal motion"},
@@ -195,6 +204,8 @@ constexpr std::array contradictions{
     Contradiction{"higher_harmonics", "on", lacks_nonlinearity, without_nonlinearity},
     Contradiction{"higher_harmonics", "off", has_harmonics,
                   "contradicts response.harmonics: leave that out"},
+    Contradiction{"higher_harmonics", "off", goes_in_time,
+                  "contradicts response.method = \"time\", which has all harmonics"},
     Contradiction{"roughness", "on", is_smooth, "needs contact.roughness"},
     Contradiction{"rate_dependence", "on", has_constant_friction,
                   "needs a law of contact.friction_coefficient"},

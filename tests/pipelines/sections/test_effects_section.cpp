@@ -114,6 +114,11 @@ INSTANTIATE_TEST_SUITE_P(
             modal, {"effects.nonlinearity=on", "modal.points="}, "nonlinearity", "[contact]"},
         Contradicting{chain, {"effects.nonlinearity=off"}, "nonlinearity", "response.preload"},
         Contradicting{modal, {"effects.nonlinearity=off"}, "nonlinearity", "preload_scale"},
+        Contradicting{chain,
+                      {"effects.nonlinearity=off", "response.preload=[\"free\", \"stuck\"]",
+                       "response.optimum=preload", "response.optimum_range=[1, 100]"},
+                      "nonlinearity",
+                      "response.optimum"},
         Contradicting{chain, {"effects.normal_motion=on"}, "normal_motion", no_normal},
         Contradicting{
             blade,
@@ -154,6 +159,11 @@ INSTANTIATE_TEST_SUITE_P(
                       "response.harmonics"},
         Contradicting{
             modal, {"effects.higher_harmonics=off"}, "higher_harmonics", "response.harmonics"},
+        Contradicting{
+            modal,
+            {"effects.higher_harmonics=off", "response.harmonics=1", "response.method=time"},
+            "higher_harmonics",
+            "response.method"},
         Contradicting{modal, {"effects.roughness=on"}, "roughness", "contact.roughness"},
         Contradicting{modal,
                       {"effects.rate_dependence=on"},
@@ -176,6 +186,11 @@ INSTANTIATE_TEST_SUITE_P(
                       {"effects.local_frames=on", "contact.preload_moment=[1, 0]"},
                       "local_frames",
                       "contact.preload_moment"},
+        Contradicting{
+            blade,
+            {"effects.local_frames=on", "contact.preload_moment=[1, 0]", "effects.moments=off"},
+            "local_frames",
+            "contact.preload_moment"},
         Contradicting{
             blade, {"effects.static_preload=on"}, "static_preload", "contact.preload = \"static\""},
         Contradicting{blade, {"effects.centrifugal=on"}, "centrifugal", "static.speed"},
