@@ -309,10 +309,11 @@ EffectDecision centrifugal(const EffectFacts& facts) {
 
 EffectDecision stability(const EffectFacts& facts) {
   const bool several = facts.scene.settings.harmonics.highest > 1;
-  return by(facts.has_contact,
-            !facts.has_contact ? "a linear scene is stable"
-            : several
-                ? "Hill's exponents of every point with several harmonics, where they can tell; in "
+  return by(
+      facts.has_contact,
+      !facts.has_contact     ? "a linear scene is stable"
+      : in_time(facts.scene) ? "a motion that repeats with every period of the excitation is stable"
+      : several ? "Hill's exponents of every point with several harmonics, where they can tell; in "
                   "scenes of few modes and points the multipliers of a period in time"
                 : "slow-flow eigenvalues of every point");
 }

@@ -340,6 +340,14 @@ TEST(Effects, PointsThatStayOpenAreCounted) {
   EXPECT_FALSE(told.objection.empty());
 }
 
+TEST(Effects, InTimeStabilityIsThatOfAMotionThatRepeats) {
+  const auto reason = [](const Overrides& overrides) {
+    return effect_in(effects_of(scene_of(overrides), nullptr), "stability").reason;
+  };
+  EXPECT_NE(reason({"response.method=time"}).find("repeats"), std::string::npos);
+  EXPECT_EQ(reason({}).find("repeats"), std::string::npos);
+}
+
 TEST(Effects, WhatIsNotKnownYetIsNotDenied) {
   const SceneDescription scene = scene_of({});
   for (const char* name : {"nonlinearity", "normal_motion", "second_direction", "coexistence"}) {
