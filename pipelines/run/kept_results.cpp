@@ -39,8 +39,13 @@ constexpr double worth_keeping = 1e4;
 
 using Keys = std::vector<std::string_view>;
 
-/// A completed scene without its title, these keys of [response], and [accuracy],
-/// of which the settings of the model say more.
+/// What is drawn of a solution changes nothing of it.
+bool is_of_maps(const std::string& section, const std::string& key) {
+  return section == "[effects]" && (key == "maps" || key == "wear");
+}
+
+/// A completed scene without its title, these keys of [response], what says whether maps are drawn,
+/// and [accuracy], of which the settings of the model say more.
 std::string text_without(const Keys& keys, const std::string& scene_toml) {
   std::string text;
   std::string section;
@@ -50,7 +55,8 @@ std::string text_without(const Keys& keys, const std::string& scene_toml) {
     const std::string key = line.substr(0, line.find(" = "));
     const bool is_choice = section == "[response]" && std::ranges::find(keys, key) != keys.end();
     const bool is_title = section.empty() && key == "title";
-    if (section != "[accuracy]" && !is_choice && !is_title) text += line + '\n';
+    const bool says_more = section != "[accuracy]" && !is_of_maps(section, key);
+    if (says_more && !is_choice && !is_title) text += line + '\n';
   }
   return text;
 }

@@ -122,6 +122,7 @@ class SharedModes(unittest.TestCase):
             self.assertEqual(best[key], refused[key], key)
         # What a curve follows from makes it another; what is asked for beside it does not.
         self.assertLessEqual({"preload_150", "best_value"}, taken("title", [150], title="another", **{"response.maps": ["peak"]}))
+        self.assertLessEqual({"preload_150", "best_value"}, taken("no_maps", [150], **{"response.maps": ["peak"], "effects.maps": "off", "effects.wear": "off"}))
         self.assertEqual(taken("range", [150], **{"response.optimum_range": [200, 600], "accuracy.error_budget": "off"}), {"preload_150"})
         for key, value in (("contact.friction_coefficient", 0.41), ("response.harmonics", 2), ("contact.points", 120),
                            ("response.frequency", ["310 Hz", "336 Hz"]), ("effects.normal_motion", "off")):
