@@ -195,11 +195,14 @@ EffectDecision higher_harmonics(const EffectFacts& facts) {
   return decision;
 }
 
+/// The linear limits alone know neither roughness nor a speed of slip.
+bool has_load(const EffectFacts& facts) { return facts.has_range() && facts.reach.has_value(); }
+
 EffectDecision roughness(const EffectFacts& facts) {
   if (!is_rough(facts.scene))
     return by(false, "no contact.roughness is given: surfaces are smooth");
   EffectDecision decision = by(true, "contact.roughness is given");
-  if (facts.has_range()) decision.indicator = roughness_size(*facts.model, facts.scene);
+  if (has_load(facts)) decision.indicator = roughness_size(*facts.model, facts.scene);
   return decision;
 }
 
@@ -208,7 +211,7 @@ EffectDecision rate_dependence(const EffectFacts& facts) {
     return by(false, "no law of the slip speed is given: the friction coefficient is constant");
   }
   EffectDecision decision = by(true, "the friction coefficient follows the slip speed");
-  if (facts.has_range()) decision.indicator = friction_change(*facts.model, facts.scene);
+  if (has_load(facts)) decision.indicator = friction_change(*facts.model, facts.scene);
   return decision;
 }
 
@@ -389,9 +392,10 @@ std::optional<double> indicator_left_out(std::string_view name, const EffectFact
   if (name == "static_preload") return facts.model->static_variation;
   if (name == "residual") return residual_of_numbers(facts);
   if (!facts.has_range()) return std::nullopt;
+  if (name == "moments") return tilt_size(*facts.model, facts.scene);
+  if (!has_load(facts)) return std::nullopt;
   if (name == "roughness") return roughness_size(*facts.model, facts.scene);
   if (name == "rate_dependence") return friction_change(*facts.model, facts.scene);
-  if (name == "moments") return tilt_size(*facts.model, facts.scene);
   return std::nullopt;
 }
 

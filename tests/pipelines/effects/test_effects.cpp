@@ -340,6 +340,44 @@ TEST(Effects, PointsThatStayOpenAreCounted) {
   EXPECT_FALSE(told.objection.empty());
 }
 
+// Nothing slips in the linear limits, and a stuck contact is as stiff as a full one.
+TEST(Effects, LimitsAloneMissNeitherRoughnessNorALawOfTheSpeed) {
+  constexpr const char* block = R"toml([model]
+kind = "block"
+mass = 1
+moments_of_inertia = [0.002, 0.003, 0.0025]
+height = 0.02
+stiffness = [15800, 30000, 17500]
+rotational_stiffness = [90, 80, 110]
+[contact]
+cells = [2, 2]
+size = [0.1, 0.08]
+normal_stiffness = 4e4
+tangential_stiffness = 4e4
+friction_coefficient = { law = "hyperbolic", static = 0.4, rate = 1 }
+roughness = { law = "cubic", height = 5e-4 }
+[excitation]
+forces = [ { at = [0, -0.03, 0], force = [5, 0, 0] } ]
+[response]
+output = { at = [0, 0, 0], direction = [1, 0, 0] }
+frequency = [18, 40]
+harmonics = 1
+)toml";
+  for (const char* name : {"roughness", "rate_dependence"}) {
+    const auto told = [&](const std::string& preload) {
+      const SceneDescription scene =
+          parse_scene(block, "scene.toml", "/nowhere",
+                      {"response.preload=" + preload, std::string("effects.") + name + "=off"});
+      const ReducedModel model = model_in(scene);
+      return effect_in(effects_of(scene, &model), name);
+    };
+    const EffectRecord limits = told("[\"free\", \"stuck\"]");
+    EXPECT_FALSE(limits.indicator) << name;
+    EXPECT_EQ(limits.objection, "") << name;
+    EXPECT_NE(told("[\"stuck\", 20]").objection, "") << name;
+  }
+}
+
 TEST(Effects, InTimeStabilityIsThatOfAMotionThatRepeats) {
   const auto reason = [](const Overrides& overrides) {
     return effect_in(effects_of(scene_of(overrides), nullptr), "stability").reason;
