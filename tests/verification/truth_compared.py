@@ -3,6 +3,7 @@
 Truth (tests/verification/truth/) keeps every contact node and shares nothing with contact/ and solver/. With as many
 harmonics, what is left is the error of basis, cells, fit and sampling. A few curves of three harmonics, open and
 slipping, along x and y, are traced anew by both; MICROSLIP_CAMPAIGNS=whole takes more preloads and nine harmonics as well.
+The truth itself is integrated in time from one of its peaks: what all its harmonics leave out.
 
 usage: truth_compared.py MICROSLIP SOURCE_FOLDER WORK_FOLDER TRUTH_PROGRAM
 """
@@ -30,6 +31,7 @@ def rows_of(path):
 
 
 STORED = rows_of(os.path.join(SOURCE, "share", "reference", "truth_blade_10mm.csv"))
+STORED_IN_TIME = rows_of(os.path.join(SOURCE, "share", "reference", "truth_time_10mm.csv"))
 
 
 def program_peaks(force, harmonics):
@@ -77,6 +79,21 @@ class Truth(unittest.TestCase):
         stored = STORED[key]
         self.assertAlmostEqual(truth[0] / float(stored["peak_um"]), 1, delta=PRINTED)
         self.assertAlmostEqual(truth[1] / float(stored["peak_Hz"]), 1, delta=PRINTED)
+
+    @unittest.skipUnless(whole_campaigns(), "a minute; a face of one node: verification.truth_in_time")
+    def test_the_truth_integrated_in_time_is_that_of_many_harmonics(self):
+        table = os.path.join(WORK, "truth_in_time.csv")
+        subprocess.run([TRUTH, "--preloads", "500", "--harmonics", "7", "--instants", "256", "--steps", "512", "--from", "300",
+                        "--to", "333", "--periods", "200", "--csv", table], check=True, stdout=subprocess.DEVNULL, timeout=600)
+        row = rows_of(table)["x", 500.0, "p", 7]
+        stored = STORED_IN_TIME["x", 500.0, "p", 9]
+        seven, in_time = float(row["peak_um"]), float(row["time_um"])
+        many = STORED["x", 500.0, "p", 21]
+        print(f"500 N: balance with 7 harmonics {seven:.2f} um, from there in time {in_time:.2f} um; stored: with 21 "
+              f"{many['peak_um']} um, in time from 9 {stored['time_um']} um", flush=True)
+        self.assertAlmostEqual(in_time / float(stored["time_um"]), 1, delta=5e-4)
+        self.assertAlmostEqual(float(many["peak_um"]) / float(stored["time_um"]), 1, delta=1e-3)
+        self.assertGreater(abs(seven / in_time - 1), 3e-3)  # harmonics are missed, and time tells
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/verification/truth/dual_number.hpp"
+#include "tests/verification/truth/return_step.hpp"
 
 namespace microslip::truth {
 namespace {
@@ -15,67 +15,20 @@ constexpr int most_periods = 12;
 constexpr double repeats =
     1e-8;  // of the friction limit: two-dimensional sliders have come to their cycle
 
-template <typename T>
-struct Traction {
-  T u{}, v{}, w{};
-};
-
-enum class State : unsigned char { open, stick, slip };
-
-/// F* returned to the cone of normal pressure n.
-template <typename T>
-State return_to_cone(T& u, T& w, const T& n, double mu, bool planar) {
-  const T limit = mu * n;
-  if (!planar) {
-    if (std::abs(value_of(u)) <= value_of(limit)) return State::stick;
-    u = value_of(u) > 0.0 ? limit : T(-1.0) * limit;
-    return State::slip;
-  }
-  const T size = hypot(u, w);
-  if (value_of(size) <= value_of(limit)) return State::stick;
-  u = limit * u / size;
-  w = limit * w / size;
-  return State::slip;
-}
-
-/// One point through its periods. `motion(i)` gives (u, v, w) at instant i as Traction<T>,
-/// `keep(i, traction, state)` is told the tractions, the last period last.
+/// One point through its periods. `motion(i)` gives (u, v, w) at instant i as Triple<T>,
+/// `keep(i, slider)` is told where it is then, the last period last.
 template <typename T, typename Motion, typename Keep>
 void march(const ContactConstants& c, Index n, bool planar, const Motion& motion,
            const Keep& keep) {
-  const double k = c.tangential_stiffness;
-  Traction<T> x = motion(n - 1);
-  T gap = T(c.pressure) + T(c.normal_stiffness) * x.v;
-  Traction<T> f{T(k) * x.u, T{}, T(k) * x.w};
-  if (value_of(gap) <= 0.0) {
-    f = {};
-  } else {
-    return_to_cone(f.u, f.w, gap, c.friction_coefficient, planar);
-  }
+  Slider<T> at = first_instant<T>(c, planar, motion(n - 1));
   for (int period = 0; period < (planar ? most_periods : 2); ++period) {
-    const Traction<T> start = f;
+    const Triple<T> start = at.force;
     for (Index i = 0; i < n; ++i) {
-      const Traction<T> before = x;
-      const T gap_before = gap;
-      x = motion(i);
-      gap = T(c.pressure) + T(c.normal_stiffness) * x.v;
-      if (value_of(gap) <= 0.0) {
-        f = {};
-        keep(i, f, State::open);
-        continue;
-      }
-      T stiffness = T(k);
-      if (value_of(gap_before) < 0.0) {
-        stiffness = T(k) * gap / (gap - gap_before);
-        f = {};
-      }
-      f.v = gap;
-      f.u = f.u + stiffness * (x.u - before.u);
-      if (planar) f.w = f.w + stiffness * (x.w - before.w);
-      keep(i, f, return_to_cone(f.u, f.w, f.v, c.friction_coefficient, planar));
+      at = next_instant<T>(c, planar, at, motion(i));
+      keep(i, at);
     }
     const double change =
-        hypot(value_of(f.u) - value_of(start.u), value_of(f.w) - value_of(start.w));
+        hypot(value_of(at.force.u) - value_of(start.u), value_of(at.force.w) - value_of(start.w));
     if (period > 0 && change <= repeats * c.friction_coefficient * std::abs(c.pressure)) break;
   }
 }
@@ -100,14 +53,14 @@ TractionResult tractions(const ContactConstants& constants, const PointHistory& 
     march<double>(
         constants, n, planar,
         [&](Index i) {
-          return Traction<double>{motion.u(i, point), motion.v(i, point),
-                                  planar ? motion.w(i, point) : 0.0};
+          return Triple<double>{motion.u(i, point), motion.v(i, point),
+                                planar ? motion.w(i, point) : 0.0};
         },
-        [&](Index i, const Traction<double>& f, State state) {
-          t.u(i, point) = f.u;
-          t.v(i, point) = f.v;
-          if (planar) t.w(i, point) = f.w;
-          states[i] = state;
+        [&](Index i, const Slider<double>& at) {
+          t.u(i, point) = at.force.u;
+          t.v(i, point) = at.force.v;
+          if (planar) t.w(i, point) = at.force.w;
+          states[i] = at.state;
         });
     const auto share = [&](auto mask) {
       return static_cast<double>(mask.count()) / static_cast<double>(n);
@@ -127,16 +80,16 @@ PointHistory tangent(const ContactConstants& constants, const PointHistory& moti
     march<Dual>(
         constants, n, planar,
         [&](Index i) {
-          Traction<Dual> x{{motion.u(i, point), change.u(i, point)},
-                           {motion.v(i, point), change.v(i, point)},
-                           {}};
+          Triple<Dual> x{{motion.u(i, point), change.u(i, point)},
+                         {motion.v(i, point), change.v(i, point)},
+                         {}};
           if (planar) x.w = {motion.w(i, point), change.w(i, point)};
           return x;
         },
-        [&](Index i, const Traction<Dual>& f, State) {
-          t.u(i, point) = f.u.rate;
-          t.v(i, point) = f.v.rate;
-          if (planar) t.w(i, point) = f.w.rate;
+        [&](Index i, const Slider<Dual>& at) {
+          t.u(i, point) = at.force.u.rate;
+          t.v(i, point) = at.force.v.rate;
+          if (planar) t.w(i, point) = at.force.w.rate;
         });
   }
   return t;

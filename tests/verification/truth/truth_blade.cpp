@@ -13,7 +13,11 @@
 // attachment shapes included. Directions: p has friction along p alone, pr along both.
 //
 // Columns: force, preload_N, directions, harmonics, peak_um, first_harmonic_um, peak_Hz, complete
-// (the curve reached its end), curve_points, instants, contact_points, modes, seconds.
+// (the curve reached its end), curve_points, instants, contact_points, modes, time_um, time_Hz,
+// time_periods, time_change, seconds. With --periods N the peak is solved for in time as well
+// (time_march.hpp): at most N periods, of --steps steps, at each of three and more frequencies
+// about that of the balance; time_change is what the amplitude changes over the last ten periods.
+// 0: not asked for, or not enclosed.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,6 +31,7 @@
 
 #include "fem/slepc_session.hpp"
 #include "tests/verification/truth/curve.hpp"
+#include "tests/verification/truth/time_march.hpp"
 
 namespace microslip::truth {
 namespace {
@@ -38,7 +43,8 @@ Options read_options(int argc, char** argv) {
                   {"directions", "p"}, {"instants", "512"},  {"subdivision", "2"},
                   {"modes", "60"},     {"element", "0.010"}, {"from", "285"},
                   {"to", "340"},       {"csv", ""},          {"verbose", "no"},
-                  {"step", "0.4"},     {"curve", ""}};
+                  {"step", "0.4"},     {"curve", ""},        {"periods", "0"},
+                  {"steps", "1024"}};
   for (int i = 1; i < argc; i += 2) {
     const std::string name =
         std::string(argv[i]).substr(std::string(argv[i]).rfind("--", 0) == 0 ? 2 : 0);
@@ -82,7 +88,7 @@ void write_curve(const std::string& file, const Curve& curve) {
 
 const char* header =
     "force,preload_N,directions,harmonics,peak_um,first_harmonic_um,peak_Hz,complete,curve_points,"
-    "instants,contact_points,modes,seconds\n";
+    "instants,contact_points,modes,time_um,time_Hz,time_periods,time_change,seconds\n";
 
 std::string row(const Options& options, const FaceModel& model, double preload, bool planar,
                 int harmonics) {
@@ -102,15 +108,22 @@ std::string row(const Options& options, const FaceModel& model, double preload, 
   for (const CurvePoint& candidate : curve.peaks) {
     if (candidate.amplitude > peak.amplitude) peak = candidate;
   }
+  TimePeak time;
+  if (const int periods = std::stoi(options.at("periods")); periods > 0 && !curve.peaks.empty()) {
+    static_cast<void>(balance.residual(peak.x, peak.omega));
+    time = peak_in_time(model, contact, planar, balance.shapes(), peak.omega,
+                        {.steps = std::stoi(options.at("steps")), .most_periods = periods});
+  }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   char text[256];
-  std::snprintf(text, sizeof text, "%s,%g,%s,%d,%.3f,%.3f,%.4f,%d,%zu,%d,%ld,%s,%.0f\n",
-                options.at("force").c_str(), preload, planar ? "pr" : "p", harmonics,
-                1e6 * peak.amplitude, 1e6 * peak.first_harmonic,
-                peak.omega / (2.0 * std::numbers::pi), curve.complete ? 1 : 0, curve.points.size(),
-                instants, static_cast<long>(model.weights.size()), options.at("modes").c_str(),
-                seconds);
+  std::snprintf(
+      text, sizeof text, "%s,%g,%s,%d,%.3f,%.3f,%.4f,%d,%zu,%d,%ld,%s,%.3f,%.4f,%d,%.1e,%.0f\n",
+      options.at("force").c_str(), preload, planar ? "pr" : "p", harmonics, 1e6 * peak.amplitude,
+      1e6 * peak.first_harmonic, peak.omega / (2.0 * std::numbers::pi), curve.complete ? 1 : 0,
+      curve.points.size(), instants, static_cast<long>(model.weights.size()),
+      options.at("modes").c_str(), 1e6 * time.amplitude, time.omega / (2.0 * std::numbers::pi),
+      time.periods, time.change, seconds);
   return text;
 }
 
