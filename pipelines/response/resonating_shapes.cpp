@@ -35,4 +35,14 @@ void tell_shapes_resonate(const Eigen::VectorXd& frequency, Eigen::Index n_attac
       order);
 }
 
+void tell_unasked(int highest, int most, solver::ResponseCurve& curve) {
+  if (highest >= most || curve.points.empty() || !opens_and_closes(curve)) return;
+  if (!curve.message.empty()) curve.message += "; ";
+  curve.message += fmt::format(
+      "contact opens and closes, and harmonics above {} reach beyond the modes kept and were not "
+      "asked: what they do, 1 % at a peak of the default blade, is in no bar; a larger modes.count "
+      "asks them",
+      highest);
+}
+
 }  // namespace microslip::pipelines

@@ -42,5 +42,20 @@ TEST(ResonatingShapes, MatterWhereContactClosesAgain) {
 
 TEST(ResonatingShapes, AreNoModes) { EXPECT_EQ(told(in_time, {0.1, 0.4}, 0), ""); }
 
+std::string unasked(int highest, const std::vector<double>& open_shares) {
+  solver::ResponseCurve curve;
+  for (const double share : open_shares) {
+    curve.points.emplace_back().report.separated_share = share;
+  }
+  tell_unasked(highest, 30, curve);
+  return curve.message;
+}
+
+TEST(UnaskedHarmonics, AreToldWhereContactCloses) {
+  EXPECT_NE(unasked(18, {0.1, 0.4}).find("harmonics above 18"), std::string::npos);
+  EXPECT_EQ(unasked(18, {0.0, 0.0}), "");
+  EXPECT_EQ(unasked(30, {0.1, 0.4}), "") << "all were asked";
+}
+
 }  // namespace
 }  // namespace microslip::pipelines::test_resonating_shapes
