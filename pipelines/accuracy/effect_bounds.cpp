@@ -12,8 +12,10 @@
 namespace microslip::pipelines {
 namespace {
 
+/// Of a highest peak: a tolerance is one of amplitudes and frequencies.
 bool tells_change(const ErrorRow& row, std::string_view source) {
-  return row.source == source && row.goal != std::string_view(largest_indicator_goal);
+  return row.source == source &&
+         (row.goal == peak_amplitude_goal || row.goal == peak_frequency_goal);
 }
 
 std::optional<double> largest_change(const std::vector<ErrorRow>& rows, const std::string& source) {

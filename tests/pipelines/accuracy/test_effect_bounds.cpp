@@ -30,6 +30,18 @@ TEST(EffectBounds, TheLargestChangeOfAnyPeakIsTold) {
   EXPECT_FALSE(effects[2].bound.has_value());
 }
 
+// Energy is not stationary at a peak, and no tolerance is one of it.
+TEST(EffectBounds, TheDissipatedEnergyPutsNothingBack) {
+  std::vector<EffectRecord> effects{left_out("second_direction")};
+  const std::vector<ErrorRow> rows{
+      {"a", peak_amplitude_goal, "second_direction", 1e-3, ErrorKind::solved, 0.1},
+      {"a", dissipated_energy_goal, "second_direction", -0.022, ErrorKind::solved, 0.1}};
+  EXPECT_TRUE(missed_effects(rows, tolerance, effects).empty());
+  tell_bounds(rows, tolerance, effects);
+  EXPECT_EQ(effects[0].bound, 1e-3);
+  EXPECT_EQ(effects[0].objection, "");
+}
+
 TEST(EffectBounds, WhatMattersIsObjectedToAndWhatDoesNotAnswersTheIndicator) {
   const auto objection = [](double change) {
     std::vector<EffectRecord> effects{left_out("normal_motion", "the indicator says so")};
