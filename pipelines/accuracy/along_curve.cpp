@@ -25,8 +25,8 @@ Eigen::MatrixXd motion_of(const Eigen::MatrixXd& shape, const contact::Harmonics
 
 /// k_v (|mean| + Σ_k amplitude of harmonic k) over the load at rest, of the point where it is
 /// largest.
-double load_change(const ReducedModel& model, double load, const contact::Harmonics& q) {
-  const contact::ContactForce contact(model.patches, {}, load);
+double load_change(const ReducedModel& model, const contact::ContactForce& contact,
+                   const contact::Harmonics& q) {
   double largest = 0.0;
   for (std::size_t k = 0; k < model.patches.size(); ++k) {
     const contact::PatchSamples& cells = model.patches[k].cells;
@@ -57,26 +57,26 @@ double rms(const ReducedModel& model, Eigen::MatrixXd contact::ModalShapes::*sha
   return std::sqrt(sum);
 }
 
-/// Empty: of no effect that is looked at.
-std::optional<double> indicator(std::string_view effect, const ReducedModel& model, double load,
-                                const contact::Harmonics& q) {
-  if (effect == "normal_motion") return load_change(model, load, q);
-  if (effect == "second_direction") {
-    return ratio(rms(model, &contact::ModalShapes::w, q), rms(model, &contact::ModalShapes::u, q));
-  }
-  return std::nullopt;
+double ratio_along_r(const ReducedModel& model, const contact::Harmonics& q) {
+  return ratio(rms(model, &contact::ModalShapes::w, q), rms(model, &contact::ModalShapes::u, q));
 }
 
-/// The largest of all solution points.
-std::optional<double> largest(std::string_view effect, const ReducedModel& model, double load,
-                              const solver::ResponseCurve& curve) {
-  std::optional<double> most;
-  for (const solver::ResponsePoint& point : curve.points) {
-    const auto here = indicator(effect, model, load, point.q);
-    if (!here) return std::nullopt;
-    most = std::max(*here, most.value_or(0.0));
+/// Of all solution points. Empty: of no effect that is looked at.
+std::optional<double> largest_indicator(std::string_view effect, const ReducedModel& model,
+                                        double load, const solver::ResponseCurve& curve) {
+  const auto largest = [&](const auto& indicator) {
+    double most = 0.0;
+    for (const solver::ResponsePoint& point : curve.points) {
+      most = std::max(most, indicator(point.q));
+    }
+    return most;
+  };
+  if (effect == "second_direction") {
+    return largest([&](const contact::Harmonics& q) { return ratio_along_r(model, q); });
   }
-  return most;
+  if (effect != "normal_motion") return std::nullopt;
+  const contact::ContactForce contact(model.patches, {}, load);  // for its loads at rest
+  return largest([&](const contact::Harmonics& q) { return load_change(model, contact, q); });
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ std::vector<ErrorRow> rows_along_curve(const ReducedModel& simulated,
   if (load == nullptr || result.integrated) return {};
   std::vector<ErrorRow> rows;
   for (const RicherModel& other : others) {
-    const auto most = largest(other.source, model, *load, result.curve);
+    const auto most = largest_indicator(other.source, model, *load, result.curve);
     if (!most) continue;
     rows.push_back(
         {result.name, largest_indicator_goal, other.source, *most, ErrorKind::estimated, 0.0});

@@ -88,8 +88,8 @@ void add_model(CurveBudget& budget, const ReducedModel& model, const SceneDescri
            ErrorKind::solved, seconds_since(begin));
 }
 
-/// What located events move the peaks and folds of a curve by that are not its highest peak: the
-/// largest of all.
+/// What located events move the peaks and folds of a curve by: the largest of all. No row where one
+/// of them is not told.
 void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel& located,
                const CurveResult& result, double load) {
   const auto begin = std::chrono::steady_clock::now();
@@ -101,17 +101,17 @@ void add_marks(CurveBudget& budget, const ReducedModel& model, const RicherModel
   const auto keep = [](double& most, double other) {
     if (std::abs(other) > std::abs(most)) most = other;
   };
-  int n_told = 0;
+  bool has_marks = false;
   for (const solver::ResponsePoint& point : result.curve.points) {
     const bool peak = point.mark == solver::PointMark::peak;
     if (!peak && point.mark != solver::PointMark::fold) continue;
     const auto shift = solver::point_shift(scene, point);
-    if (!shift) continue;
-    ++n_told;
+    if (!shift) return;
+    has_marks = true;
     keep(largest.frequency, shift->frequency);
     if (peak) keep(largest.amplitude, shift->amplitude);
   }
-  if (n_told == 0) return;
+  if (!has_marks) return;
   const double seconds = seconds_since(begin);
   const std::string& source = located.source;
   budget.rows.push_back({result.name, marked_amplitude_goal, source, largest.amplitude,
