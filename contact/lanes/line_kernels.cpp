@@ -230,15 +230,6 @@ MICROSLIP_INLINE void friction_all(std::size_t n, const SmoothArrays& constants,
   }
 }
 
-MICROSLIP_INLINE void outer_all(std::size_t n_rows, const double* a, const double* b, double factor,
-                                double* sum) {
-  for (std::size_t k = 0; k < n_rows; ++k, sum += n_rows) {
-    const double number = factor * a[k];
-    for (std::size_t l = 0; l < n_rows; l += pack_size)
-      put_pack(sum + l, pack_at(sum + l) + number * pack_at(b + l));
-  }
-}
-
 MICROSLIP_INLINE void range_all(std::size_t n, const double* values, double* least, double* most) {
   for (std::size_t b = 0; b < block_size; b += pack_size) {
     Pack low = pack_at(values + b);
@@ -366,16 +357,12 @@ MICROSLIP_INLINE void march_all(const LineArrays& arrays, bool touches) {
                                    const double* slider, double* result) {                        \
       friction_all(n, constants, u, slider, result);                                              \
     }                                                                                             \
-    attribute static void outer(std::size_t n_rows, const double* a, const double* b,             \
-                                double factor, double* sum) {                                     \
-      outer_all(n_rows, a, b, factor, sum);                                                       \
-    }                                                                                             \
     attribute static void range(std::size_t n, const double* values, double* least,               \
                                 double* most) {                                                   \
       range_all(n, values, least, most);                                                          \
     }                                                                                             \
-    static constexpr LineKernels all{synthesize, analyze,  load,  turning_band,                   \
-                                     march,      friction, outer, range};                         \
+    static constexpr LineKernels all{synthesize, analyze,  load, turning_band,                    \
+                                     march,      friction, range};                                \
   };
 // NOLINTEND(bugprone-macro-parentheses)
 

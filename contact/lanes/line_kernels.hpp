@@ -91,8 +91,6 @@ struct LineKernels {
   /// f = k_u (u − s).
   void (*friction)(std::size_t n, const SmoothArrays& constants, const double* u,
                    const double* slider, double* friction);
-  /// sum += factor a bᵀ, rows one after the other; of b and sum a pack more, of b zeros.
-  void (*outer)(std::size_t n_rows, const double* a, const double* b, double factor, double* sum);
   /// Smallest and largest of each point over the instants.
   void (*range)(std::size_t n, const double* values, double* least, double* most);
 };

@@ -33,29 +33,42 @@ struct LineDerivatives::Anchor {
 void LineDerivatives::reset(const Instants& instants) {
   instants_ = &instants;
   n_rows_ = instants.n_rows();
-  by_u_.resize(n_rows_ * n_rows_ + pack_size);  // products read on behind the last row
-  by_v_.resize(n_rows_ * n_rows_ + pack_size);
+  size_ = {n_rows_, n_rows_, n_rows_, n_rows_ + product_slack};
+  for (auto* matrix : {&by_u_, &by_v_}) matrix->sum.assign(n_rows_ * size_.stride, 0.0);
   by_frequency_.resize(n_rows_);
   for (auto* moments : {&stick_, &limit_, &rate_, &normal_, &part_}) {
     moments->resize(instants.n_moments());
   }
   for (auto* row : {&phase_, &b_, &change_, &slope_, &moved_, &row_}) row->resize(n_rows_);
-  padded_.assign(n_rows_ + pack_size, 0.0);
   products_.reset(instants.n_harmonics());
 }
 
 void LineDerivatives::clear() {
-  for (auto* sum : {&by_u_, &by_v_, &by_frequency_, &stick_, &limit_, &rate_, &normal_}) {
+  for (auto* matrix : {&by_u_, &by_v_}) matrix->clear();
+  for (auto* sum : {&by_frequency_, &stick_, &limit_, &rate_, &normal_}) {
     std::fill(sum->begin(), sum->end(), 0.0);
   }
 }
 
+void LineDerivatives::OuterSum::push(const ProductSizes& size, double factor,
+                                     const std::vector<double>& a, const std::vector<double>& b) {
+  if (factor == 0.0) return;
+  ++n;
+  if (left.size() < n * size.phi_stride) left.resize(n * size.phi_stride);
+  if (right.size() < n * size.stride) right.resize(n * size.stride);
+  double* to = left.data() + (n - 1) * size.phi_stride;
+  for (std::size_t k = 0; k < size.n_left; ++k) to[k] = factor * a[k];
+  std::copy_n(b.data(), size.n_columns, right.data() + (n - 1) * size.stride);
+}
+
+void LineDerivatives::OuterSum::add_up(const ProductSizes& size) {
+  product_kernels().product(size, n, left.data(), right.data(), sum.data());
+}
+
 void LineDerivatives::add_outer(const std::vector<double>& a, const std::vector<double>& b,
                                 double factor_u, double factor_v) {
-  std::copy_n(b.data(), n_rows_, padded_.data());
-  const auto& outer = line_kernels().outer;
-  if (factor_u != 0.0) outer(n_rows_, a.data(), padded_.data(), factor_u, by_u_.data());
-  if (factor_v != 0.0) outer(n_rows_, a.data(), padded_.data(), factor_v, by_v_.data());
+  by_u_.push(size_, factor_u, a, b);
+  by_v_.push(size_, factor_v, a, b);
 }
 
 void LineDerivatives::add_anchor(const Anchor& anchor, const std::vector<double>& a) {
@@ -127,24 +140,24 @@ std::size_t LineDerivatives::last_push(const LineColumns& columns) const {
   return n;
 }
 
-void LineDerivatives::add_weights(double frequency) {
+/// Writes every entry: the weights, then the sums that wait.
+void LineDerivatives::sum_up(double frequency) {
   products_.set(stick_.data());
   for (std::size_t k = 0; k < n_rows_; ++k) {
-    products_.row(k, row_.data());
-    for (std::size_t l = 0; l < n_rows_; ++l) by_u_[k * n_rows_ + l] += row_[l];
+    products_.row(k, by_u_.sum.data() + k * size_.stride);
   }
   products_.set(limit_.data());
   for (std::size_t k = 0; k < n_rows_; ++k) {
-    products_.row(k, row_.data());
-    for (std::size_t l = 0; l < n_rows_; ++l) by_v_[k * n_rows_ + l] += row_[l];
+    products_.row(k, by_v_.sum.data() + k * size_.stride);
   }
+  for (auto* matrix : {&by_u_, &by_v_}) matrix->add_up(size_);
   if (frequency == 0.0) return;
   // (sin bθ)' = b cos bθ and so on.
   const std::size_t H = n_rows_ / 2;
   products_.set(rate_.data());
   for (std::size_t k = 0; k < n_rows_; ++k) {
     products_.row(k, row_.data());
-    double* to = by_u_.data() + k * n_rows_;
+    double* to = by_u_.sum.data() + k * size_.stride;
     for (std::size_t b = 1; b <= H; ++b) {
       to[b] += static_cast<double>(b) * row_[H + b];
       to[H + b] -= static_cast<double>(b) * row_[b];
@@ -187,7 +200,7 @@ void LineDerivatives::smooth(const SmoothPoint& point, const std::vector<Run>& r
     }
     if (sticks && point.tangential_stiffness > 0.0) add_stuck(run, columns);
   }
-  add_weights(0.0);
+  sum_up(0.0);
 }
 
 /// k (u − s) of the instants of the run, the part of s in `phase_`.
@@ -250,8 +263,10 @@ void LineDerivatives::add_slip(const Kink& kink, const Run& run, const LineColum
       k_u * kink.weight_slope() - late * kink.late() * ratio_of(kink.bend, kink.rise);
   const double move = weight - late * kink.damping * ratio_of(kink.slope, kink.rise);
   for (std::size_t l = 0; l < n_rows_; ++l) moved_[l] = stay * b_[l] + move * change_[l];
-  add_outer(b_, change_, weight, weight * by_approach);
-  add_outer(b_, slope_, -late * kink.late(), -late * kink.late() * by_approach);
+  for (std::size_t l = 0; l < n_rows_; ++l) {
+    slope_[l] = weight * change_[l] - late * kink.late() * slope_[l];
+  }
+  add_outer(b_, slope_, 1.0, by_approach);
   add_outer(moved_, b_, -1.0, -by_approach);
   if (run.state == InstantState::stick) {
     add(phase_, 1.0, moved_.data());
@@ -365,7 +380,7 @@ void LineDerivatives::any_surface(const std::vector<InstantSlopes>& slopes,
       add_anchor(anchor_at(before), phase_);
     }
   }
-  add_weights(frequency);
+  sum_up(frequency);
 }
 
 }  // namespace microslip::contact::sampled

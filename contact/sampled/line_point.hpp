@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact/lanes/product_kernels.hpp"
 #include "contact/sampled/instants.hpp"
 #include "contact/sampled/kinks.hpp"
 #include "contact/sampled/runs.hpp"
@@ -45,9 +46,11 @@ class LineDerivatives {
   void any_surface(const std::vector<InstantSlopes>& slopes, double closeness_by_approach,
                    double frequency, const std::vector<Run>& runs, const LineColumns& columns);
 
-  /// ∂f̂_k/∂û_l and ∂f̂_k/∂v̂_l in split order, without the norm of row k [N/m³].
-  [[nodiscard]] const double* by_u(std::size_t k) const { return by_u_.data() + k * n_rows_; }
-  [[nodiscard]] const double* by_v(std::size_t k) const { return by_v_.data() + k * n_rows_; }
+  /// ∂f̂_k/∂û_l and ∂f̂_k/∂v̂_l in split order, without the norm of row k [N/m³];
+  /// rows k lie row_stride() apart, with at least eight readable numbers behind the last.
+  [[nodiscard]] const double* by_u() const { return by_u_.sum.data(); }
+  [[nodiscard]] const double* by_v() const { return by_v_.sum.data(); }
+  [[nodiscard]] std::size_t row_stride() const { return size_.stride; }
   /// Moments of dn/dv, those of Instants.
   [[nodiscard]] const double* normal_moments() const { return normal_.data(); }
   /// ∂f̂_k/∂ω, likewise; of any_surface() alone.
@@ -55,6 +58,19 @@ class LineDerivatives {
 
  private:
   struct Anchor;
+  /// A matrix as a sum of a bᵀ, which waits until all of them are known: added one at a time most
+  /// of the work would be to read and write the matrix.
+  struct OuterSum {
+    void clear() { n = 0; }
+    /// @param a, b  of `size`: numbers as many as its rows and columns.
+    void push(const ProductSizes& size, double factor, const std::vector<double>& a,
+              const std::vector<double>& b);
+    void add_up(const ProductSizes& size);
+
+    std::vector<double> left, right;  // n × phi_stride, n × stride
+    std::vector<double> sum;
+    std::size_t n = 0;
+  };
   void clear();
   void sum_part(const Run& run);
   void add_outer(const std::vector<double>& a, const std::vector<double>& b, double factor_u,
@@ -67,7 +83,7 @@ class LineDerivatives {
   void add_load(const Kink& kink, double sign);
   void add_opening(const Kink& kink);
   void add_closing(const Kink& kink, const Run& run);
-  void add_weights(double frequency);
+  void sum_up(double frequency);
   [[nodiscard]] Anchor landing(std::size_t before, std::size_t now, double closeness_by_approach,
                                const LineColumns& columns) const;
   [[nodiscard]] Anchor smooth_landing(std::size_t now, double normal_stiffness,
@@ -77,8 +93,9 @@ class LineDerivatives {
 
   const Instants* instants_ = nullptr;
   std::size_t n_rows_ = 0;
-  std::vector<double> by_u_;
-  std::vector<double> by_v_;
+  ProductSizes size_;
+  OuterSum by_u_;
+  OuterSum by_v_;
   std::vector<double> by_frequency_;
   std::vector<double> stick_;   // moments of k in stick
   std::vector<double> limit_;   // of ∂f/∂v
@@ -91,7 +108,6 @@ class LineDerivatives {
   std::vector<double> slope_;
   std::vector<double> moved_;
   std::vector<double> row_;
-  std::vector<double> padded_;  // a row, zeros behind
   SmoothPoint point_;
   Products products_;
 };

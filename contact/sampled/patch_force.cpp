@@ -115,6 +115,7 @@ void PatchForce::sum_plane(Part& part, double frequency, bool derivatives, const
       PointDerivatives of_point;
       if (derivatives) {
         const PlaneDerivatives& J = plane.derivatives(p);
+        of_point.stride = grid.of_motion->n_rows();
         for (std::size_t d = 0; d < 2; ++d) {
           for (std::size_t s = 0; s < 3; ++s) of_point.friction[d][s] = J.by(d, s);
           if (surface.is_rate_dependent()) of_point.by_frequency[d] = J.by_frequency(d);
@@ -142,7 +143,8 @@ void PatchForce::sum_line(Part& part, double frequency, bool derivatives, const 
       PointDerivatives of_point;
       if (derivatives) {
         const LineDerivatives& J = line.derivatives(p);
-        of_point.friction[0] = {J.by_u(0), J.by_v(0), nullptr};
+        of_point.friction[0] = {J.by_u(), J.by_v(), nullptr};
+        of_point.stride = J.row_stride();
         of_point.normal_moments = J.normal_moments();
         if (surface.is_rate_dependent()) of_point.by_frequency[0] = J.by_frequency();
       }

@@ -100,7 +100,7 @@ void Projection::spread(const PointDerivatives& derivatives) {
     for (std::size_t k = 0; k < asked_.size(); ++k) {
       std::array<const double*, 3> from{};
       for (std::size_t s = 0; s < n_signals; ++s) {
-        const double* whole = derivatives.friction[d][s] + asked_[k] * n;
+        const double* whole = derivatives.friction[d][s] + asked_[k] * derivatives.stride;
         from[s] = whole;
         if (all_) continue;
         double* some = compact_.data() + s * (n + 8);

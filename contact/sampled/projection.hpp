@@ -23,8 +23,9 @@ namespace microslip::contact::sampled {
 
 /// ∂f̂/∂(û, v̂, ŵ) of one point in split order, rows without their norm.
 struct PointDerivatives {
-  /// n_rows × n_rows row by row and at least eight readable numbers behind; [f_p, f_r][u, v, w].
+  /// n_rows × n_rows and at least eight readable numbers behind; [f_p, f_r][u, v, w].
   std::array<std::array<const double*, 3>, 2> friction{};
+  std::size_t stride = 0;                       ///< from one row to the next, ≥ n_rows
   const double* normal_moments = nullptr;       ///< of dn/dv
   std::array<const double*, 2> by_frequency{};  ///< of f_p, f_r; null: 0
 };
